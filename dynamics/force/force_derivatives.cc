@@ -9,7 +9,7 @@ ForceDerivatives::ForceDerivatives(const Mechanism& mechanism, std::size_t most_
       dtau_dq_(Eigen::MatrixXd::Zero(mechanism.nv(), mechanism.nv())),
       dtau_dv_(Eigen::MatrixXd::Zero(mechanism.nv(), mechanism.nv())) {
   for (Point& point : points_) {
-    point.velocity.resize(static_cast<std::size_t>(mechanism.nv()));
+    point.velocity.resize(mechanism.nv());
     for (auto* matrix : {&point.turn, &point.p, &point.w_q, &point.v_q}) {
       matrix->resize(3, mechanism.nv());
     }

@@ -49,7 +49,7 @@ LoopRows LoopRows::none(const Mechanism& mechanism) {
 LoopRows LoopRows::all(const Mechanism& mechanism) {
   LoopRows result = none(mechanism);
   for (int row = 0; row < mechanism.loop_row_count(); ++row) {
-    result.slot[index(row)] = row;
+    result.slot[row] = row;
     result.rows.push_back(row);
   }
   return result;
@@ -58,7 +58,7 @@ LoopRows LoopRows::all(const Mechanism& mechanism) {
 void LoopRows::choose(const LoopRows& from, const std::vector<int>& chosen, Eigen::Index count) {
   std::fill(slot.begin(), slot.end(), -1);
   for (Eigen::Index i = 0; i < count; ++i) {
-    slot[index(from.rows[index(chosen[i])])] = 0;
+    slot[from.rows[chosen[i]]] = 0;
   }
   rows.clear();
   for (std::size_t row = 0; row < slot.size(); ++row) {

@@ -90,7 +90,7 @@ InverseDynamicsDerivatives::InverseDynamicsDerivatives(const Mechanism& mechanis
 void compute_motion_columns(const Mechanism& mechanism, const Kinematics& kinematics,
                             ConstVectorRef v, MotionColumns& columns) {
   columns.p_WO.setZero();
-  for (const Link& link : mechanism.links()) columns.p_WO += kinematics.X_WB[index(link.body)].p;
+  for (const Link& link : mechanism.links()) columns.p_WO += kinematics.X_WB[link.body].p;
   if (!mechanism.links().empty()) {
     columns.p_WO /= static_cast<double>(mechanism.links().size());
   }
@@ -99,14 +99,14 @@ void compute_motion_columns(const Mechanism& mechanism, const Kinematics& kinema
     const Vector3 p_OB = kinematics.X_WB[b].p - columns.p_WO;
     const bool chain = velocities_are_rates(link.kind);
     columns.V[b] = shift(kinematics.V_WB[b], -p_OB);
-    MotionVector before = columns.V[index(link.carrier)];
+    MotionVector before = columns.V[link.carrier];
     for (int k = link.v_offset; k < link.v_offset + link.nv; ++k) {
-      const Vector3& direction = kinematics.direction_W[index(k)];
-      MotionVector& S = columns.S[index(k)];
-      S = mechanism.angular()[index(k)] ? MotionVector{direction, p_OB.cross(direction)}
-                                        : MotionVector{Vector3::Zero(), direction};
-      columns.S_swing[index(k)] = cross(before, S);
-      columns.S_rate[index(k)] = chain ? columns.S_swing[index(k)] : cross(columns.V[b], S);
+      const Vector3& direction = kinematics.direction_W[k];
+      MotionVector& S = columns.S[k];
+      S = mechanism.angular()[k] ? MotionVector{direction, p_OB.cross(direction)}
+                                 : MotionVector{Vector3::Zero(), direction};
+      columns.S_swing[k] = cross(before, S);
+      columns.S_rate[k] = chain ? columns.S_swing[k] : cross(columns.V[b], S);
       if (chain) before = before + v[k] * S;
     }
   }
@@ -119,8 +119,8 @@ void accelerate(const Link& link, const double* v, const double* vdot,
                 InverseDynamicsDerivatives& d) {
   const bool chain = velocities_are_rates(link.kind);
   const MotionColumns& c = d.columns;
-  MotionVector V_before = c.V[index(link.carrier)];
-  MotionVector A_before = d.A[index(link.carrier)];
+  MotionVector V_before = c.V[link.carrier];
+  MotionVector A_before = d.A[link.carrier];
   MotionVector A = A_before;
   for (int k = link.v_offset; k < link.v_offset + link.nv; ++k) {
     const std::size_t i = index(k);
@@ -130,7 +130,7 @@ void accelerate(const Link& link, const double* v, const double* vdot,
     A_before = A;
     V_before = V_before + v[k] * c.S[i];
   }
-  d.A[index(link.body)] = A;
+  d.A[link.body] = A;
 }
 
 // Row and column of velocity k of `link` in the three matrices.
@@ -138,11 +138,10 @@ void fill(const Mechanism& mechanism, const Link& link, int k, InverseDynamicsDe
   const MotionColumns& c = d.columns;
   const std::size_t i = index(k);
   const MotionVector& S = c.S[i];
-  const ColumnForces F(d.composites[index(link.body)], S, c.S_swing[i], d.S_swing_rate[i],
-                       c.S_rate[i]);
+  const ColumnForces F(d.composites[link.body], S, c.S_swing[i], d.S_swing_rate[i], c.S_rate[i]);
   const bool chain = velocities_are_rates(link.kind);
   for (BodyIndex b = link.body; b != world_index;) {
-    const Body& body = mechanism.bodies()[index(b)];
+    const Body& body = mechanism.bodies()[b];
     for (int j = body.v_offset; j < body.v_offset + body.nv(); ++j) {
       const std::size_t l = index(j);
       d.mass(k, j) = d.mass(j, k) = dot(F.unit, c.S[l]);
@@ -176,7 +175,7 @@ void compute_inverse_dynamics_derivatives(const Mechanism& mechanism, const Kine
   d.A[world_index] = {Vector3::Zero(), -mechanism.gravity()};
   const auto external = [&](BodyIndex i, BodyIndex onto) {
     const std::size_t b = index(i);
-    Composite& composite = d.composites[index(onto)];
+    Composite& composite = d.composites[onto];
     add_external(F_Bo_W[b], kinematics.X_WB[b].p - d.columns.p_WO, composite);
     if (!arm_moments.empty()) composite.arms += arm_moments[b];
   };
@@ -188,14 +187,14 @@ void compute_inverse_dynamics_derivatives(const Mechanism& mechanism, const Kine
     external(link.body, link.body);
   }
   for (const BodyIndex i : mechanism.fixed_bodies()) {
-    const BodyIndex carrier = mechanism.bodies()[index(i)].carrier;
+    const BodyIndex carrier = mechanism.bodies()[i].carrier;
     if (carrier != world_index) external(i, carrier);
   }
   const std::vector<Link>& links = mechanism.links();
   for (auto link = links.rbegin(); link != links.rend(); ++link) {
     for (int k = link->v_offset; k < link->v_offset + link->nv; ++k) fill(mechanism, *link, k, d);
     if (link->carrier == world_index) continue;
-    add_composite(d.composites[index(link->body)], d.composites[index(link->carrier)]);
+    add_composite(d.composites[link->body], d.composites[link->carrier]);
   }
 }
 

@@ -26,10 +26,10 @@ double angle_over_sine(double sine, double cosine) {
 /// A pair of frames at an instant: base K (axes) and follower K.
 struct FramePair {
   FramePair(const Loop& loop, const Kinematics& kinematics)
-      : X_WB(kinematics.X_WB[index(loop.base)]),
-        X_WF(kinematics.X_WB[index(loop.follower)]),
-        V_WB(kinematics.V_WB[index(loop.base)]),
-        V_WF(kinematics.V_WB[index(loop.follower)]),
+      : X_WB(kinematics.X_WB[loop.base]),
+        X_WF(kinematics.X_WB[loop.follower]),
+        V_WB(kinematics.V_WB[loop.base]),
+        V_WF(kinematics.V_WB[loop.follower]),
         R_WK(X_WB.R * loop.X_BaseK.R),
         p_WK(X_WB.apply(loop.X_BaseK.p)),
         p_WFollowerK(X_WF.apply(loop.X_FollowerK.p)),
@@ -88,7 +88,7 @@ class PairRows {
   void add(double residual, const Vector3& moment, const Vector3& force) {
     state_.residual[row_] = residual;
     state_.velocity[row_] = moment.dot(pair_.w_relative) + force.dot(pair_.u_relative);
-    state_.unit_force_W[index(row_)] = {moment, force};
+    state_.unit_force_W[row_] = {moment, force};
     ++row_;
   }
 
@@ -217,8 +217,8 @@ Vector3 perpendicular_rate(const Loop& loop, const FramePair& pair, const Vector
 
 void pair_accelerations(const Loop& loop, const FramePair& pair, const LoopState& state,
                         const std::vector<MotionVector>& A_WB, VectorRef result) {
-  const MotionVector& A_B = A_WB[index(loop.base)];
-  const MotionVector& A_F = A_WB[index(loop.follower)];
+  const MotionVector& A_B = A_WB[loop.base];
+  const MotionVector& A_F = A_WB[loop.follower];
   const Vector3& w_B = pair.V_WB.angular;
   const Vector3& w_F = pair.V_WF.angular;
   const Vector3 angular = A_F.angular - A_B.angular;
@@ -229,7 +229,7 @@ void pair_accelerations(const Loop& loop, const FramePair& pair, const LoopState
   const Vector3 linear =
       a_K - A_B.linear - A_B.angular.cross(pair.base_arm) - w_B.cross(v_K - pair.V_WB.linear);
   for (int row = loop.row_offset; row < loop.row_offset + loop.row_count; ++row) {
-    const ForceVector& unit = state.unit_force_W[index(row)];
+    const ForceVector& unit = state.unit_force_W[row];
     const bool perpendicular = loop.rotation == Loop::Rotation::axes_perpendicular &&
                                row == loop.row_offset + loop.row_count - 1;
     const Vector3 moment_rate =
@@ -270,14 +270,14 @@ class JacobianRows {
   }
 
   void gear(const Loop& loop) {
-    const int row = slot_[index(loop.row_offset)];
+    const int row = slot_[loop.row_offset];
     if (row < 0) return;
     jacobian_(row, loop.first_velocity) = 1.0;
     jacobian_(row, loop.second_velocity) = -loop.ratio;
   }
 
   void rope(const Loop& loop, std::size_t first) {
-    const int row = slot_[index(loop.row_offset)];
+    const int row = slot_[loop.row_offset];
     if (row < 0) return;
     for (const auto& path : loop.paths) {
       for (const Loop::PathPoint& point : path) {
@@ -297,12 +297,12 @@ class JacobianRows {
   template <class Function>
   void for_chain(BodyIndex body, BodyIndex end, Function&& function) {
     const std::vector<Body>& bodies = mechanism_.bodies();
-    if (body != world_index && bodies[index(body)].nv() == 0) body = bodies[index(body)].carrier;
+    if (body != world_index && bodies[body].nv() == 0) body = bodies[body].carrier;
     while (body != end && body != world_index) {
-      const Body& b = bodies[index(body)];
+      const Body& b = bodies[body];
       for (int k = b.v_offset; k < b.v_offset + b.nv(); ++k) {
-        function(k, mechanism_.angular()[index(k)] != 0, kinematics_.direction_W[index(k)],
-                 kinematics_.X_WB[index(body)].p);
+        function(k, mechanism_.angular()[k] != 0, kinematics_.direction_W[k],
+                 kinematics_.X_WB[body].p);
       }
       body = b.carrier;
     }
@@ -313,9 +313,9 @@ class JacobianRows {
       // Velocity of the loop's frame when this velocity is one: angular S, linear S x arm.
       const Vector3 linear = angular ? Vector3(S.cross(p_WK - p_WB)) : S;
       for (int i = loop.row_offset; i < loop.row_offset + loop.row_count; ++i) {
-        const int row = slot_[index(i)];
+        const int row = slot_[i];
         if (row < 0) continue;
-        const ForceVector& unit = state_.unit_force_W[index(i)];
+        const ForceVector& unit = state_.unit_force_W[i];
         double power = unit.force.dot(linear);
         if (angular) power += unit.moment.dot(S);
         jacobian_(row, k) += sign * power;
@@ -333,13 +333,13 @@ class JacobianRows {
 // Adds a force about the point p_WQ to that of a body about its origin.
 void add_force(const Kinematics& kinematics, BodyIndex body, const Vector3& p_WQ,
                const ForceVector& F_Q_W, std::vector<ForceVector>& F_Bo_W) {
-  F_Bo_W[index(body)] += shift_to(F_Q_W, p_WQ - kinematics.X_WB[index(body)].p);
+  F_Bo_W[body] += shift_to(F_Q_W, p_WQ - kinematics.X_WB[body].p);
 }
 
 ForceVector force_on_follower(const Loop& loop, const LoopState& state, ConstVectorRef lambda) {
   ForceVector F = ForceVector::zero();
   for (int row = loop.row_offset; row < loop.row_offset + loop.row_count; ++row) {
-    F += lambda[row] * state.unit_force_W[index(row)];
+    F += lambda[row] * state.unit_force_W[row];
   }
   return F;
 }
@@ -407,7 +407,7 @@ void calc_loop_accelerations(const Mechanism& mechanism, const Kinematics& kinem
     } else {
       const FramePair pair(loop, kinematics);
       if (loop.kind == LoopKind::distance) {
-        const Vector3& direction = state.unit_force_W[index(loop.row_offset)].force;
+        const Vector3& direction = state.unit_force_W[loop.row_offset].force;
         first_row = distance_acceleration(loop, pair, kinematics, direction, A_WB);
       } else {
         pair_accelerations(loop, pair, state, A_WB, accelerations);
@@ -442,12 +442,12 @@ void add_loop_forces(const Mechanism& mechanism, const Kinematics& kinematics,
 
 ForceVector loop_force(const Mechanism& mechanism, const Kinematics& kinematics,
                        const LoopState& state, int number, ConstVectorRef lambda) {
-  const Loop& wanted = mechanism.loops().at(index(number));
+  const Loop& wanted = mechanism.loops().at(number);
   if (is_pair(wanted)) {
     ForceVector F = force_on_follower(wanted, state, lambda);
     if (wanted.follower == wanted.second) return F;
     const Vector3 p_WSecondK = point_position(kinematics, wanted.base, wanted.X_BaseK.p);
-    return shift_to(-1.0 * F, state.p_WK[index(number)] - p_WSecondK);
+    return shift_to(-1.0 * F, state.p_WK[number] - p_WSecondK);
   }
   ForceVector result = ForceVector::zero();
   for_each_rope(mechanism, [&](const Loop& loop, std::size_t first) {

@@ -21,7 +21,7 @@ class RowSieve {
  public:
   RowSieve(const Mechanism& mechanism, const Eigen::MatrixXd& jacobian) {
     const std::vector<int>& free = mechanism.free_velocities();
-    rows_.resize(static_cast<Eigen::Index>(free.size()), jacobian.rows());
+    rows_.resize(free.size(), jacobian.rows());
     Eigen::Index i = 0;
     for (const int k : free) rows_.row(i++) = jacobian.col(k).transpose();
     lengths_ = rows_.colwise().norm().transpose();

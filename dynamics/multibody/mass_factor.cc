@@ -121,7 +121,7 @@ void MassFactor::solve_rows(Eigen::Ref<Eigen::MatrixXd> rows) const {
   for (std::size_t i = depth_.size(); i-- > 0;) {
     const double* values = row(i);
     const int* chain = ancestors(i);
-    auto column = rows.col(static_cast<Eigen::Index>(i));
+    auto column = rows.col(i);
     column /= values[depth_[i]];
     for (std::size_t d = 0; d < depth_[i]; ++d) rows.col(chain[d]) -= values[d] * column;
   }

@@ -83,7 +83,7 @@ class Mechanism {
   int nv() const { return nv_; }
   const Vector3& gravity() const { return gravity_; }  ///< acceleration of gravity in W, m/s2
 
-  const Body& body(BodyIndex i) const { return bodies_.at(static_cast<std::size_t>(i)); }
+  const Body& body(BodyIndex i) const { return bodies_.at(i); }
   const std::vector<Body>& bodies() const { return bodies_; }
   /// @throws ModelError if no body has that name; the message lists those that exist.
   BodyIndex body_index(std::string_view name) const;
@@ -100,7 +100,7 @@ class Mechanism {
   /// For each v, viscous damping, N s/m or N m s.
   const std::vector<double>& damping() const { return damping_; }
   /// The body whose joint owns entry k of v.
-  BodyIndex body_of_velocity(int k) const { return velocity_body_.at(static_cast<std::size_t>(k)); }
+  BodyIndex body_of_velocity(int k) const { return velocity_body_.at(k); }
   /// "trolley (prismatic)" or "hook (universal, second angle)": entry k of v in words.
   std::string velocity_name(int k) const;
 

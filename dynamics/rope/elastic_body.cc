@@ -55,7 +55,7 @@ ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ro
     const End& end = d_.ends[e];
     if (end.rope < 0 || end.rope >= static_cast<int>(ropes.size()))
       refuse(d_, "there is no rope " + std::to_string(end.rope));
-    const Rope& rope = ropes[static_cast<std::size_t>(end.rope)];
+    const Rope& rope = ropes[end.rope];
     const BodyPoint& point = end.last ? rope.points().back() : rope.points().front();
     if (point.body != d_.body) refuse(d_, "rope \"" + rope.name() + "\" does not end at it");
     if (!rope.definition().left_out.empty())
@@ -120,7 +120,7 @@ ElasticBody::Workspace::Workspace(const ElasticBody& body, const Mechanism& mech
 
 void ElasticBody::set_shifts(const Ropes& ropes, const Workspace& w) const {
   for (std::size_t e = 0; e < d_.ends.size(); ++e) {
-    RopeEndShifts& shifts = ropes.shifts[static_cast<std::size_t>(d_.ends[e].rope)];
+    RopeEndShifts& shifts = ropes.shifts[d_.ends[e].rope];
     RopeEndShift& shift = d_.ends[e].last ? shifts.last : shifts.first;
     const auto row = static_cast<Eigen::Index>(3 * e);
     shift.displacement_B = w.modal.segment<3>(row) + w.u.segment<3>(row);
@@ -133,7 +133,7 @@ void ElasticBody::take_geometry(const Kinematics& kinematics, const Ropes& ropes
                                 Workspace& w) const {
   set_shifts(ropes, w);
   w.gradient.setZero();
-  const Matrix3 R_BW = kinematics.X_WB[static_cast<std::size_t>(d_.body)].R.transpose();
+  const Matrix3 R_BW = kinematics.X_WB[d_.body].R.transpose();
   for (std::size_t i = 0; i < ropes_.size(); ++i) {
     const auto index = static_cast<std::size_t>(ropes_[i]);
     const Rope& rope = ropes.ropes[index];
@@ -196,7 +196,7 @@ void ElasticBody::solve(Workspace& w) const {
 }
 
 bool ElasticBody::declared_taut(const Ropes& ropes, Eigen::Index rope) const {
-  return ropes.contacts && (*ropes.contacts)[static_cast<std::size_t>(ropes_[at(rope)])] != 0;
+  return ropes.contacts && (*ropes.contacts)[ropes_[at(rope)]] != 0;
 }
 
 // Changes the rope that contradicts its state most; false if none does. What is declared to pull
@@ -223,7 +223,7 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
   w.modal.setZero();
   w.modal_rate.setZero();
   for (std::size_t k = 0; k < mode_q_.size(); ++k) {
-    const auto shape = d_.shapes.col(static_cast<Eigen::Index>(k));
+    const auto shape = d_.shapes.col(k);
     w.modal += q[mode_q_[k]] * shape;
     w.modal_rate += v[mode_v_[k]] * shape;
   }
@@ -259,8 +259,7 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
     ropes.ropes[index].calc_path(kinematics, ropes.path, &ropes.shifts[index]);
     ropes.ropes[index].add_forces(ropes.path, load.tension, F_Bo_W);
     for (std::size_t k = 0; k < mode_v_.size(); ++k)
-      tau[mode_v_[k]] -=
-          load.tension * w.gradient.col(local).dot(d_.shapes.col(static_cast<Eigen::Index>(k)));
+      tau[mode_v_[k]] -= load.tension * w.gradient.col(local).dot(d_.shapes.col(k));
   }
 }
 
@@ -270,11 +269,10 @@ void ElasticBody::gather_points(const Kinematics& kinematics, const Ropes& ropes
   for (auto* matrix : {&w.motion, &w.velocity_q, &w.stretch, &w.rate_stretch, &w.geometric,
                        &w.geometric_all, &w.turn})
     matrix->setZero();
-  const Matrix3& R_WB = kinematics.X_WB[static_cast<std::size_t>(d_.body)].R;
+  const Matrix3& R_WB = kinematics.X_WB[d_.body].R;
   for (Vector3& rate : w.rate_W) rate.setZero();
   for (std::size_t e = 0; e < d_.ends.size(); ++e)
-    w.rate_W[at(places_[e].slot)] =
-        R_WB * w.modal_rate.segment<3>(static_cast<Eigen::Index>(3 * e));
+    w.rate_W[at(places_[e].slot)] = R_WB * w.modal_rate.segment<3>(3 * e);
   for (std::size_t i = 0; i < ropes_.size(); ++i) {
     const auto index = static_cast<std::size_t>(ropes_[i]);
     const Rope& rope = ropes.ropes[index];
@@ -283,11 +281,10 @@ void ElasticBody::gather_points(const Kinematics& kinematics, const Ropes& ropes
     rope.calc_path(kinematics, ropes.path, &ropes.shifts[index]);
     const std::vector<BodyPoint>& points = rope.points();
     const auto position = [&](std::size_t k) -> Vector3 {
-      return kinematics.X_WB[static_cast<std::size_t>(points[k].body)].p + ropes.path.r_W[k];
+      return kinematics.X_WB[points[k].body].p + ropes.path.r_W[k];
     };
     const auto velocity = [&](std::size_t k) -> Vector3 {
-      return shift(kinematics.V_WB[static_cast<std::size_t>(points[k].body)], ropes.path.r_W[k])
-                 .linear +
+      return shift(kinematics.V_WB[points[k].body], ropes.path.r_W[k]).linear +
              w.rate_W[first_point_[i] + k];
     };
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -322,7 +319,7 @@ void ElasticBody::gather_points(const Kinematics& kinematics, const Ropes& ropes
     }
   }
   derivatives.add_turn(at(places_.front().slot), w.turn);
-  const Vector3& spin = kinematics.V_WB[static_cast<std::size_t>(d_.body)].angular;
+  const Vector3& spin = kinematics.V_WB[d_.body].angular;
   for (std::size_t e = 0; e < d_.ends.size(); ++e) {
     const auto end = static_cast<Eigen::Index>(3 * e);
     const Eigen::Index row = 3 * places_[e].slot;
@@ -337,7 +334,7 @@ void ElasticBody::gather_points(const Kinematics& kinematics, const Ropes& ropes
 // How the ends are displaced against the body by each velocity: r = Q (B x - turn x f), with B the
 // stiffness of the ropes at the ends and Q = (1 - C B)^-1 C. Leaves all points' motion in w.moved.
 void ElasticBody::relax(const Kinematics& kinematics, bool stretch_only, Workspace& w) const {
-  const Matrix3& R_WB = kinematics.X_WB[static_cast<std::size_t>(d_.body)].R;
+  const Matrix3& R_WB = kinematics.X_WB[d_.body].R;
   const auto ends = static_cast<Eigen::Index>(d_.ends.size());
   // df/dp of the elastic forces on all points.
   for (Eigen::Index i = 0; i < w.spring.size(); ++i)
@@ -373,11 +370,11 @@ void ElasticBody::relax(const Kinematics& kinematics, bool stretch_only, Workspa
 // What held forces do as the body turns them and as their points move within it.
 void ElasticBody::add_turning(const Kinematics& kinematics, const Ropes& ropes,
                               Workspace& w) const {
-  const Matrix3& R_WB = kinematics.X_WB[static_cast<std::size_t>(d_.body)].R;
+  const Matrix3& R_WB = kinematics.X_WB[d_.body].R;
   for (std::size_t e = 0; e < d_.ends.size(); ++e) {
     const auto end = static_cast<Eigen::Index>(3 * e);
     const Eigen::Index rope = places_[e].rope;
-    const double tension = ropes.loads[static_cast<std::size_t>(ropes_[at(rope)])].tension;
+    const double tension = ropes.loads[ropes_[at(rope)]].tension;
     const Vector3 g_B = w.gradient.block<3, 1>(end, rope);
     const Matrix3 turned = skew(-tension * (R_WB * g_B));
     w.moment.noalias() = turned * w.relaxed.middleRows<3>(end);
@@ -400,7 +397,7 @@ void ElasticBody::add_derivatives(const Kinematics& kinematics, const Ropes& rop
   // Ropes that are stretched and yet slack, as they contract faster than they can pull.
   w.pulling = w.stretch;
   for (Eigen::Index i = 0; i < w.spring.size(); ++i)
-    if (!ropes.loads[static_cast<std::size_t>(ropes_[at(i)])].taut) w.pulling.col(i).setZero();
+    if (!ropes.loads[ropes_[at(i)]].taut) w.pulling.col(i).setZero();
   // W^T c W of the stretched ropes.
   w.inverse.setIdentity();
   w.factor.solveInPlace(w.inverse);

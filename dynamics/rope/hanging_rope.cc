@@ -90,7 +90,7 @@ void Rope::add_forces(const RopePath& path, const RopeLoad& load,
     return;
   }
   const auto add = [&](std::size_t point, const Vector3& f_W) {
-    ForceVector& F = F_Bo_W[static_cast<std::size_t>(definition_.points[point].body)];
+    ForceVector& F = F_Bo_W[definition_.points[point].body];
     F.moment += path.r_W[point].cross(f_W);
     F.force += f_W;
   };
@@ -120,7 +120,7 @@ void Rope::add_hanging_derivatives(const Kinematics& kinematics, const RopePath&
   derivatives.add_held_force(1, -load.hanging.level * e + load.hanging.last_lift * up);
   derivatives.add_line(0, 1, K, Matrix3::Zero());
   const auto velocity = [&](std::size_t i) {
-    return shift(kinematics.V_WB[static_cast<std::size_t>(points[i].body)], path.r_W[i]).linear;
+    return shift(kinematics.V_WB[points[i].body], path.r_W[i]).linear;
   };
   derivatives.add_tension(0, 1, {u, path.length, velocity(1) - velocity(0)}, load.damping_force,
                           0.0, load.hanging.damping);

@@ -237,7 +237,7 @@ void Rope::add_forces(const RopePath& path, double tension,
     Vector3 f = i < last ? path.direction_W[i] : Vector3(Vector3::Zero());
     if (i > 0) f -= path.direction_W[i - 1];
     f *= tension;
-    ForceVector& F = F_Bo_W[static_cast<std::size_t>(path.body[i])];
+    ForceVector& F = F_Bo_W[path.body[i]];
     F.moment += path.r_W[i].cross(f);
     F.force += f;
   }
@@ -249,10 +249,10 @@ namespace {
 ForceDerivatives::Line segment(const Kinematics& kinematics, const std::vector<BodyPoint>& points,
                                const RopePath& path, std::size_t i) {
   const auto position = [&](std::size_t k) -> Vector3 {
-    return kinematics.X_WB[static_cast<std::size_t>(points[k].body)].p + path.r_W[k];
+    return kinematics.X_WB[points[k].body].p + path.r_W[k];
   };
   const auto velocity = [&](std::size_t k) {
-    return shift(kinematics.V_WB[static_cast<std::size_t>(points[k].body)], path.r_W[k]).linear;
+    return shift(kinematics.V_WB[points[k].body], path.r_W[k]).linear;
   };
   const Vector3& u = path.direction_W[i];
   return {u, u.dot(position(i + 1) - position(i)), velocity(i + 1) - velocity(i)};

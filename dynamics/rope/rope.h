@@ -197,8 +197,7 @@ class Rope {
   const std::vector<RopeEdge>& edges() const { return definition_.edges; }
   /// Of an edge's axis, unit.
   Vector3 edge_along_W(const Kinematics& kinematics, std::size_t edge) const {
-    return kinematics.X_WB[static_cast<std::size_t>(edges()[edge].body)].R *
-           edge_axes_[edge].along_B;
+    return kinematics.X_WB[edges()[edge].body].R * edge_axes_[edge].along_B;
   }
   /// The most points that its path has.
   std::size_t most_path_points() const {

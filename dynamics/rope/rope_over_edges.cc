@@ -169,8 +169,7 @@ class ChainChange {
     const EdgeConditions::ByMotion by = conditions.calc_change();
     for (std::size_t i = 0; i < count_; ++i) {
       const EdgeConditions::NodeShift shift = conditions.shift_of(static_cast<int>(i));
-      for (std::size_t j = 0; j < count_; ++j)
-        slide_[i][j] = shift * by.middleCols<6>(static_cast<Eigen::Index>(6 * j));
+      for (std::size_t j = 0; j < count_; ++j) slide_[i][j] = shift * by.middleCols<6>(6 * j);
     }
   }
 

@@ -67,7 +67,7 @@ void RopeSplit::wrap_edge(Bend& bend, const Rope& rope, const Kinematics& kinema
   const RopeEdge& edge = rope.edges()[index];
   const EdgeTouch& touch = path.touches[index];
   const Vector3 along = rope.edge_along_W(kinematics, index);
-  const Vector3& omega = kinematics.V_WB[static_cast<std::size_t>(edge.body)].angular;
+  const Vector3& omega = kinematics.V_WB[edge.body].angular;
   const Vector3& u = path.direction_W[point - 1];
   const double slope = u.dot(along);
   const double cosine = cosine_of(slope);
@@ -377,7 +377,7 @@ void RopeSplit::add_forces(const RopePath& path, std::vector<ForceVector>& F_Bo_
     Vector3 f = Vector3::Zero();
     if (i < segment_count_) f += tension_of_segment(i) * path.direction_W[i];
     if (i > 0) f -= tension_of_segment(i - 1) * path.direction_W[i - 1];
-    ForceVector& F = F_Bo_W[static_cast<std::size_t>(path.body[i])];
+    ForceVector& F = F_Bo_W[path.body[i]];
     F.moment += path.r_W[i].cross(f);
     F.force += f;
   }

@@ -86,8 +86,7 @@ void EventSources::foresee(double nearness) {
   // By a millimetre here and there a load changes by its stiffness, by a millimetre a second by its
   // damping, at each point of its path.
   const auto is_clear = [&](std::size_t k, double stiffness, double damping, double points) {
-    return std::abs(foreseen_[static_cast<Eigen::Index>(k)]) >
-           1e-3 * nearness * points * (stiffness + damping);
+    return std::abs(foreseen_[k]) > 1e-3 * nearness * points * (stiffness + damping);
   };
   const std::vector<Rope>& ropes = system_.ropes();
   for (std::size_t i = 0; i < ropes.size() && is_foreseen_; ++i) {

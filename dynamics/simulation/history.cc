@@ -189,7 +189,7 @@ void History::record_edges(const RopePath& path, const RopeLoad& load, const Rop
   };
   for (std::size_t k = 1; k + 1 < path.count; ++k) {
     if (path.edge[k] < 0) continue;
-    EdgeHistory& edge = rope.edges[static_cast<std::size_t>(path.edge[k])];
+    EdgeHistory& edge = rope.edges[path.edge[k]];
     const double before = tension_of(k - 1), behind = tension_of(k);
     edge.force.row(sample) +=
         (behind * path.direction_W[k] - before * path.direction_W[k - 1]).transpose();
@@ -250,11 +250,11 @@ std::vector<LinkedMaximum> find_largest_tensions(const History& history) {
   for (Eigen::Index i = 0; i < count; ++i) {
     LinkedMaximum& maximum = maxima.emplace_back();
     maximum.rope = static_cast<int>(i);
-    maximum.tension = history.ropes[static_cast<std::size_t>(i)].tension.maxCoeff(&maximum.sample);
+    maximum.tension = history.ropes[i].tension.maxCoeff(&maximum.sample);
     maximum.time = history.time[maximum.sample];
     maximum.tensions.resize(count);
     for (Eigen::Index k = 0; k < count; ++k) {
-      maximum.tensions[k] = history.ropes[static_cast<std::size_t>(k)].tension[maximum.sample];
+      maximum.tensions[k] = history.ropes[k].tension[maximum.sample];
     }
   }
   return maxima;

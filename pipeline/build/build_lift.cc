@@ -192,7 +192,7 @@ class LiftBuilder {
   /// gives way under each.
   void reeve_together(LiftHoist& partner, const HoistModel& hoist, const LiftHoist& added,
                       const BodyPoint& sheave, double length) {
-    dynamics::RopeDefinition& rope = rope_definitions_[static_cast<std::size_t>(partner.rope)];
+    dynamics::RopeDefinition& rope = rope_definitions_[partner.rope];
     partner.hook_is_first = true;
     std::reverse(rope.points.begin(), rope.points.end());
     rope.points.push_back(sheave);
@@ -241,7 +241,7 @@ class LiftBuilder {
   void add_mode_springs(const dynamics::Mechanism& mechanism,
                         dynamics::ForceElements& elements) const {
     for (std::size_t k = 0; k < modes_.size(); ++k) {
-      const double omega = flexibility_->angular_frequencies[static_cast<Eigen::Index>(k)];
+      const double omega = flexibility_->angular_frequencies[k];
       std::get<std::vector<dynamics::JointSpring>>(elements).emplace_back(
           mechanism, dynamics::JointSpring::Definition{
                          .name = mechanism.body(modes_[k]).name,
@@ -320,7 +320,7 @@ class LiftBuilder {
     dynamics::compute_kinematics(mechanism, q_start_, Eigen::VectorXd::Zero(mechanism.nv()),
                                  kinematics);
     for (const HookStart& hook : hook_starts_) {
-      const Pose& X_WT = kinematics.X_WB[static_cast<std::size_t>(hook.sheave.body)];
+      const Pose& X_WT = kinematics.X_WB[hook.sheave.body];
       q_start_.segment<3>(mechanism.body(hook.hook).q_offset) =
           X_WT.apply(hook.sheave.p_BoQ_B) - Vector3(0, 0, hook.length);
     }
@@ -333,7 +333,7 @@ class LiftBuilder {
     const auto place = [&](const ResolvedPoint& point) -> Vector3 {
       const std::string body = point.body_name(case_.cranes);
       if (body == "world") return point.point;
-      return kinematics.X_WB[static_cast<std::size_t>(body_of_.at(body))].apply(point.point);
+      return kinematics.X_WB[body_of_.at(body)].apply(point.point);
     };
     for (const auto& [name, X_WB] : spreader_starts(case_, place))
       set_free_start(mechanism, name, X_WB);
@@ -383,8 +383,8 @@ class LiftBuilder {
       add_edges(rope, definition);
       const int index = static_cast<int>(rope_definitions_.size());
       if (rope.winch) winches_.push_back({rope.name.value, index, rope.length.value});
-      ropes_.push_back({rope.name.value, index, rope.lug(), case_.hook_above(rope),
-                        rope.rope.breaking_load, lift_edges(rope)});
+      ropes_.push_back({rope.name.value, index, rope.lug(), rope.path.front().lug,
+                        case_.hook_above(rope), rope.rope.breaking_load, lift_edges(rope)});
       note_end(rope.path.front(), {index, false, false, rope.path.front().point});
       note_end(rope.path.back(), {index, true, !rope.is_basket(), rope.path.back().point});
       rope_definitions_.push_back(std::move(definition));

@@ -56,8 +56,9 @@ struct LiftEdge {
 /// A rope of the case within the dynamics.
 struct LiftRope {
   std::string name;
-  int rope = -1;    ///< index in the system
-  std::string lug;  ///< that it ends at; empty if none
+  int rope = -1;          ///< index in the system
+  std::string lug;        ///< that it ends at; empty if none
+  std::string first_lug;  ///< that it begins at; empty if none
   /// On whose hook it hangs, at once or by way of spreaders; empty if on none, or on several.
   std::string hoist;
   double breaking_load = dynamics::not_a_number;  ///< N

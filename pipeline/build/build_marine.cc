@@ -90,7 +90,7 @@ RadiationProblem without_lowered(RadiationProblem problem) {
 RadiationProblem at_draught(RadiationProblem problem, double draught) {
   const int body = problem.lowered_body();
   if (body < 0) return problem;
-  RadiationProblem::Body& lowered = problem.bodies[static_cast<std::size_t>(body)];
+  RadiationProblem::Body& lowered = problem.bodies[body];
   lowered.X_DB.p.z() = -lowered.vessel->hull.bounds()[0].z() - draught;
   lowered.draughts.clear();
   return problem;
@@ -220,8 +220,7 @@ dynamics::Pose MarineBuilder::world_of_database(const std::vector<Radiating>& ve
     if (!vessel.given || centres.empty()) continue;
     const dynamics::Hydrostatics rest =
         calc_hydrostatics(dynamics::HullClusters(vessel.vessel->hull), vessel.X_WB);
-    const Vector3 difference =
-        vessel.X_WB.p + rest.p_BoC_W() - centres[static_cast<std::size_t>(vessel.given_body)];
+    const Vector3 difference = vessel.X_WB.p + rest.p_BoC_W() - centres[vessel.given_body];
     shift += Vector3(difference.x(), difference.y(), 0) / static_cast<double>(vessels.size());
   }
   return {dynamics::Matrix3::Identity(), shift};

@@ -207,8 +207,7 @@ std::optional<RopeBend> find_bend(const RopeInCase& rope, const LiftRun& lift) {
     const double diameter = 2 * rope.edges[edge].radius;
     if (bend && bend->diameter <= diameter) continue;
     for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()})
-      if (touches(history->ropes[static_cast<std::size_t>(index)], edge))
-        bend = {diameter, rope.edges[edge].name.value};
+      if (touches(history->ropes[index], edge)) bend = {diameter, rope.edges[edge].name.value};
   }
   return bend;
 }

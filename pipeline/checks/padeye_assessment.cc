@@ -106,9 +106,8 @@ class PadeyeRun {
     const auto& nodes = result_.model->base_nodes();
     Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      places.col(static_cast<Eigen::Index>(i)) =
-          result_.placed.p_BP +
-          result_.placed.R_BP * result_.model->part().mesh.nodes.col(nodes[i]);
+      places.col(i) = result_.placed.p_BP +
+                      result_.placed.R_BP * result_.model->part().mesh.nodes.col(nodes[i]);
     // Across the lug's own thickness: the pad or a deck may meet it there.
     Vector3 across = result_.placed.R_BP.col(2);
     if (is_on_mesh_ && !goes_on_below(places)) across = result_.placed.R_BP.col(1);

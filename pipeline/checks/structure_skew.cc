@@ -104,7 +104,7 @@ std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
   double reach = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     if (!(slings[i].force.norm() > 0)) return {};
-    directions.col(static_cast<Eigen::Index>(i)) = slings[i].force.normalized();
+    directions.col(i) = slings[i].force.normalized();
     reach = std::max(reach, (slings[i].p_B - slings[0].p_B).norm());
   }
   Eigen::Vector4d tensions = null_vector(directions);
@@ -112,8 +112,7 @@ std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
   tensions.normalize();
   Vector3 moment = Vector3::Zero();
   for (std::size_t i = 0; i < 4; ++i)
-    moment += (slings[i].p_B - slings[0].p_B)
-                  .cross(tensions[i] * directions.col(static_cast<Eigen::Index>(i)));
+    moment += (slings[i].p_B - slings[0].p_B).cross(tensions[i] * directions.col(i));
   if (moment.norm() > meets * reach) return {};
 
   std::array<DiagonalChange, 2> changes;
@@ -127,8 +126,7 @@ std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
       if (share < 0) until_slack = std::min(until_slack, at_rest / -share);
     }
     for (std::size_t i = 0; i < 4; ++i)
-      changes[diagonal][i] = sign * std::min(scale, until_slack) * tensions[i] *
-                             directions.col(static_cast<Eigen::Index>(i));
+      changes[diagonal][i] = sign * std::min(scale, until_slack) * tensions[i] * directions.col(i);
   }
   return changes;
 }

@@ -16,14 +16,14 @@ using structure::Deck;
 using structure::DeckCaseSolution;
 
 std::string label_of(const Deck& deck, const DeckCaseSolution& solution) {
-  return std::to_string(deck.load_cases[static_cast<std::size_t>(solution.load_case)].label);
+  return std::to_string(deck.load_cases[solution.load_case].label);
 }
 
 void print_titles(const DeckAssessment& assessment) {
   TextTable table({{"case"}, {"title"}});
   bool is_any = false;
   for (const DeckCaseSolution& solution : assessment.solution.cases) {
-    const auto& one = assessment.deck().load_cases[static_cast<std::size_t>(solution.load_case)];
+    const auto& one = assessment.deck().load_cases[solution.load_case];
     is_any = is_any || !one.title.empty();
     table.add_row({std::to_string(one.label), one.title});
   }
@@ -89,8 +89,7 @@ void print_groups(const DeckAssessment& assessment) {
 void print_remarks(const DeckAssessment& assessment) {
   const Deck& deck = assessment.deck();
   for (const structure::SkippedCase& skipped : assessment.solution.skipped)
-    print_wrapped(fmt::format("{} is not solved: {}",
-                              name_of(deck.load_cases[static_cast<std::size_t>(skipped.load_case)]),
+    print_wrapped(fmt::format("{} is not solved: {}", name_of(deck.load_cases[skipped.load_case]),
                               skipped.is_held ? "no load acts" : "nothing holds it"));
   if (!assessment.solution.idle_supports.empty())
     print_wrapped(fmt::format("{} held nodes hold nothing: no element is joined to them",

@@ -81,8 +81,8 @@ struct SweepTeam::Run {
 SweepTeam::SweepTeam(const ProcessGroup* group, std::vector<std::string> arguments, int workers)
     : group_(group), arguments_(std::move(arguments)), last_word_(Clock::now()) {
   const int processes = group_ ? group_->size() : 1;
-  heard_.assign(static_cast<std::size_t>(processes), Clock::now());
-  is_lost_.assign(static_cast<std::size_t>(processes), false);
+  heard_.assign(processes, Clock::now());
+  is_lost_.assign(processes, false);
   for (int place = 0; place < workers; ++place) own_.emplace_back(arguments_);
   // One worker of each process, then a second of each: few members go to many machines.
   for (int place = 0; place < workers; ++place)
@@ -286,7 +286,7 @@ class Follower {
     std::vector<std::string> arguments(size);
     for (std::string& argument : arguments) packet.take(argument);
     for (int place = 0; place < count; ++place) workers_.emplace_back(arguments);
-    tasks_.assign(static_cast<std::size_t>(count), {});
+    tasks_.assign(count, {});
     pause_ = {};
   }
   static void leave(Packet& packet) {

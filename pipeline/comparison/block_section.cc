@@ -64,7 +64,7 @@ std::optional<Stresses> checked_stresses(const ResultsReader& file, std::string_
   const std::vector<double> stresses = file.read(values).values;
   Stresses largest;
   for (std::size_t i = 0; i < std::min(plates.size(), stresses.size()); ++i)
-    raise(largest, names.at(static_cast<std::size_t>(plates[i])), stresses[i]);
+    raise(largest, names.at(plates[i]), stresses[i]);
   return largest;
 }
 
@@ -74,10 +74,8 @@ Stresses drawn_stresses(const BlockSurface& surface, const BlockField& field) {
   for (std::size_t quad = 0; quad < surface.quad_count(); ++quad)
     for (std::size_t i = 0; i < 4; ++i)
       raise(largest,
-            surface.quad_groups.empty()
-                ? "block"
-                : surface.groups[static_cast<std::size_t>(surface.quad_groups[quad])],
-            field.von_mises[static_cast<std::size_t>(surface.quads[4 * quad + i])]);
+            surface.quad_groups.empty() ? "block" : surface.groups[surface.quad_groups[quad]],
+            field.von_mises[surface.quads[4 * quad + i]]);
   return largest;
 }
 

@@ -83,8 +83,7 @@ BlockDifference difference(const BlockField& field, const BlockField& reference,
 
 std::set<std::string> used_groups(const BlockSurface& surface) {
   std::set<std::string> names;
-  for (const std::int32_t group : surface.quad_groups)
-    names.insert(surface.groups[static_cast<std::size_t>(group)]);
+  for (const std::int32_t group : surface.quad_groups) names.insert(surface.groups[group]);
   return names;
 }
 
@@ -94,9 +93,9 @@ void name_parts_without(const std::vector<MappedPoint>& mapped, const BlockSurfa
   const BlockSurface& surface = block.surface;
   std::set<std::string> found, missed;
   for (std::size_t quad = 0; quad < surface.quad_groups.size(); ++quad) {
-    const std::string& group = surface.groups[static_cast<std::size_t>(surface.quad_groups[quad])];
+    const std::string& group = surface.groups[surface.quad_groups[quad]];
     for (std::size_t i = 0; i < 4; ++i) {
-      const MappedPoint& place = mapped[static_cast<std::size_t>(surface.quads[4 * quad + i])];
+      const MappedPoint& place = mapped[surface.quads[4 * quad + i]];
       (place.has_counterpart() ? found : missed).insert(group);
     }
   }

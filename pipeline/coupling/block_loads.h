@@ -16,7 +16,7 @@ struct BlockLoads {
   /// Ropes at its lugs.
   BlockLoads(const BuiltLift& lift, const dynamics::History& static_history,
              const dynamics::History& dynamic_history, const structure::ElasticModel& model)
-      : attachment(attach_block(lift.system, lift.load, model.mesh().lifting_points)),
+      : attachment(attach_block(lift, model.mesh().lifting_points)),
         at_rest(static_history),
         in_motion(dynamic_history) {}
 

@@ -35,7 +35,7 @@ std::array<std::pair<double, double>, gauss_points> make_gauss_rule() {
   std::array<std::pair<double, double>, gauss_points> rule;
   for (int k = 0; k < gauss_points; ++k) {
     const double first = solver.eigenvectors()(0, k);
-    rule[static_cast<std::size_t>(k)] = {0.5 * (1 + solver.eigenvalues()[k]), first * first};
+    rule[k] = {0.5 * (1 + solver.eigenvalues()[k]), first * first};
   }
   return rule;
 }
@@ -66,7 +66,7 @@ class RopeAtEdge {
  public:
   RopeAtEdge(const BuiltLift& lift, const LiftRope& rope, std::size_t edge,
              const History& static_history, const History& dynamic_history)
-      : edge_(lift.system.ropes()[static_cast<std::size_t>(rope.rope)].edges()[edge].in_body()),
+      : edge_(lift.system.ropes()[rope.rope].edges()[edge].in_body()),
         length_(rope.edges[edge].length),
         contact_length_(rope.edges[edge].contact_length) {
     take(static_history, lift.system, rope.rope, edge, pushes_[0]);
@@ -83,15 +83,14 @@ class RopeAtEdge {
     const Steps angles(low_angle_, high_angle_, std::numbers::pi / 6, 12);
     const Eigen::Index unit_forces = 3 * static_cast<Eigen::Index>(places.count) * angles.count;
     const auto samples = [&](int history) {
-      return static_cast<Eigen::Index>(pushes_[static_cast<std::size_t>(history)].size());
+      return static_cast<Eigen::Index>(pushes_[history].size());
     };
     std::array<Eigen::MatrixXd, 2> factors;
     for (int history = 0; history < 2; ++history) {
-      Eigen::MatrixXd& of = factors[static_cast<std::size_t>(history)];
+      Eigen::MatrixXd& of = factors[history];
       of = Eigen::MatrixXd::Zero(unit_forces, samples(history));
       for (Eigen::Index sample = 0; sample < samples(history); ++sample)
-        for (const EdgePush& push :
-             pushes_[static_cast<std::size_t>(history)][static_cast<std::size_t>(sample)])
+        for (const EdgePush& push : pushes_[history][sample])
           share_out(push, places, angles, of.col(sample));
     }
     const double half = std::max(0.5 * contact_length_, places.width);
@@ -170,14 +169,12 @@ class RopeAtEdge {
 
 std::vector<EdgePush> edge_pushes(const History& history, Eigen::Index sample,
                                   const dynamics::LiftSystem& system, int rope, std::size_t edge) {
-  const RopeHistory& pulling = history.ropes[static_cast<std::size_t>(rope)];
+  const RopeHistory& pulling = history.ropes[rope];
   const EdgeHistory& at = pulling.edges[edge];
   if (!at.touches(sample) || !(pulling.tension[sample] > 0)) return {};
-  const dynamics::RopeEdge& definition =
-      system.ropes()[static_cast<std::size_t>(rope)].edges()[edge];
+  const dynamics::RopeEdge& definition = system.ropes()[rope].edges()[edge];
   if (!(definition.radius > 0)) {
-    const dynamics::Pose X_WB =
-        history.bodies[static_cast<std::size_t>(definition.body - 1)].X_WB(sample);
+    const dynamics::Pose X_WB = history.bodies[definition.body - 1].X_WB(sample);
     return {{at.first_place[sample], 0,
              X_WB.R.transpose() * Vector3(at.force.row(sample).transpose())}};
   }

@@ -14,7 +14,15 @@ using structure::LoadCase;
 using structure::Vector3;
 using structure::Wrench;
 
-constexpr double pin_tolerance = 1e-6;  // m
+/// Place of the lug of that name in the block.
+int place_of_lug(const std::vector<structure::LiftingPoint>& lugs, const LiftRope& rope,
+                 const std::string& name) {
+  const auto lug = std::ranges::find(lugs, name, &structure::LiftingPoint::name);
+  if (lug == lugs.end())
+    throw std::runtime_error("rope " + rope.name + " ends at lug " + name +
+                             ", which the block does not have");
+  return static_cast<int>(lug - lugs.begin());
+}
 
 /// Force of the rope on the block at its lug, in B.
 Vector3 lug_force(const History& history, const LugRope& end, Eigen::Index sample,
@@ -64,27 +72,19 @@ InertiaField field_of_motion(const dynamics::BodyHistory& block, Eigen::Index sa
 
 }  // namespace
 
-BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyIndex body,
+BlockAttachment attach_block(const BuiltLift& lift,
                              const std::vector<structure::LiftingPoint>& lugs) {
   BlockAttachment attachment;
-  attachment.body = body;
+  attachment.body = lift.load;
   attachment.lugs = lugs;
-  attachment.gravity_W = system.mechanism().gravity();
-  for (std::size_t r = 0; r < system.ropes().size(); ++r) {
-    const auto& points = system.ropes()[r].points();
-    const std::size_t known = attachment.ropes.size();
-    for (const bool last : {false, true}) {
-      const dynamics::BodyPoint& end = last ? points.back() : points.front();
-      if (end.body != body) continue;
-      for (std::size_t l = 0; l < lugs.size(); ++l) {
-        if ((lugs[l].p_BPin - end.p_BoQ_B).norm() < pin_tolerance)
-          attachment.ropes.push_back({static_cast<int>(r), static_cast<int>(l), last});
-      }
-    }
-    const auto is_of_block = [body](const dynamics::RopeEdge& edge) { return edge.body == body; };
-    if (attachment.ropes.size() == known &&
-        std::ranges::any_of(system.ropes()[r].edges(), is_of_block))
-      attachment.baskets.push_back(static_cast<int>(r));
+  attachment.gravity_W = lift.system.mechanism().gravity();
+  for (const LiftRope& rope : lift.ropes) {
+    if (!rope.first_lug.empty())
+      attachment.ropes.push_back({rope.rope, place_of_lug(lugs, rope, rope.first_lug), false});
+    if (!rope.lug.empty())
+      attachment.ropes.push_back({rope.rope, place_of_lug(lugs, rope, rope.lug), true});
+    if (rope.first_lug.empty() && rope.lug.empty() && rope.holds_load())
+      attachment.baskets.push_back(rope.rope);
   }
   if (attachment.ropes.empty() && attachment.baskets.empty())
     throw std::runtime_error(
@@ -156,7 +156,7 @@ LoadCase map_rope_maxima(const BlockHistory& of_block,
       const int rope = attachment.added_ropes[load];
       if (rope < 0) continue;
       const auto row = static_cast<Eigen::Index>(load);
-      result.added[row] = of_block.added(row, maxima[static_cast<std::size_t>(rope)].sample);
+      result.added[row] = of_block.added(row, maxima[rope].sample);
     }
     const Eigen::Matrix<double, 6, 1> added = attachment.added_resultants * result.added;
     wrench.force += added.head<3>();

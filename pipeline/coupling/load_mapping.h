@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/simulation/history.h"
+#include "pipeline/build/build_lift.h"
 #include "structure/response/unit_responses.h"
 
 /// From rope tensions in time to loads on the block: where the dynamics and the structure meet.
@@ -55,10 +56,10 @@ struct BlockHistory {
   }
 };
 
-/// Finds the ropes that end at a lug: those whose first or last point is a point of the body that
-/// coincides (to a micrometre) with the lug's pin. And those that go round its edges alone.
-/// @throws std::runtime_error if there are none.
-BlockAttachment attach_block(const dynamics::LiftSystem& system, dynamics::BodyIndex body,
+/// The ropes of a lift that end at lugs of its load, by the names of these, and those that go round
+/// its edges alone.
+/// @throws std::runtime_error if there are none, or if one ends at a lug that is not among `lugs`.
+BlockAttachment attach_block(const BuiltLift& lift,
                              const std::vector<structure::LiftingPoint>& lugs);
 
 /// Loads on the block at one sample: every rope's force at that instant, gravity, and the inertia

@@ -58,7 +58,7 @@ Eigen::MatrixXd resultants_of(const structure::ShellRegions& shell,
                               const Eigen::MatrixXd& wrenches) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(6, wrenches.cols());
   for (std::size_t r = 0; r < shell.regions().size(); ++r) {
-    const auto of_region = wrenches.middleRows<6>(static_cast<Eigen::Index>(6 * r));
+    const auto of_region = wrenches.middleRows<6>(6 * r);
     sum += of_region;
     for (Eigen::Index k = 0; k < wrenches.cols(); ++k)
       sum.col(k).tail<3>() +=

@@ -80,7 +80,7 @@ std::string read_file(const std::filesystem::path& path) {
   if (!without_size && size > 0) {
     content.resize(size);
     stream.read(content.data(), static_cast<std::streamsize>(size));
-    content.resize(static_cast<std::size_t>(stream.gcount()));
+    content.resize(stream.gcount());
   }
   if (stream)
     content.append(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());

@@ -93,8 +93,7 @@ class BemioFile {
     database_.hydrostatic_stiffness = MatrixXd::Zero(modes, modes);
     database_.added_mass.assign(count, MatrixXd::Zero(modes, modes));
     database_.damping = database_.added_mass;
-    database_.froude_krylov.assign(
-        count, MatrixXcd::Zero(modes, static_cast<Eigen::Index>(database_.headings.size())));
+    database_.froude_krylov.assign(count, MatrixXcd::Zero(modes, database_.headings.size()));
     database_.diffraction = database_.froude_krylov;
   }
 
@@ -222,9 +221,8 @@ class BemioFile {
       for (std::size_t b = 0; b < bodies_; ++b) whole = whole && file_.has(dataset(b));
       if (!whole) continue;
       const auto headings = static_cast<Eigen::Index>(database_.headings.size());
-      database_.mean_drift.assign(
-          database_.frequencies.size(),
-          MatrixXd::Zero(static_cast<Eigen::Index>(modes_per_body * bodies_), headings));
+      database_.mean_drift.assign(database_.frequencies.size(),
+                                  MatrixXd::Zero(modes_per_body * bodies_, headings));
       const double rho_g = scaled_ ? 1.0 : database_.water.density * database_.water.gravity;
       for (std::size_t b = 0; b < bodies_; ++b) {
         const auto first = static_cast<Eigen::Index>(modes_per_body * b);

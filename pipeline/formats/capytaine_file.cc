@@ -238,8 +238,7 @@ class CapytaineFile {
     if (apart || together) database_.headings = file_.read("wave_direction").array.values;
     database_.froude_krylov.assign(
         database_.frequencies.size(),
-        MatrixXcd::Zero(database_.mode_count(),
-                        static_cast<Eigen::Index>(database_.headings.size())));
+        MatrixXcd::Zero(database_.mode_count(), database_.headings.size()));
     database_.diffraction = database_.froude_krylov;
     if (apart) {
       add_force("Froude_Krylov_force", database_.froude_krylov);

@@ -349,9 +349,8 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
       path && !database.headings.empty()) {
     read_mean_drift(*path, scales, periods, database);
   }
-  database.froude_krylov.assign(
-      database.frequencies.size(),
-      Eigen::MatrixXcd::Zero(modes, static_cast<Eigen::Index>(database.headings.size())));
+  database.froude_krylov.assign(database.frequencies.size(),
+                                Eigen::MatrixXcd::Zero(modes, database.headings.size()));
   if (const fs::path path = with_ending(name, ".hst"); fs::exists(path)) {
     read_stiffness(path, scales, database);
   }

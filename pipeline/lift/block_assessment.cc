@@ -112,7 +112,7 @@ BlockAssessment assess_block(const structure::UnitResponses& responses,
                               "every rope at its own largest dynamic load"));
   const auto at_maximum = [&](const BlockHistory& history, const dynamics::LinkedMaximum& maximum,
                               const char* state) {
-    const std::string& rope = history.motion.ropes[static_cast<std::size_t>(maximum.rope)].name;
+    const std::string& rope = history.motion.ropes[maximum.rope].name;
     return make_state(map_instant(history, maximum.sample, attachment, mass),
                       fmt::format("largest {} load of rope {}", state, rope), rope, maximum.time);
   };

@@ -92,10 +92,10 @@ class StateMaker {
   // lugs, then the baskets.
   std::pair<int, double> governing_rope(const Eigen::MatrixXd& unit_stress, int instant) const {
     const std::vector<Vector3> forces = rope_forces(history_.motion, instant, attachment_);
-    Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(
-        responses_.count(), static_cast<Eigen::Index>(forces.size() + attachment_.baskets.size()));
+    Eigen::MatrixXd parts =
+        Eigen::MatrixXd::Zero(responses_.count(), forces.size() + attachment_.baskets.size());
     for (std::size_t i = 0; i < forces.size(); ++i)
-      parts.col(static_cast<Eigen::Index>(i)).segment<3>(3 * attachment_.ropes[i].lug) = forces[i];
+      parts.col(i).segment<3>(3 * attachment_.ropes[i].lug) = forces[i];
     add_edges(instant, parts);
     Eigen::Index governing = 0;
     const double share = structure::stress_shares(unit_stress, parts, state_.factors.col(instant))
@@ -132,7 +132,7 @@ class StateMaker {
     if (extreme.unit_stress.size() == 0) return result;
     const auto [rope, share] = governing_rope(extreme.unit_stress, extreme.instant);
     if (rope < 0) return result;
-    result.rope = names_of_ropes(history_.motion, attachment_)[static_cast<std::size_t>(rope)];
+    result.rope = names_of_ropes(history_.motion, attachment_)[rope];
     result.share = share;
     return result;
   }
@@ -200,10 +200,9 @@ PracticeComparison compare_practice(const structure::Mesh& mesh,
     const double percent = percent_of_practice(practice[p], envelope[p]);
     if (percent < -1) ++short_of;
     if (percent >= comparison.worst_percent - rounding_percent) continue;
-    const structure::Square& square = checked.squares()[static_cast<std::size_t>(p)];
+    const structure::Square& square = checked.squares()[p];
     comparison.worst_percent = percent;
-    comparison.worst = {envelope[p], square.centre_B,
-                        mesh.regions[static_cast<std::size_t>(square.region)].name};
+    comparison.worst = {envelope[p], square.centre_B, mesh.regions[square.region].name};
   }
   comparison.squares_short = looked_at > 0 ? static_cast<double>(short_of) / looked_at : 0;
   return comparison;
@@ -272,17 +271,17 @@ StressHistory follow(const structure::UnitResponses& responses,
     StressHistory result;
     result.name = point.name;
     result.point_B = points.place(p);
-    result.part = responses.model().mesh().regions[static_cast<std::size_t>(points.region(p))].name;
+    result.part = responses.model().mesh().regions[points.region(p)].name;
     fill_in(points.stresses(p, 1, responses.displacements()), nullptr, history,
             history.stress_concentration, history.curve, result);
     return result;
   }
   const int p = nearest_square(checked, point.point_B);
-  const structure::Square& square = checked.squares()[static_cast<std::size_t>(p)];
+  const structure::Square& square = checked.squares()[p];
   StressHistory result;
   result.name = point.name;
   result.point_B = square.centre_B;
-  result.part = responses.model().mesh().regions[static_cast<std::size_t>(square.region)].name;
+  result.part = responses.model().mesh().regions[square.region].name;
   fill_in(structure::unit_stress_of_square(checked, p), nullptr, history,
           history.stress_concentration, history.curve, result);
   return result;
@@ -304,9 +303,9 @@ StressHistory follow(const structure::UnitResponses& responses, const FollowedHo
                       "material; the toe lies on a plate's surface and the direction along it",
                       followed.name, point.x(), point.y(), point.z()));
     unit.push_back(structure::stresses_at(responses.model(), responses.displacements(), place));
-    const structure::ShellCell& cell = space.shells()[static_cast<std::size_t>(place.cell)];
-    const structure::Shell& shell = space.mesh().shells[static_cast<std::size_t>(cell.shell)];
-    result.part = space.mesh().regions[static_cast<std::size_t>(shell.region)].name;
+    const structure::ShellCell& cell = space.shells()[place.cell];
+    const structure::Shell& shell = space.mesh().shells[cell.shell];
+    result.part = space.mesh().regions[shell.region].name;
   }
   fill_in(structure::hot_spot_stress(unit[0], unit[1]), &followed.spot.direction, history, 1,
           history.hot_spot_curve, result);

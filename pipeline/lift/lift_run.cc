@@ -129,7 +129,7 @@ Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& hist
                            std::size_t crane) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(history.sample_count());
   for (const LiftHoist& hoist : model.hoists) {
-    if (hoist.crane == crane) load += history.ropes[static_cast<std::size_t>(hoist.rope)].tension;
+    if (hoist.crane == crane) load += history.ropes[hoist.rope].tension;
   }
   return load;
 }

@@ -33,7 +33,7 @@ Instant largest_static_load(const BuiltLift& model, const dynamics::History& his
   Instant largest{0, ""};
   double share = 0;
   const auto consider = [&](int rope, double breaking_load, const std::string& what) {
-    const dynamics::LinkedMaximum& maximum = maxima[static_cast<std::size_t>(rope)];
+    const dynamics::LinkedMaximum& maximum = maxima[rope];
     if (!(maximum.tension / breaking_load > share)) return;
     share = maximum.tension / breaking_load;
     largest = {maximum.time, "largest load of " + what};
@@ -87,9 +87,8 @@ void write_shapes(ResultsWriter& file, const dynamics::Mechanism& mechanism,
     RowMajorMatrix motion(static_cast<Eigen::Index>(modes.size()), 12);
     for (std::size_t i = 0; i < modes.size(); ++i) {
       const BodyModeMotion& body = modes[i].bodies[b];
-      motion.row(static_cast<Eigen::Index>(i)) << body.rotation.real().transpose(),
-          body.displacement.real().transpose(), body.rotation.imag().transpose(),
-          body.displacement.imag().transpose();
+      motion.row(i) << body.rotation.real().transpose(), body.displacement.real().transpose(),
+          body.rotation.imag().transpose(), body.displacement.imag().transpose();
     }
     const std::string& name = mechanism.body(modes.front().bodies[b].body).name;
     file.write_matrix(
@@ -112,8 +111,7 @@ void write_instant(ResultsWriter& file, const dynamics::Mechanism& mechanism,
     periods.push_back(list[i].period());
     damping.push_back(list[i].damping_ratio());
     elastic.push_back(list[i].elastic_share);
-    eigenvalues.row(static_cast<Eigen::Index>(i)) << list[i].eigenvalue.real(),
-        list[i].eigenvalue.imag();
+    eigenvalues.row(i) << list[i].eigenvalue.real(), list[i].eigenvalue.imag();
   }
   file.make_group(group);
   file.write_attribute(group, "instant", modes.instant);

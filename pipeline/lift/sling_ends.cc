@@ -6,12 +6,9 @@ std::vector<SlingEnd> find_sling_ends(const BuiltLift& model) {
   std::vector<SlingEnd> ends;
   for (std::size_t i = 0; i < model.ropes.size(); ++i) {
     const LiftRope& sling = model.ropes[i];
-    if (sling.lug.empty()) continue;
-    const std::vector<dynamics::BodyPoint>& points =
-        model.system.ropes()[static_cast<std::size_t>(sling.rope)].points();
-    if (points.front().body == model.load)
-      ends.push_back({i, sling.rope, true, points.front().p_BoQ_B});
-    ends.push_back({i, sling.rope, false, points.back().p_BoQ_B});
+    const std::vector<dynamics::BodyPoint>& points = model.system.ropes()[sling.rope].points();
+    if (!sling.first_lug.empty()) ends.push_back({i, sling.rope, true, points.front().p_BoQ_B});
+    if (!sling.lug.empty()) ends.push_back({i, sling.rope, false, points.back().p_BoQ_B});
   }
   return ends;
 }
@@ -20,8 +17,7 @@ std::vector<Eigen::Vector3d> bearing_places(const BuiltLift& model,
                                             const dynamics::History& history, Eigen::Index sample) {
   std::vector<Eigen::Vector3d> places;
   for (const SlingEnd& end : find_sling_ends(model))
-    if (history.ropes[static_cast<std::size_t>(end.rope)].tension[sample] > 0)
-      places.push_back(end.p_BoQ_B);
+    if (history.ropes[end.rope].tension[sample] > 0) places.push_back(end.p_BoQ_B);
   for (const LiftRope& sling : model.ropes) {
     const auto rope = static_cast<std::size_t>(sling.rope);
     for (std::size_t i = 0; i < sling.edges.size(); ++i) {
@@ -39,8 +35,7 @@ double lift_at_edges(const BuiltLift& model, const dynamics::History& history,
                      Eigen::Index sample) {
   double sum = 0;
   for (const LiftRope& sling : model.ropes) {
-    for (const dynamics::EdgeHistory& edge :
-         history.ropes[static_cast<std::size_t>(sling.rope)].edges)
+    for (const dynamics::EdgeHistory& edge : history.ropes[sling.rope].edges)
       sum += edge.force(sample, 2);
   }
   return sum;

@@ -19,7 +19,7 @@ struct SlingEnd {
 
   /// On the load at each sample, in W, N.
   const dynamics::RopeHistory::Rows3& pull(const dynamics::History& history) const {
-    const dynamics::RopeHistory& one = history.ropes[static_cast<std::size_t>(rope)];
+    const dynamics::RopeHistory& one = history.ropes[rope];
     return first ? one.first_force : one.last_force;
   }
 };

@@ -55,8 +55,7 @@ class SlingStates {
   SlingState with_lengths(const Eigen::VectorXd& lengths) {
     for (std::size_t i = 0; i < slings_.size(); ++i)
       for (RopeInCase& rope : case_.ropes)
-        if (rope.name.value == slings_[i])
-          rope.length.value = lengths[static_cast<Eigen::Index>(i)];
+        if (rope.name.value == slings_[i]) rope.length.value = lengths[i];
     const BuiltLift model = build_lift(case_, load_, nullptr, flexibility_);
     dynamics::EquilibriumSolver solver(model.at_rest());
     Eigen::VectorXd q = q_;
@@ -67,14 +66,13 @@ class SlingStates {
  private:
   SlingState state_of(const BuiltLift& model, const dynamics::LiftWorkspace& w) const {
     SlingState state;
-    state.tensions.resize(static_cast<Eigen::Index>(slings_.size()));
+    state.tensions.resize(slings_.size());
     for (const LiftRope& rope : model.ropes) {
       const auto place = std::find(slings_.begin(), slings_.end(), rope.name);
       if (place != slings_.end())
-        state.tensions[place - slings_.begin()] =
-            w.rope_loads[static_cast<std::size_t>(rope.rope)].tension;
+        state.tensions[place - slings_.begin()] = w.rope_loads[rope.rope].tension;
     }
-    const Eigen::Matrix3d R = w.kinematics.X_WB[static_cast<std::size_t>(model.load)].R;
+    const Eigen::Matrix3d R = w.kinematics.X_WB[model.load].R;
     state.tilt = std::atan2(R.col(2).head<2>().norm(), R(2, 2));
     state.trim = std::asin(std::clamp(R(2, 0), -1.0, 1.0));
     state.list = std::asin(std::clamp(R(2, 1), -1.0, 1.0));
@@ -106,8 +104,7 @@ void find_worst(SlingStates& states, SlingLengths& result) {
   for (unsigned set = 0; set < 1U << count; ++set) {
     Eigen::VectorXd lengths = result.lengths;
     for (std::size_t i = 0; i < count; ++i)
-      lengths[static_cast<Eigen::Index>(i)] *=
-          (set >> i & 1U) != 0 ? 1 + result.tolerance : 1 - result.tolerance;
+      lengths[i] *= (set >> i & 1U) != 0 ? 1 + result.tolerance : 1 - result.tolerance;
     const SlingState state = states.with_lengths(lengths);
     result.worst_tensions = result.worst_tensions.cwiseMax(state.tensions);
     result.worst_tilt = std::max(result.worst_tilt, state.tilt);

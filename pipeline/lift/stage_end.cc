@@ -80,7 +80,7 @@ std::vector<dynamics::Course> find_courses(const LiftCase& lift_case, const Buil
   const auto count =
       std::count_if(schedule.steerings.begin(), schedule.steerings.end(),
                     [&](const ScheduledSteering& one) { return !one.course && one.stage <= last; });
-  result.courses.resize(static_cast<std::size_t>(count));
+  result.courses.resize(count);
   return std::move(result.courses);
 }
 

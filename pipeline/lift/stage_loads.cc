@@ -48,9 +48,8 @@ class StageMaxima {
   }
 
   StageLoad of_rope(const std::string& name, int rope) const {
-    return of(name, [rope](const dynamics::History& history) {
-      return history.ropes[static_cast<std::size_t>(rope)].tension;
-    });
+    return of(name,
+              [rope](const dynamics::History& history) { return history.ropes[rope].tension; });
   }
 
  private:

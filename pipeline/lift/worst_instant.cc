@@ -76,8 +76,7 @@ class Search {
   WorstInstant run() {
     const auto last = static_cast<Eigen::Index>(moving_.size()) - 1;
     std::set<Eigen::Index> instants = jumps();
-    for (int i = 0; i <= even_instants; ++i)
-      instants.insert(moving_[static_cast<std::size_t>(last * i / even_instants)]);
+    for (int i = 0; i <= even_instants; ++i) instants.insert(moving_[last * i / even_instants]);
     WorstInstant worst;
     worst.undisturbed = try_all(instants, true);
     auto step = static_cast<double>(last) / even_instants;

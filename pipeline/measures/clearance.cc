@@ -110,8 +110,7 @@ Eigen::Matrix3Xd corners_of(const std::vector<Triangle>& triangles) {
   });
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   Eigen::Matrix3Xd once(3, static_cast<Eigen::Index>(corners.size()));
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    once.col(static_cast<Eigen::Index>(i)) = corners[i];
+  for (std::size_t i = 0; i < corners.size(); ++i) once.col(i) = corners[i];
   return once;
 }
 
@@ -122,7 +121,7 @@ Eigen::VectorXd distances(const History& history, const DistanceAt& distance_at)
   const std::vector<Eigen::Index> chosen = chosen_samples(history.sample_count());
   structure::in_batches(static_cast<int>(chosen.size()), 8, 0, [&](int first, int count) {
     for (int i = first; i < first + count; ++i) {
-      const Eigen::Index sample = chosen[static_cast<std::size_t>(i)];
+      const Eigen::Index sample = chosen[i];
       values[sample] = distance_at(history, sample);
     }
   });

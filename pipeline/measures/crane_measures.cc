@@ -165,10 +165,9 @@ Wrench demand(const dynamics::RigidBodyInertia& inertia, const dynamics::BodyHis
 class SharingSupports {
  public:
   explicit SharingSupports(const std::vector<CraneSupport>& supports) {
-    arms_.resize(static_cast<Eigen::Index>(supports.size()), 3);
+    arms_.resize(supports.size(), 3);
     for (std::size_t i = 0; i < supports.size(); ++i)
-      arms_.row(static_cast<Eigen::Index>(i)) << 1, supports[i].position.x(),
-          supports[i].position.y();
+      arms_.row(i) << 1, supports[i].position.x(), supports[i].position.y();
     inverse_ = (arms_.transpose() * arms_).inverse();
     height_ = 0;
     for (const CraneSupport& support : supports)

@@ -55,8 +55,8 @@ void add_lines(const LiftRun& lift, const char* kind, const char* meaning,
                         .kind = kind,
                         .unit = "N",
                         .meaning = meaning,
-                        .at_rest = at_rest.col(static_cast<Eigen::Index>(i)),
-                        .in_motion = in_motion.col(static_cast<Eigen::Index>(i))});
+                        .at_rest = at_rest.col(i),
+                        .in_motion = in_motion.col(i)});
   }
 }
 

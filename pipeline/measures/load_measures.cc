@@ -27,7 +27,7 @@ LiftMeasure make_measure(const LiftRun& lift, LiftMeasure measure, const Series&
 
 void add_attitude(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   const auto attitude = [&](const dynamics::History& history, Eigen::Index sample) {
-    return history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample).R;
+    return history.bodies[lift.model.load - 1].X_WB(sample).R;
   };
   measures.push_back(make_measure(lift,
                                   {.subject = "load",
@@ -75,7 +75,7 @@ void add_sling_angles(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
         [&](const dynamics::History& history, Eigen::Index sample) {
           double least = nothing;
           if (sling.lug.empty()) {
-            const dynamics::RopeHistory& rope = history.ropes[static_cast<std::size_t>(sling.rope)];
+            const dynamics::RopeHistory& rope = history.ropes[sling.rope];
             for (const auto* pull : {&rope.first_force, &rope.last_force})
               least = std::fmin(least, angle_of(-pull->row(sample)));
           }
@@ -102,8 +102,7 @@ void add_margin(const LiftCase& lift_case, const LiftRun& lift,
                   "that carry and of the places where slings press on edges upwards, positive "
                   "inside; while slings bear nine tenths of the weight"},
       [&](const dynamics::History& history, Eigen::Index sample) {
-        const dynamics::Pose X_WB =
-            history.bodies[static_cast<std::size_t>(lift.model.load - 1)].X_WB(sample);
+        const dynamics::Pose X_WB = history.bodies[lift.model.load - 1].X_WB(sample);
         double borne = lift_at_edges(lift.model, history, sample);
         for (const SlingEnd& end : ends) borne += end.pull(history)(sample, 2);
         if (borne < 0.9 * weight) return nothing;

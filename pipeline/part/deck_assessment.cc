@@ -24,7 +24,7 @@ std::string why_none(const structure::Deck& deck, const structure::DeckSolution&
   for (const structure::SkippedCase& skipped : solution.skipped) {
     if (!text.empty()) text += "; ";
     text += fmt::format("{} {}", skipped.is_held ? "no load acts in" : "nothing holds",
-                        name_of(deck.load_cases[static_cast<std::size_t>(skipped.load_case)]));
+                        name_of(deck.load_cases[skipped.load_case]));
   }
   return text;
 }

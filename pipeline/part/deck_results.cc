@@ -26,12 +26,12 @@ using structure::DeckCaseSolution;
 constexpr const char* picture_prefix = "case-";
 
 const structure::DeckLoadCase& case_of(const Deck& deck, const DeckCaseSolution& solution) {
-  return deck.load_cases[static_cast<std::size_t>(solution.load_case)];
+  return deck.load_cases[solution.load_case];
 }
 
 long label_of(const Deck& deck, int vertex) {
   const auto& labels = deck.mesh.vertex_labels;
-  return labels.empty() ? vertex + 1L : labels[static_cast<std::size_t>(vertex)];
+  return labels.empty() ? vertex + 1L : labels[vertex];
 }
 
 std::string picture_of(const Deck& deck, const DeckCaseSolution& solution) {
@@ -96,7 +96,7 @@ Json make_summary(const DeckAssessment& assessment) {
   for (const DeckCaseSolution& solution : assessment.solution.cases)
     summary["cases"].push_back(case_json(deck, solution));
   for (const structure::SkippedCase& skipped : assessment.solution.skipped) {
-    const auto& one = deck.load_cases[static_cast<std::size_t>(skipped.load_case)];
+    const auto& one = deck.load_cases[skipped.load_case];
     summary["skipped"].push_back({{"label", one.label},
                                   {"title", one.title},
                                   {"reason", skipped.is_held ? "no loads" : "no supports"}});

@@ -30,8 +30,7 @@ PartPadeye assess_part_padeye(const PartAssessment& assessment) {
   PartPadeye result;
   result.input.geometry = padeye.geometry();
   // The main plate's columns come first.
-  result.input.material = model.materials[static_cast<std::size_t>(
-      model.material_of_solid[static_cast<std::size_t>(solids.front().front())])];
+  result.input.material = model.materials[model.material_of_solid[solids.front().front()]];
   result.input.cheek_weld = padeye.cheek_weld;
   result.input.base_weld = padeye.base_weld;
   result.input.doubler = padeye.doubler;

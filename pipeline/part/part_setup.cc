@@ -123,8 +123,7 @@ class ModelMaker {
         if (rest >= 0)
           diagnostics_.error(material.name.mark,
                              fmt::format("materials {} and {} both take all that no other names",
-                                         file_.materials[static_cast<std::size_t>(rest)].name.value,
-                                         material.name.value),
+                                         file_.materials[rest].name.value, material.name.value),
                              {"give one of them groups"});
         rest = static_cast<int>(m);
       }
@@ -154,14 +153,13 @@ class ModelMaker {
       return;
     }
     for (const int element : group->elements) {
-      int& of_solid =
-          model_.material_of_solid[static_cast<std::size_t>(solid_of_element.at(element))];
+      int& of_solid = model_.material_of_solid[solid_of_element.at(element)];
       if (of_solid >= 0 && of_solid != material) {
         diagnostics_.error(
             name.mark,
             fmt::format("group \"{}\" is of material {} and holds elements of material {}",
-                        name.value, model_.materials[static_cast<std::size_t>(material)].name,
-                        model_.materials[static_cast<std::size_t>(of_solid)].name));
+                        name.value, model_.materials[material].name,
+                        model_.materials[of_solid].name));
         return;
       }
       of_solid = material;
@@ -231,7 +229,7 @@ class ModelMaker {
       diagnostics_.error(name.mark,
                          fmt::format("load {} needs {}; group \"{}\" holds {}", load.name.value,
                                      is_force ? "faces, edges or points" : "faces", name.value,
-                                     contents[static_cast<std::size_t>(group->dimension)]));
+                                     contents[group->dimension]));
       return;
     }
     model_.surface_loads.push_back(std::move(taken));

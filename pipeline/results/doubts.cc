@@ -118,8 +118,8 @@ class Doubts {
       doubt(
           "Rope {} parts at {:g} s under {:.0f} kN and sets {:.3g} kJ free, as the case says; at "
           "rest it holds.",
-          lift.model.system.ropes()[static_cast<std::size_t>(parted.rope)].name(), parted.time,
-          parted.tension / 1e3, parted.energy / 1e3);
+          lift.model.system.ropes()[parted.rope].name(), parted.time, parted.tension / 1e3,
+          parted.energy / 1e3);
     for (const FaultInCase& fault : case_.faults) {
       if (!fault.at && !lift.model.worst) continue;  // it does not come
       const double at = fault.at ? fault.at->value : lift.model.worst->worst.time;
@@ -168,7 +168,7 @@ class Doubts {
         const LiftEdge& of = rope.edges[edge];
         double least = 0, when = 0;
         for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()}) {
-          const dynamics::RopeHistory& path = history->ropes[static_cast<std::size_t>(rope.rope)];
+          const dynamics::RopeHistory& path = history->ropes[rope.rope];
           for (Eigen::Index i = 0; i < history->sample_count(); ++i) {
             const double distance = distance_from_end(path, edge, of.length, i);
             if (!(distance < least)) continue;

@@ -46,7 +46,7 @@ std::string displacements(const BlockRun& block, const structure::Deck& deck,
                                         block.responses->displacement(loads[i])) /
         deck.units.length;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const auto u = moved.col(static_cast<Eigen::Index>(v));
+      const auto u = moved.col(v);
       if (u.hasNaN()) continue;
       const structure::Vector3 x = mesh.vertices[v] / deck.units.length;
       text +=

@@ -82,7 +82,7 @@ void write_padeyes(ResultsWriter& file, const PadeyesAssessment& padeyes) {
     std::vector<std::int32_t> plates;
     for (std::size_t c = 0; c < columns.size(); ++c) {
       for (std::size_t i = 0; i < 4; ++i)
-        corners.row(static_cast<Eigen::Index>(c)).segment<2>(2 * static_cast<Eigen::Index>(i)) =
+        corners.row(c).segment<2>(2 * static_cast<Eigen::Index>(i)) =
             columns[c].corners[i].transpose();
       plates.push_back(static_cast<std::int32_t>(columns[c].plate));
     }

@@ -196,8 +196,8 @@ void write_scene(ResultsWriter& file, const LiftSystem& system, const dynamics::
   for (const DrawnBody& body : scene.bodies) {
     RowMajorMatrix boxes(static_cast<Eigen::Index>(body.boxes.size()), 10);
     for (std::size_t i = 0; i < body.boxes.size(); ++i) {
-      boxes.row(static_cast<Eigen::Index>(i)) << body.boxes[i].size.transpose(),
-          body.boxes[i].centre.transpose(), body.boxes[i].orientation.transpose();
+      boxes.row(i) << body.boxes[i].size.transpose(), body.boxes[i].centre.transpose(),
+          body.boxes[i].orientation.transpose();
     }
     const std::string path = layout::join(layout::scene_bodies, body.name);
     file.write_matrix(

@@ -47,7 +47,7 @@ std::vector<dynamics::Course> find_courses(const MechanismFile& file,
   dynamics::IntegrationResult result = dynamics::integrate(
       mechanism.system, start_of(file, mechanism), mechanism.system.v_start(), settings);
   const auto known = [&](const ScheduledSteering& one) { return !one.course && one.stage <= last; };
-  result.courses.resize(static_cast<std::size_t>(std::ranges::count_if(schedule.steerings, known)));
+  result.courses.resize(std::ranges::count_if(schedule.steerings, known));
   return std::move(result.courses);
 }
 
@@ -126,7 +126,7 @@ std::string extremes_table(const Eigen::VectorXd& time, const std::vector<Output
       {{"output"}, {"unit"}, {"smallest", 1}, {"at s", 5}, {"largest", 1}, {"at s", 5}});
   for (const OutputSeries& series : outputs) {
     for (std::size_t i = 0; i < series.columns.size(); ++i) {
-      const auto column = series.values.col(static_cast<Eigen::Index>(i));
+      const auto column = series.values.col(i);
       Eigen::Index low = 0, high = 0;
       const double smallest = column.minCoeff(&low);
       const double largest = column.maxCoeff(&high);

@@ -113,13 +113,12 @@ Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& fo
     const VectorXd tension = tension_(taut) + stiffness_of_ropes * (B * x - e);
     Eigen::Index lowest = 0;
     if (tension.minCoeff(&lowest) >= 0) {
-      for (std::size_t i = 0; i < taut.size(); ++i)
-        result[taut[i]] = tension[static_cast<Eigen::Index>(i)];
+      for (std::size_t i = 0; i < taut.size(); ++i) result[taut[i]] = tension[i];
       return result;
     }
-    const Eigen::Index off = taut[static_cast<std::size_t>(lowest)];
+    const Eigen::Index off = taut[lowest];
     slackened += elongation_.row(off).transpose() * tension_[off];
-    turning -= turning_[static_cast<std::size_t>(off)];
+    turning -= turning_[off];
     taut.erase(taut.begin() + lowest);
   }
   return result;

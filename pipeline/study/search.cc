@@ -114,8 +114,7 @@ class Trials {
       shares[v] = point[static_cast<OT::UnsignedInteger>(v)];
     const Eigen::VectorXd values = problem_.values_of(shares);
     for (std::size_t m = 0; m < results_.members.size(); ++m)
-      if (results_.design.row(static_cast<Eigen::Index>(m)).transpose() == values)
-        return results_.members[m];
+      if (results_.design.row(m).transpose() == values) return results_.members[m];
     const auto number = static_cast<int>(results_.members.size());
     results_.members.push_back(evaluate_(values, number));
     results_.design.conservativeResize(number + 1, Eigen::NoChange);

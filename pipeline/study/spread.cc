@@ -38,9 +38,8 @@ ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
   }
   std::sort(again.begin(), again.end());
   const auto at = [&](double part) {
-    return again.empty()
-               ? std::numeric_limits<double>::quiet_NaN()
-               : again[static_cast<std::size_t>(part * static_cast<double>(again.size() - 1))];
+    return again.empty() ? std::numeric_limits<double>::quiet_NaN()
+                         : again[part * static_cast<double>(again.size() - 1)];
   };
   result.low = at((1 - covered) / 2);
   result.high = at((1 + covered) / 2);
@@ -142,7 +141,7 @@ Quantile find_quantile(std::vector<double> values, double share) {
   const auto rank = [&](double probability) { return below_it.computeQuantile(probability)[0]; };
   const auto low = static_cast<std::ptrdiff_t>(rank((1 - covered) / 2)) - 1;
   const auto high = static_cast<std::size_t>(rank((1 + covered) / 2));
-  if (low >= 0) quantile.low = values[static_cast<std::size_t>(low)];
+  if (low >= 0) quantile.low = values[low];
   if (high < values.size()) quantile.high = values[high];
   return quantile;
 }
@@ -162,8 +161,8 @@ Spread find_spread(std::string path, const std::vector<double>& values,
   Eigen::Index smallest = 0, largest = 0;
   spread.smallest = all.minCoeff(&smallest);
   spread.largest = all.maxCoeff(&largest);
-  spread.member_of_smallest = members[static_cast<std::size_t>(smallest)];
-  spread.member_of_largest = members[static_cast<std::size_t>(largest)];
+  spread.member_of_smallest = members[smallest];
+  spread.member_of_largest = members[largest];
   for (const double share : {0.01, 0.05, 0.5, 0.95, 0.99})
     spread.quantiles.push_back(find_quantile(values, share));
   spread.extremes = worse_when_smaller ? fit_minima(values) : fit_extremes(values);
@@ -171,8 +170,7 @@ Spread find_spread(std::string path, const std::vector<double>& values,
   spread.rank_correlation.resize(design.cols());
   for (Eigen::Index v = 0; v < design.cols(); ++v) {
     Eigen::VectorXd inputs(all.size());
-    for (Eigen::Index i = 0; i < all.size(); ++i)
-      inputs[i] = design(members[static_cast<std::size_t>(i)], v);
+    for (Eigen::Index i = 0; i < all.size(); ++i) inputs[i] = design(members[i], v);
     spread.rank_correlation[v] = correlation(ranks_of(inputs), ranks);
   }
   return spread;

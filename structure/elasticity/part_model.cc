@@ -134,7 +134,7 @@ void add_surface_load(const PartMesh& mesh, const SurfaceLoad& load, Eigen::Vect
 }
 
 double density_of(const PartModel& model, std::size_t solid) {
-  return model.materials[at(model.material_of_solid[solid])].density;
+  return model.materials[model.material_of_solid[solid]].density;
 }
 
 void add_body_load(const PartModel& model, const BodyLoad& load, Eigen::VectorXd& forces) {
@@ -154,9 +154,9 @@ void add_body_load(const PartModel& model, const BodyLoad& load, Eigen::VectorXd
 }  // namespace
 
 Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid) {
-  const int element = model.mesh.solids[at(solid)];
+  const int element = model.mesh.solids[solid];
   return solid_stiffness(model.mesh.kind(element), model.mesh.places(element),
-                         model.materials[at(model.material_of_solid[at(solid)])]);
+                         model.materials[model.material_of_solid[solid]]);
 }
 
 PartMass find_part_mass(const PartModel& model) {
@@ -191,7 +191,7 @@ std::vector<FixedUnknown> part_supports(const PartModel& model, std::vector<int>
     for (const int element : group.elements)
       for (int i = 0; i < model.mesh.kind(element).nodes; ++i)
         for (int axis = 0; axis < 3; ++axis) {
-          if (!support.fixed[at(axis)]) continue;
+          if (!support.fixed[axis]) continue;
           const int unknown = 3 * model.mesh.node(element, i) + axis;
           const auto [known, is_new] = place_of_unknown.try_emplace(unknown, fixed.size());
           if (is_new) {
@@ -200,7 +200,7 @@ std::vector<FixedUnknown> part_supports(const PartModel& model, std::vector<int>
           } else if (fixed[known->second].value != support.displacement[axis]) {
             throw ModelError(fmt::format(
                 "supports {} and {} give the same nodes different displacements along {}",
-                model.supports[at(support_of[known->second])].name, support.name, "xyz"[axis]));
+                model.supports[support_of[known->second]].name, support.name, "xyz"[axis]));
           }
         }
   }
@@ -209,12 +209,12 @@ std::vector<FixedUnknown> part_supports(const PartModel& model, std::vector<int>
 
 std::vector<FixedUnknown> with_idle_nodes(const PartModel& model, std::vector<FixedUnknown> fixed) {
   std::vector<char> held(at(static_cast<int>(3 * model.mesh.nodes.cols())), 0);
-  for (const FixedUnknown& unknown : fixed) held[at(unknown.unknown)] = 1;
+  for (const FixedUnknown& unknown : fixed) held[unknown.unknown] = 1;
   const std::vector<int> body = connected_bodies(model.mesh);
   for (std::size_t node = 0; node < body.size(); ++node)
     for (int a = 0; a < 3; ++a) {
       const int unknown = 3 * static_cast<int>(node) + a;
-      if (body[node] < 0 && !held[at(unknown)]) fixed.push_back({unknown, 0});
+      if (body[node] < 0 && !held[unknown]) fixed.push_back({unknown, 0});
     }
   return fixed;
 }

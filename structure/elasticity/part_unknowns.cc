@@ -3,7 +3,6 @@
 #include <functional>
 
 #include "structure/formulation/solid.h"
-#include "structure/index.h"
 #include "structure/system/assembly.h"
 
 namespace blocklift::structure {
@@ -49,7 +48,7 @@ PartUnknowns::PartUnknowns(const PartMesh& mesh) {
 }
 
 std::vector<int> PartUnknowns::of_solid(const PartMesh& mesh, int solid) const {
-  const int element = mesh.solids[at(solid)];
+  const int element = mesh.solids[solid];
   std::vector<int> unknowns;
   for (int i = 0; i < mesh.kind(element).nodes; ++i)
     for (int a = 0; a < 3; ++a) unknowns.push_back(of(3 * mesh.node(element, i) + a));
@@ -88,9 +87,9 @@ SparseLower assemble_part_stiffness(const PartModel& model, const PartUnknowns& 
 
 SparseLower assemble_part_mass(const PartModel& model, const PartUnknowns& unknowns, int threads) {
   return assemble_solids(model, unknowns, threads, [&](int solid) {
-    const int element = model.mesh.solids[at(solid)];
+    const int element = model.mesh.solids[solid];
     return solid_mass(model.mesh.kind(element), model.mesh.places(element),
-                      model.materials[at(model.material_of_solid[at(solid)])].density);
+                      model.materials[model.material_of_solid[solid]].density);
   });
 }
 

@@ -72,10 +72,10 @@ class Unions {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   int root(int i) {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void unite(int a, int b) { parent_[at(root(a))] = root(b); }
+  void unite(int a, int b) { parent_[root(a)] = root(b); }
 
  private:
   std::vector<int> parent_;
@@ -85,7 +85,7 @@ std::vector<Piece> find_pieces(const PartMesh& mesh, const std::vector<int>& bod
   Unions unions(mesh.solids.size());
   std::map<std::vector<int>, int> solid_of_face;
   for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
-    const int element = mesh.solids[at(s)];
+    const int element = mesh.solids[s];
     for (const std::vector<int>& face : abaqus_faces(at(mesh.kind(element).corners))) {
       std::vector<int> nodes;
       for (const int corner : face) nodes.push_back(mesh.node(element, corner));
@@ -98,8 +98,8 @@ std::vector<Piece> find_pieces(const PartMesh& mesh, const std::vector<int>& bod
   std::vector<Piece> pieces;
   for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
     const auto [entry, is_new] = place.try_emplace(unions.root(s), pieces.size());
-    const int element = mesh.solids[at(s)];
-    if (is_new) pieces.push_back({body_of_node[at(mesh.node(element, 0))], {}});
+    const int element = mesh.solids[s];
+    if (is_new) pieces.push_back({body_of_node[mesh.node(element, 0)], {}});
     pieces[entry->second].solids.push_back(element);
   }
   return pieces;
@@ -207,8 +207,7 @@ RigidFreedom find_rigid_freedom(const PartModel& model, const std::vector<FixedU
   }
   for (const FixedUnknown& unknown : fixed) {
     const int node = unknown.unknown / 3;
-    if (body_of_node[at(node)] >= 0)
-      bodies.at(body_of_node[at(node)]).hold(node, unknown.unknown % 3);
+    if (body_of_node[node] >= 0) bodies.at(body_of_node[node]).hold(node, unknown.unknown % 3);
   }
   RigidFreedom freedom;
   for (const auto& entry : bodies) entry.second.find(bodies.size() > 1, freedom);

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/space/joints.h"
 
 namespace blocklift::structure {
@@ -39,13 +38,12 @@ std::vector<double> lagrange_slopes(int degree, double x) {
 
 /// Stiffness of a beam's cell as if both ends passed everything on.
 Eigen::MatrixXd whole_stiffness(const Space& space, int cell) {
-  const BeamCell& located = space.beams()[at(cell)];
+  const BeamCell& located = space.beams()[cell];
   const Mesh& mesh = space.mesh();
-  const Beam& beam = mesh.beams[at(located.beam)];
+  const Beam& beam = mesh.beams[located.beam];
   const auto law_at = [&](double xi) {
     const BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
-    Eigen::Matrix<double, 6, 6> law =
-        beam_stiffness_law(mesh.materials[at(section.material)], section);
+    Eigen::Matrix<double, 6, 6> law = beam_stiffness_law(mesh.materials[section.material], section);
     if (beam.is_rod) {
       law.diagonal().segment<2>(1).setZero();
       law.bottomRightCorner<2, 2>().setZero();
@@ -65,8 +63,8 @@ Eigen::MatrixXd whole_stiffness(const Space& space, int cell) {
 
 /// Motions of a cell's ends that its releases leave to themselves, a column each.
 Eigen::MatrixXd released_motions(const Space& space, int cell) {
-  const BeamCell& located = space.beams()[at(cell)];
-  const Beam& beam = space.mesh().beams[at(located.beam)];
+  const BeamCell& located = space.beams()[cell];
+  const Beam& beam = space.mesh().beams[located.beam];
   const Eigen::Matrix3d axes = beam_axes(space.mesh(), beam);
   Eigen::MatrixXd directions(6 * (located.degree + 1), 0);
   for (std::size_t end = 0; end < 2; ++end) {
@@ -75,7 +73,7 @@ Eigen::MatrixXd released_motions(const Space& space, int cell) {
     if (!is_here) continue;
     const Eigen::Index node = end == 0 ? 0 : 6 * located.degree;
     for (int c = 0; c < 6; ++c) {
-      if (!beam.release[end][at(c)]) continue;
+      if (!beam.release[end][c]) continue;
       // Motion of the centroid's end: about an offset end a rotation moves it too.
       Eigen::VectorXd direction = Eigen::VectorXd::Zero(directions.rows());
       direction.segment<3>(node + (c < 3 ? 0 : 3)) = axes.row(c % 3).transpose();
@@ -92,8 +90,8 @@ Eigen::MatrixXd released_motions(const Space& space, int cell) {
 /// its own.
 void require_held(const Mesh& mesh, const Beam& beam) {
   const Eigen::Matrix3d axes = beam_axes(mesh, beam);
-  const Vector3 ends[2] = {mesh.vertices[at(beam.vertices[0])] + beam.offset[0],
-                           mesh.vertices[at(beam.vertices[1])] + beam.offset[1]};
+  const Vector3 ends[2] = {mesh.vertices[beam.vertices[0]] + beam.offset[0],
+                           mesh.vertices[beam.vertices[1]] + beam.offset[1]};
   const Vector3 middle = (ends[0] + ends[1]) / 2;
   const double length = (ends[1] - ends[0]).norm();
   // What held components of the centroid's ends do in the six rigid motions, rotations times half
@@ -101,7 +99,7 @@ void require_held(const Mesh& mesh, const Beam& beam) {
   Eigen::MatrixXd held(0, 6);
   for (std::size_t end = 0; end < 2; ++end)
     for (int c = 0; c < 6; ++c) {
-      if (beam.release[end][at(c)]) continue;
+      if (beam.release[end][c]) continue;
       const Vector3 axis = axes.row(c % 3).transpose();
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(6);
       if (c < 3)
@@ -131,8 +129,8 @@ Eigen::MatrixXd motion_with_releases(const Eigen::MatrixXd& stiffness,
 }  // namespace
 
 Eigen::Matrix3d beam_axes(const Mesh& mesh, const Beam& beam) {
-  const Vector3 along = (mesh.vertices[at(beam.vertices[1])] + beam.offset[1] -
-                         mesh.vertices[at(beam.vertices[0])] - beam.offset[0])
+  const Vector3 along = (mesh.vertices[beam.vertices[1]] + beam.offset[1] -
+                         mesh.vertices[beam.vertices[0]] - beam.offset[0])
                             .normalized();
   Eigen::Matrix3d axes;
   axes.row(0) = along;
@@ -142,8 +140,8 @@ Eigen::Matrix3d beam_axes(const Mesh& mesh, const Beam& beam) {
 }
 
 BeamPoint beam_point(const Space& space, int cell, double xi) {
-  const BeamCell& located = space.beams()[at(cell)];
-  const Beam& beam = space.mesh().beams[at(located.beam)];
+  const BeamCell& located = space.beams()[cell];
+  const Beam& beam = space.mesh().beams[located.beam];
   const Eigen::Matrix3d axes = beam_axes(space.mesh(), beam);
   const auto values = lagrange_values(located.degree, xi);
   const auto slopes = lagrange_slopes(located.degree, xi);
@@ -193,7 +191,7 @@ Eigen::MatrixXd beam_stiffness(const Space& space, int cell) {
   Eigen::MatrixXd whole = whole_stiffness(space, cell);
   const Eigen::MatrixXd directions = released_motions(space, cell);
   if (directions.cols() == 0) return whole;
-  const Beam& beam = space.mesh().beams[at(space.beams()[at(cell)].beam)];
+  const Beam& beam = space.mesh().beams[space.beams()[cell].beam];
   const Eigen::MatrixXd motion = motion_with_releases(whole, directions, space.mesh(), beam);
   return motion.transpose() * whole * motion;
 }
@@ -202,7 +200,7 @@ Eigen::MatrixXd beam_motion(const Space& space, int cell) {
   const Eigen::MatrixXd directions = released_motions(space, cell);
   if (directions.cols() == 0)
     return Eigen::MatrixXd::Identity(directions.rows(), directions.rows());
-  const Beam& beam = space.mesh().beams[at(space.beams()[at(cell)].beam)];
+  const Beam& beam = space.mesh().beams[space.beams()[cell].beam];
   return motion_with_releases(whole_stiffness(space, cell), directions, space.mesh(), beam);
 }
 

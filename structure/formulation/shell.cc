@@ -83,7 +83,7 @@ std::vector<Shapes> tabulate(const Space::Implementation& own, const Eigen::Matr
     Shapes at_point{Eigen::RowVectorXd(nodes), Eigen::RowVectorXd(nodes),
                     Eigen::RowVectorXd(nodes)};
     for (Eigen::Index i = 0; i < nodes; ++i) {
-      const unsigned node = own.shell_order[at(i)];
+      const unsigned node = own.shell_order[i];
       const auto gradient = own.shell_element.shape_grad(node, xi);
       at_point.value[i] = own.shell_element.shape_value(node, xi);
       at_point.d_1[i] = gradient[0];
@@ -249,8 +249,7 @@ struct ShellOperator::TiedStrains {
   static Eigen::Matrix2Xd grid(const std::vector<double>& x, const std::vector<double>& y) {
     Eigen::Matrix2Xd points(2, static_cast<Eigen::Index>(x.size() * y.size()));
     for (std::size_t j = 0; j < y.size(); ++j)
-      for (std::size_t i = 0; i < x.size(); ++i)
-        points.col(static_cast<Eigen::Index>(j * x.size() + i)) << x[i], y[j];
+      for (std::size_t i = 0; i < x.size(); ++i) points.col(j * x.size() + i) << x[i], y[j];
     return points;
   }
   static Eigen::MatrixXd weights(const std::vector<double>& x, const std::vector<double>& y,
@@ -318,7 +317,7 @@ ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points,
   const auto tie = [&](const std::vector<double>& x, const std::vector<double>& y,
                        const std::vector<ShellStrain>& strains) {
     ties_.emplace_back(space, x, y, strains, points, mean_->rule.topRows<2>());
-    for (const ShellStrain strain : strains) is_tied_[at(strain)] = true;
+    for (const ShellStrain strain : strains) is_tied_[strain] = true;
   };
   if (space.degree() == 1) {
     tie({0.5}, {0.0, 1.0}, {shear_1});
@@ -332,12 +331,12 @@ ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points,
 }
 
 void ShellOperator::reinit(int cell) {
-  const auto& iterator = space_.implementation().shell_cells[at(cell)];
+  const auto& iterator = space_.implementation().shell_cells[cell];
   table_->values.reinit(iterator);
   mean_->table.values.reinit(iterator);
   for (TiedStrains& tie : ties_) tie.table->values.reinit(iterator);
 
-  const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
+  const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
   const double offset = space_.mesh().section_of(shell).offset;
   // One direction for the whole cell, so that components can be compared and averaged in it.
   const Vector3 along = space_.place(cell, {1, 0.5}) - space_.place(cell, {0, 0.5});
@@ -350,7 +349,7 @@ void ShellOperator::reinit(int cell) {
     ShellPoint& point = points_[q];
     point.strain.resize(shell_strains, 6 * space_.nodes_per_shell());
     for (int strain = 0; strain < shell_strains; ++strain)
-      if (!is_tied_[at(strain)])
+      if (!is_tied_[strain])
         covariant_strain(surface, table_->shapes[q], static_cast<ShellStrain>(strain), offset,
                          point.strain.row(strain));
     point.place = to_vector(table_->values.quadrature_point(static_cast<unsigned>(q)));
@@ -396,7 +395,7 @@ void ShellOperator::tie_strains(double offset) {
   row.resize(6 * space_.nodes_per_shell());
   for (ShellPoint& point : points_)
     for (int strain = 0; strain < shell_strains; ++strain)
-      if (is_tied_[at(strain)]) point.strain.row(strain).setZero();
+      if (is_tied_[strain]) point.strain.row(strain).setZero();
   for (const TiedStrains& tie : ties_)
     for (std::size_t k = 0; k < tie.table->shapes.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
@@ -442,7 +441,7 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Me
   Eigen::Matrix<double, shell_strains, shell_strains> law =
       shell_stiffness_law(mesh.material_of(shell), section.thickness);
   if (section.laminate < 0) return law;
-  const Laminate& laminate = mesh.laminates[at(section.laminate)];
+  const Laminate& laminate = mesh.laminates[section.laminate];
   law.block<3, 3>(membrane_11, membrane_11) = laminate.membrane;
   law.block<3, 3>(membrane_11, curvature_11) = law.block<3, 3>(curvature_11, membrane_11) =
       laminate.coupling;
@@ -466,7 +465,7 @@ ShellStiffness::ShellStiffness(const Space& space)
       operator_(space, square_rule(space.degree() + 1).topRows<2>()) {}
 
 const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
-  const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
+  const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
   operator_.reinit(cell);
   const std::vector<ShellPoint>& points = operator_.points();
   const bool is_layered = space_.mesh().section_of(shell).laminate >= 0;
@@ -492,7 +491,7 @@ Eigen::Matrix3Xd square_rule(int count) {
   const dealii::QGauss<2> rule(static_cast<unsigned>(count));
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(rule.size()));
   for (unsigned q = 0; q < rule.size(); ++q)
-    points.col(static_cast<Eigen::Index>(q)) << rule.point(q)[0], rule.point(q)[1], rule.weight(q);
+    points.col(q) << rule.point(q)[0], rule.point(q)[1], rule.weight(q);
   return points;
 }
 

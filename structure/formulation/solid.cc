@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 
-#include "structure/index.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -30,7 +29,7 @@ Eigen::MatrixXd strain_operator(const Eigen::Matrix3Xd& g) {
 
 std::vector<SolidPoint> solid_points(const ElementKind& kind, const Eigen::Matrix3Xd& places) {
   std::vector<SolidPoint> points;
-  points.reserve(static_cast<std::size_t>(kind.weights.size()));
+  points.reserve(kind.weights.size());
   for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
     const auto by_unit = kind.gradients.middleRows<3>(3 * q);
     const Eigen::Matrix3d jacobian = places * by_unit.transpose();
@@ -49,13 +48,10 @@ Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd&
   // Of each axis the slopes at all points and weighted ones: products of long rows are fast.
   std::array<Eigen::MatrixXd, 3> slopes, weighted;
   for (std::size_t a = 0; a < 3; ++a) {
-    slopes[a].resize(static_cast<Eigen::Index>(points.size()), n);
-    for (std::size_t q = 0; q < points.size(); ++q)
-      slopes[a].row(static_cast<Eigen::Index>(q)) =
-          points[q].gradients.row(static_cast<Eigen::Index>(a));
+    slopes[a].resize(points.size(), n);
+    for (std::size_t q = 0; q < points.size(); ++q) slopes[a].row(q) = points[q].gradients.row(a);
     weighted[a] = slopes[a];
-    for (std::size_t q = 0; q < points.size(); ++q)
-      weighted[a].row(static_cast<Eigen::Index>(q)) *= points[q].weight;
+    for (std::size_t q = 0; q < points.size(); ++q) weighted[a].row(q) *= points[q].weight;
   }
   Eigen::MatrixXd stiffness(3 * n, 3 * n);
   using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, Eigen::Dynamic>>;
@@ -65,7 +61,7 @@ Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd&
   Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n);
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b <= a; ++b) {
-      const Eigen::MatrixXd product = weighted[at(a)].transpose() * slopes[at(b)];
+      const Eigen::MatrixXd product = weighted[a].transpose() * slopes[b];
       block(a, b) = lambda * product + mu * product.transpose();
       if (a == b)
         laplacian += product;
@@ -105,15 +101,14 @@ std::vector<SolidPoint> solid_points(const Mesh& mesh, const Solid& solid) {
 Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid) {
   const ElementKind& kind = topology_of(solid.shape).kind;
   const Eigen::Matrix3Xd places = places_of(mesh, solid);
-  return solid.elasticity >= 0
-             ? solid_stiffness(kind, places, mesh.elasticities[at(solid.elasticity)])
-             : solid_stiffness(kind, places, mesh.materials[at(solid.material)]);
+  return solid.elasticity >= 0 ? solid_stiffness(kind, places, mesh.elasticities[solid.elasticity])
+                               : solid_stiffness(kind, places, mesh.materials[solid.material]);
 }
 
 Eigen::MatrixXd solid_stresses(const Space& space, int solid,
                                const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Mesh& mesh = space.mesh();
-  const Solid& element = mesh.solids[at(solid)];
+  const Solid& element = mesh.solids[solid];
   const Elasticity law = elasticity_of(mesh, element);
   const int* nodes = space.solid_nodes(solid);
   Eigen::MatrixXd local(3 * static_cast<Eigen::Index>(element.vertices.size()), motions.cols());
@@ -130,7 +125,7 @@ Eigen::MatrixXd solid_stresses(const Space& space, int solid,
 
 Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
                                       const Eigen::Ref<const Eigen::MatrixXd>& motions) {
-  const Eigen::MatrixXd& to_corners = topology_of(space.mesh().solids[at(solid)].shape).to_corners;
+  const Eigen::MatrixXd& to_corners = topology_of(space.mesh().solids[solid].shape).to_corners;
   const Eigen::MatrixXd at_points = solid_stresses(space, solid, motions);
   Eigen::MatrixXd at_corners = Eigen::MatrixXd::Zero(6 * to_corners.rows(), motions.cols());
   for (Eigen::Index q = 0; q < to_corners.cols(); ++q)

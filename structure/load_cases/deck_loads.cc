@@ -7,7 +7,6 @@
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
-#include "structure/index.h"
 #include "structure/space/joints.h"
 
 namespace blocklift::structure {
@@ -26,7 +25,7 @@ class LoadAdder {
     if (node < 0) {
       const auto& labels = space_.mesh().vertex_labels;
       throw ModelError(fmt::format("a force acts at node {}, which nothing is joined to",
-                                   labels.empty() ? point.vertex + 1L : labels[at(point.vertex)]));
+                                   labels.empty() ? point.vertex + 1L : labels[point.vertex]));
     }
     load_.segment<3>(row_of(node)) += factor * point.force;
     load_.segment<3>(row_of(node) + 3) += factor * point.moment;
@@ -36,16 +35,16 @@ class LoadAdder {
     if (set.plate_loads.empty()) return;
     std::vector<std::vector<int>> of_shell(space_.mesh().shells.size());
     for (std::size_t i = 0; i < set.plate_loads.size(); ++i)
-      of_shell[at(set.plate_loads[i].shell)].push_back(static_cast<int>(i));
+      of_shell[set.plate_loads[i].shell].push_back(static_cast<int>(i));
     const Eigen::Matrix3Xd rule = square_rule(space_.degree() + 1);
     ShellOperator shells(space_, rule.topRows<2>());
     for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell) {
-      const auto& loads = of_shell[at(space_.shells()[at(cell)].shell)];
+      const auto& loads = of_shell[space_.shells()[cell].shell];
       if (loads.empty()) continue;
       shells.reinit(cell);
       for (Eigen::Index q = 0; q < rule.cols(); ++q)
         for (const int i : loads)
-          add_pressure(set.plate_loads[at(i)], cell, rule.col(q), shells.points()[at(q)], factor);
+          add_pressure(set.plate_loads[i], cell, rule.col(q), shells.points()[q], factor);
     }
   }
 
@@ -56,9 +55,9 @@ class LoadAdder {
     const auto& vertices = space_.mesh().vertices;
     for (const BeamCell& cell : space_.beams()) {
       if (cell.beam != along.beam) continue;
-      const Beam& beam = space_.mesh().beams[at(cell.beam)];
+      const Beam& beam = space_.mesh().beams[cell.beam];
       const double length =
-          cell.size * (vertices[at(beam.vertices[1])] - vertices[at(beam.vertices[0])]).norm();
+          cell.size * (vertices[beam.vertices[1]] - vertices[beam.vertices[0]]).norm();
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
         const std::vector<double> values = lagrange_values(cell.degree, rule(0, q));
         for (std::size_t i = 0; i < values.size(); ++i)
@@ -71,7 +70,7 @@ class LoadAdder {
  private:
   void add_pressure(const PlateLoad& plate, int cell, const Vector3& point_of_rule,
                     const ShellPoint& point, double factor) {
-    const ShellCell& located = space_.shells()[at(cell)];
+    const ShellCell& located = space_.shells()[cell];
     const Eigen::Vector2d xi = located.origin + located.size * point_of_rule.head<2>();
     const double pressure = (1 - xi.x()) * (1 - xi.y()) * plate.pressure[0] +
                             xi.x() * (1 - xi.y()) * plate.pressure[1] +
@@ -95,7 +94,7 @@ Eigen::VectorXd load_of(const ElasticModel& model, const Deck& deck,
   Eigen::VectorXd load = Eigen::VectorXd::Zero(model.freedoms());
   LoadAdder adder(model.space(), load);
   for (const auto& [place, factor] : load_case.loads) {
-    const LoadSet& set = deck.load_sets[at(place)];
+    const LoadSet& set = deck.load_sets[place];
     for (const PointLoad& point : set.point_loads) adder.add(point, factor);
     adder.add_plates(set, factor);
     for (const BeamLoad& along : set.beam_loads) adder.add(along, factor);

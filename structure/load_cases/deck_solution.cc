@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/load_cases/deck_loads.h"
 #include "structure/load_cases/deck_supports.h"
 #include "structure/response/block_error.h"
@@ -29,7 +28,7 @@ using CasesOfSupports = std::map<std::vector<int>, std::vector<int>>;
 std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets) {
   std::vector<Support> supports;
   for (const int set : sets) {
-    const auto& of_set = deck.support_sets[at(set)].supports;
+    const auto& of_set = deck.support_sets[set].supports;
     supports.insert(supports.end(), of_set.begin(), of_set.end());
   }
   return supports;
@@ -45,7 +44,7 @@ std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets)
 Vector3 place_between(const Mesh& mesh, const HeldDirection& held) {
   Vector3 place = Vector3::Zero();
   for (const auto& [vertex, share] : held.holders)
-    if (vertex >= 0) place += share * mesh.vertices[at(vertex)];
+    if (vertex >= 0) place += share * mesh.vertices[vertex];
   return place;
 }
 
@@ -60,7 +59,7 @@ std::vector<SupportReaction> reactions_at(const Space& space,
       if (vertex < 0) continue;
       SupportReaction& reaction = of_vertex[vertex];
       reaction.vertex = vertex;
-      const Vector3 vector = share * forces[static_cast<Eigen::Index>(i)] * held.axis;
+      const Vector3 vector = share * forces[i] * held.axis;
       if (held.is_rotation) {
         reaction.moment += vector;
         continue;
@@ -80,7 +79,7 @@ void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& s
   solution.applied = resultant(space, load);
   double forces = 0, moments = 0;
   for (const SupportReaction& reaction : solution.reactions) {
-    const Vector3& place = space.mesh().vertices[at(reaction.vertex)];
+    const Vector3& place = space.mesh().vertices[reaction.vertex];
     const Vector3 moment = place.cross(reaction.force) + reaction.moment;
     solution.supported.force += reaction.force;
     solution.supported.moment += moment;
@@ -106,11 +105,11 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
       for (const int load_case : cases) result.skipped.push_back({load_case, false});
       return;
     }
-    refuse_loose(space, deck.load_cases[at(cases.front())], loose.unknown);
+    refuse_loose(space, deck.load_cases[cases.front()], loose.unknown);
   }
   Eigen::MatrixXd loads(model.freedoms(), static_cast<Eigen::Index>(cases.size()));
   for (std::size_t c = 0; c < cases.size(); ++c)
-    loads.col(static_cast<Eigen::Index>(c)) = load_of(model, deck, deck.load_cases[at(cases[c])]);
+    loads.col(c) = load_of(model, deck, deck.load_cases[cases[c]]);
   const Eigen::MatrixXd acting = space.reduce(loads);
   const Eigen::MatrixXd unknowns = system.solve(acting);
   const Eigen::MatrixXd forces = system.reactions(unknowns, acting);
@@ -179,11 +178,11 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
   if (result.cases.empty()) return result;
   const auto count = static_cast<Eigen::Index>(result.cases.size());
   Eigen::MatrixXd motions(model.freedoms(), count);
-  for (Eigen::Index c = 0; c < count; ++c) motions.col(c) = result.cases[at(c)].motion;
+  for (Eigen::Index c = 0; c < count; ++c) motions.col(c) = result.cases[c].motion;
   std::vector<LoadCaseResult> stresses =
       MotionStress(model, motions, {}).evaluate(Eigen::MatrixXd::Identity(count, count), motions);
   for (std::size_t c = 0; c < stresses.size(); ++c) {
-    stresses[c].name = name_of(deck.load_cases[at(result.cases[c].load_case)]);
+    stresses[c].name = name_of(deck.load_cases[result.cases[c].load_case]);
     result.cases[c].stress = std::move(stresses[c]);
   }
   return result;

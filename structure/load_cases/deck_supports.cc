@@ -31,8 +31,8 @@ AxesOfVertices held_axes(const std::vector<Support>& supports) {
   AxesOfVertices axes;
   for (const Support& support : supports)
     for (Eigen::Index c = 0; c < 6; ++c) {
-      if (!support.held[at(c)]) continue;
-      HeldAxis held{support.axes.col(c % 3), c >= 3, support.value[at(c)]};
+      if (!support.held[c]) continue;
+      HeldAxis held{support.axes.col(c % 3), c >= 3, support.value[c]};
       auto& of_vertex = axes[support.vertex];
       // A deck may say the same twice: the last word counts.
       const auto same = std::find_if(of_vertex.begin(), of_vertex.end(), [&](const HeldAxis& one) {
@@ -68,8 +68,8 @@ class Holder {
 
  private:
   void hold_shell(int cell) {
-    const ShellCell& located = space_.shells()[at(cell)];
-    const auto& corners = space_.mesh().shells[at(located.shell)].vertices;
+    const ShellCell& located = space_.shells()[cell];
+    const auto& corners = space_.mesh().shells[located.shell].vertices;
     const std::vector<double> places = lagrange_places(space_.degree());
     const int* node = space_.shell_nodes(cell);
     for (const double y : places)
@@ -84,7 +84,7 @@ class Holder {
   }
 
   void hold_beam(const BeamCell& cell) {
-    const auto& ends = space_.mesh().beams[at(cell.beam)].vertices;
+    const auto& ends = space_.mesh().beams[cell.beam].vertices;
     const std::vector<double> places = lagrange_places(cell.degree);
     for (std::size_t i = 0; i < places.size(); ++i)
       hold_between(cell.nodes[i], ends[0], ends[1], cell.origin + cell.size * places[i]);
@@ -95,8 +95,8 @@ class Holder {
     const SolidTopology& topology = topology_of(solid.shape);
     const int* nodes = space_.solid_nodes(static_cast<int>(number));
     for (std::size_t edge = 0; edge < topology.edges.size(); ++edge)
-      hold_between(nodes[at(topology.corners) + edge], solid.vertices[at(topology.edges[edge][0])],
-                   solid.vertices[at(topology.edges[edge][1])], 0.5);
+      hold_between(nodes[at(topology.corners) + edge], solid.vertices[topology.edges[edge][0]],
+                   solid.vertices[topology.edges[edge][1]], 0.5);
   }
 
   void hold_between(int node, int from, int to, double share) {

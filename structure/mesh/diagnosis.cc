@@ -71,10 +71,8 @@ class Doctor {
     return known == nullptr ? 0 : known->count;
   }
 
-  const Vector3& vertex(int i) const { return mesh_.vertices[at(i)]; }
-  long label(int i) const {
-    return mesh_.vertex_labels.empty() ? i + 1 : mesh_.vertex_labels[at(i)];
-  }
+  const Vector3& vertex(int i) const { return mesh_.vertices[i]; }
+  long label(int i) const { return mesh_.vertex_labels.empty() ? i + 1 : mesh_.vertex_labels[i]; }
 
   /// Vertices around a shell: four, or three.
   static std::vector<int> around(const Shell& shell) {
@@ -93,19 +91,19 @@ class Doctor {
   void find_used() {
     used_.assign(mesh_.vertices.size(), 0);
     for (const Shell& shell : mesh_.shells)
-      for (const int v : shell.vertices) used_[at(v)] = 1;
+      for (const int v : shell.vertices) used_[v] = 1;
     for (const Beam& beam : mesh_.beams)
-      for (const int v : beam.vertices) used_[at(v)] = 1;
+      for (const int v : beam.vertices) used_[v] = 1;
     for (const Solid& solid : mesh_.solids)
-      for (const int v : solid.vertices) used_[at(v)] = 1;
+      for (const int v : solid.vertices) used_[v] = 1;
     for_each_link(mesh_, [&](const std::vector<int>& vertices, long) {
-      for (const int v : vertices) used_[at(v)] = 1;
+      for (const int v : vertices) used_[v] = 1;
     });
     for (const Spring& spring : mesh_.springs)
       for (const int v : spring.vertices)
-        if (v >= 0) used_[at(v)] = 1;
-    for (const SurfacePoint& point : mesh_.surface_points) used_[at(point.vertex)] = 1;
-    for (const PointMass& mass : mesh_.masses) used_[at(mass.vertex)] = 1;
+        if (v >= 0) used_[v] = 1;
+    for (const SurfacePoint& point : mesh_.surface_points) used_[point.vertex] = 1;
+    for (const PointMass& mass : mesh_.masses) used_[mass.vertex] = 1;
     find_middles();
   }
 
@@ -222,7 +220,7 @@ class Doctor {
       if (end - i == 1) {
         ++result_.free_edges;
         result_.free_edge_length += (b - a).norm();
-        add("free edges", Severity::note, mesh_.shells[at(edges[i].shell)].label, (a + b) / 2);
+        add("free edges", Severity::note, mesh_.shells[edges[i].shell].label, (a + b) / 2);
       } else if (end - i == 2) {
         check_normals(edges[i], edges[i + 1], (a + b) / 2);
       }
@@ -237,13 +235,13 @@ class Doctor {
   void check_normals(const ShellEdge& one, const ShellEdge& other, const Vector3& place) {
     if (one.shell == other.shell || one.is_forward != other.is_forward) return;
     const auto normal = [&](int shell) -> Vector3 {
-      const auto& v = mesh_.shells[at(shell)].vertices;
+      const auto& v = mesh_.shells[shell].vertices;
       return (vertex(v[3]) - vertex(v[0])).cross(vertex(v[2]) - vertex(v[1])).normalized();
     };
     // Seen from one side, both run along the edge the same way: one of them is turned over. Where
     // they meet at an angle, which side is whose is a matter of taste.
     if (normal(one.shell).dot(normal(other.shell)) < -std::sqrt(0.5))
-      add("opposed normals", Severity::warning, mesh_.shells[at(one.shell)].label, place);
+      add("opposed normals", Severity::warning, mesh_.shells[one.shell].label, place);
   }
 
   void check_parts() {
@@ -252,14 +250,14 @@ class Doctor {
     if (result_.parts > 1) {
       std::vector<int> vertices(at(result_.parts), 0);
       for (const int p : part)
-        if (p >= 0) ++vertices[at(p)];
+        if (p >= 0) ++vertices[p];
       const int main =
           static_cast<int>(std::max_element(vertices.begin(), vertices.end()) - vertices.begin());
       std::vector<char> seen(at(result_.parts), 0);
       const auto see = [&](int v, long cell) {
-        const int p = part[at(v)];
-        if (p < 0 || p == main || seen[at(p)] != 0) return;
-        seen[at(p)] = 1;
+        const int p = part[v];
+        if (p < 0 || p == main || seen[p] != 0) return;
+        seen[p] = 1;
         add("unconnected parts", Severity::error, cell, vertex(v));
       };
       for (const Shell& shell : mesh_.shells) see(shell.vertices[0], shell.label);
@@ -274,7 +272,7 @@ class Doctor {
           count("unconnected parts"));
     }
     for (const PointMass& mass : mesh_.masses)
-      if (part[at(mass.vertex)] < 0)
+      if (part[mass.vertex] < 0)
         add("masses of nothing", Severity::error, mass.label, vertex(mass.vertex));
     say("masses of nothing", "{} point masses are at vertices that nothing carries",
         count("masses of nothing"));
@@ -377,7 +375,7 @@ class Doctor {
     }
     std::sort(cells.begin(), cells.end());
     for (std::size_t i = 1; i < cells.size(); ++i) {
-      const Shell& shell = mesh_.shells[at(cells[i].second)];
+      const Shell& shell = mesh_.shells[cells[i].second];
       if (cells[i].first == cells[i - 1].first)
         add("duplicated shells", Severity::warning, shell.label, centre(shell));
     }
@@ -390,7 +388,7 @@ class Doctor {
     }
     std::sort(lines.begin(), lines.end());
     for (std::size_t i = 1; i < lines.size(); ++i) {
-      const Beam& beam = mesh_.beams[at(lines[i].second)];
+      const Beam& beam = mesh_.beams[lines[i].second];
       if (lines[i].first == lines[i - 1].first)
         add("duplicated beams", Severity::note, beam.label, vertex(beam.vertices[0]));
     }
@@ -417,14 +415,14 @@ class Doctor {
   void check_mechanisms() {
     std::vector<char> is_held(mesh_.vertices.size(), 0), has_beam(mesh_.vertices.size(), 0);
     for (const Shell& shell : mesh_.shells)
-      for (const int v : shell.vertices) is_held[at(v)] = 1;
-    for (const SurfacePoint& point : mesh_.surface_points) is_held[at(point.vertex)] = 1;
+      for (const int v : shell.vertices) is_held[v] = 1;
+    for (const SurfacePoint& point : mesh_.surface_points) is_held[point.vertex] = 1;
     for_each_link(mesh_, [&](const std::vector<int>& vertices, long) {
-      for (const int v : vertices) is_held[at(v)] = 1;
+      for (const int v : vertices) is_held[v] = 1;
     });
     std::unordered_map<int, Resistance> resistance;
     const auto resist = [&](int v, const Six& freedom) {
-      if (is_held[at(v)] != 0) return;
+      if (is_held[v] != 0) return;
       const auto [found, is_new] = resistance.try_emplace(v, Resistance::Zero());
       found->second += freedom * freedom.transpose();
     };
@@ -432,7 +430,7 @@ class Doctor {
       check_spin(beam);
       resist_by(beam, resist);
       if (!beam.is_rod)
-        for (const int v : beam.vertices) has_beam[at(v)] = 1;
+        for (const int v : beam.vertices) has_beam[v] = 1;
     }
     bool has_ground = false;
     for (const Spring& spring : mesh_.springs) {
@@ -466,7 +464,7 @@ class Doctor {
       const Eigen::Matrix3d moves = matrix.topLeftCorner<3, 3>();
       if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moves).eigenvalues()[0] < least)
         add("vertices free to move", Severity::error, label(v), vertex(v));
-      else if (has_beam[at(v)] != 0 &&
+      else if (has_beam[v] != 0 &&
                Eigen::SelfAdjointEigenSolver<Resistance>(matrix).eigenvalues()[0] < least)
         add("vertices free to turn", Severity::warning, label(v), vertex(v));
     }
@@ -500,8 +498,8 @@ class Doctor {
     for (std::size_t end = 0; end < 2; ++end)
       for (int i = 0; i < 6; ++i) {
         // What one end does not pass on in these, the other has nothing to push against.
-        if (i < 4 && (beam.release[0][at(i)] || beam.release[1][at(i)])) continue;
-        if (beam.release[end][at(i)] || (beam.is_rod && i != 0)) continue;
+        if (i < 4 && (beam.release[0][i] || beam.release[1][i])) continue;
+        if (beam.release[end][i] || (beam.is_rod && i != 0)) continue;
         if ((i == 1 && hinged_3) || (i == 2 && hinged_2)) continue;
         resist(beam.vertices[end], motion(axes.col(i % 3), beam.offset[end], i >= 3));
       }

@@ -4,8 +4,6 @@
 
 #include <Eigen/Dense>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -71,8 +69,8 @@ Elasticity isotropic_elasticity(const Material& material) {
 }
 
 Elasticity elasticity_of(const Mesh& mesh, const Solid& solid) {
-  return solid.elasticity >= 0 ? mesh.elasticities[at(solid.elasticity)]
-                               : isotropic_elasticity(mesh.materials[at(solid.material)]);
+  return solid.elasticity >= 0 ? mesh.elasticities[solid.elasticity]
+                               : isotropic_elasticity(mesh.materials[solid.material]);
 }
 
 }  // namespace blocklift::structure

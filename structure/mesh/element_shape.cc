@@ -55,7 +55,7 @@ ElementShape::ElementShape(const ElementKind& kind) : corners_(kind.corners) {
   if (kind.dimension != 3 || static_cast<int>(list.size()) != kind.nodes)
     throw ModelError("elements of kind " + kind.name + " are not known");
   exponents_.resize(4, kind.nodes);
-  for (int m = 0; m < kind.nodes; ++m) exponents_.col(m) = list[static_cast<std::size_t>(m)];
+  for (int m = 0; m < kind.nodes; ++m) exponents_.col(m) = list[m];
   Eigen::MatrixXd at_nodes(kind.nodes, kind.nodes);  // (monomial, node)
   for (int n = 0; n < kind.nodes; ++n) at_nodes.col(n) = monomials(exponents_, kind.local.col(n));
   coefficients_ = at_nodes.inverse();

@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -49,7 +47,7 @@ Eigen::MatrixXd basis(int type, const std::vector<double>& points, const char* f
   for (Eigen::Index q = 0; q < count; ++q)
     for (int n = 0; n < nodes; ++n)
       for (int c = 0; c < rows; ++c)
-        table(rows * q + c, n) = values[static_cast<std::size_t>((q * nodes + n) * components + c)];
+        table(rows * q + c, n) = values[(q * nodes + n) * components + c];
   return table;
 }
 
@@ -108,7 +106,7 @@ ElementKind tabulate_element(int type) {
                                           local, kind.corners);
   kind.local.setZero(3, kind.nodes);
   for (int n = 0; n < kind.nodes; ++n)
-    for (int a = 0; a < kind.dimension; ++a) kind.local(a, n) = local[at(n * kind.dimension + a)];
+    for (int a = 0; a < kind.dimension; ++a) kind.local(a, n) = local[n * kind.dimension + a];
   find_orders(kind);
   if (kind.dimension == 0) return kind;
   find_rule(type, kind);

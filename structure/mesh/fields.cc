@@ -11,8 +11,6 @@
 
 #include <Eigen/Dense>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -31,12 +29,12 @@ using EdgeKey = std::pair<int, int>;
 using EdgeMap = std::map<EdgeKey, std::vector<EdgeOfShell>>;
 
 int vertex_of(const Mesh& mesh, int shell, int corner) {
-  return mesh.shells[at(shell)].vertices[at(corner)];
+  return mesh.shells[shell].vertices[corner];
 }
 
 EdgeKey key_of(const Mesh& mesh, const EdgeOfShell& edge) {
-  return std::minmax(vertex_of(mesh, edge.shell, round_edges[at(edge.edge)][0]),
-                     vertex_of(mesh, edge.shell, round_edges[at(edge.edge)][1]));
+  return std::minmax(vertex_of(mesh, edge.shell, round_edges[edge.edge][0]),
+                     vertex_of(mesh, edge.shell, round_edges[edge.edge][1]));
 }
 
 EdgeMap collect_edges(const Mesh& mesh) {
@@ -50,10 +48,10 @@ EdgeMap collect_edges(const Mesh& mesh) {
 }
 
 Eigen::Matrix<double, 3, 2> tangents(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
-  const Shell& s = mesh.shells[at(shell)];
+  const Shell& s = mesh.shells[shell];
   Eigen::Matrix<double, 3, 2> g;
   if (s.curvature < 0) {
-    const auto v = [&](std::size_t i) { return mesh.vertices[at(s.vertices[i])]; };
+    const auto v = [&](std::size_t i) { return mesh.vertices[s.vertices[i]]; };
     g.col(0) = (1 - xi.y()) * (v(1) - v(0)) + xi.y() * (v(3) - v(2));
     g.col(1) = (1 - xi.x()) * (v(2) - v(0)) + xi.x() * (v(3) - v(1));
     return g;
@@ -72,8 +70,8 @@ Vector3 normal_at(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
 }
 
 bool same_section(const Mesh& mesh, int a, int b) {
-  const ShellSection &of_a = mesh.section_of(mesh.shells[at(a)]),
-                     &of_b = mesh.section_of(mesh.shells[at(b)]);
+  const ShellSection &of_a = mesh.section_of(mesh.shells[a]),
+                     &of_b = mesh.section_of(mesh.shells[b]);
   return of_a.material == of_b.material &&
          std::abs(of_a.thickness - of_b.thickness) < 1e-6 * of_a.thickness;
 }
@@ -83,7 +81,7 @@ bool same_section(const Mesh& mesh, int a, int b) {
 bool is_smooth(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b, double kink) {
   const auto middle = [](const EdgeOfShell& e) -> Eigen::Vector2d {
     const Eigen::Vector2d on_edge =
-        0.5 * (corner_place(round_edges[at(e.edge)][0]) + corner_place(round_edges[at(e.edge)][1]));
+        0.5 * (corner_place(round_edges[e.edge][0]) + corner_place(round_edges[e.edge][1]));
     return on_edge + 0.01 * (Eigen::Vector2d(0.5, 0.5) - on_edge);
   };
   const double cosine =
@@ -93,22 +91,21 @@ bool is_smooth(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b, dou
 
 /// Does the second shell run round the edge the same way as the first? Then their normals disagree.
 bool disagree(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b) {
-  return vertex_of(mesh, a.shell, round_edges[at(a.edge)][0]) ==
-         vertex_of(mesh, b.shell, round_edges[at(b.edge)][0]);
+  return vertex_of(mesh, a.shell, round_edges[a.edge][0]) ==
+         vertex_of(mesh, b.shell, round_edges[b.edge][0]);
 }
 
 double corner_angle(const Mesh& mesh, int shell, int vertex) {
-  const Shell& s = mesh.shells[at(shell)];
+  const Shell& s = mesh.shells[shell];
   for (std::size_t e = 0; e < 4; ++e) {
     const int corner = round_edges[e][1];
-    if (s.vertices[at(corner)] != vertex) continue;
+    if (s.vertices[corner] != vertex) continue;
     // The edges before and after it; of a triangle the one that is a point is passed over.
     int before = round_edges[e][0], after = round_edges[(e + 1) % 4][1];
-    if (s.vertices[at(before)] == vertex) before = round_edges[(e + 3) % 4][0];
-    if (s.vertices[at(after)] == vertex) after = round_edges[(e + 2) % 4][1];
-    const Vector3 here = mesh.vertices[at(vertex)],
-                  a = mesh.vertices[at(s.vertices[at(before)])] - here,
-                  b = mesh.vertices[at(s.vertices[at(after)])] - here;
+    if (s.vertices[before] == vertex) before = round_edges[(e + 3) % 4][0];
+    if (s.vertices[after] == vertex) after = round_edges[(e + 2) % 4][1];
+    const Vector3 here = mesh.vertices[vertex], a = mesh.vertices[s.vertices[before]] - here,
+                  b = mesh.vertices[s.vertices[after]] - here;
     return std::atan2(a.cross(b).norm(), a.dot(b));
   }
   return 0;
@@ -137,7 +134,7 @@ class FieldFinder {
     result_.field_of_shell.assign(mesh_.shells.size(), -1);
     is_flipped_.assign(mesh_.shells.size(), false);
     for (int shell = 0; shell < static_cast<int>(mesh_.shells.size()); ++shell)
-      if (result_.field_of_shell[at(shell)] < 0) grow(shell);
+      if (result_.field_of_shell[shell] < 0) grow(shell);
     for (PlateField& field : result_.fields) outline(field);
     std::sort(result_.singular_vertices.begin(), result_.singular_vertices.end());
     const auto last =
@@ -152,23 +149,22 @@ class FieldFinder {
     PlateField& field = result_.fields.emplace_back();
     std::queue<int> open;
     open.push(first);
-    result_.field_of_shell[at(first)] = number;
+    result_.field_of_shell[first] = number;
     std::map<int, int> of_region;
     while (!open.empty()) {
       const int shell = open.front();
       open.pop();
       field.shells.push_back(shell);
-      field.is_flipped.push_back(is_flipped_[at(shell)]);
-      ++of_region[mesh_.shells[at(shell)].region];
+      field.is_flipped.push_back(is_flipped_[shell]);
+      ++of_region[mesh_.shells[shell].region];
       for (int edge = 0; edge < 4; ++edge) {
         const EdgeKey key = key_of(mesh_, {shell, edge});
         if (inside_.count(key) == 0) continue;
         const auto& both = edges_.at(key);
         const EdgeOfShell& other = both[both[0].shell == shell ? 1 : 0];
-        if (result_.field_of_shell[at(other.shell)] >= 0) continue;
-        result_.field_of_shell[at(other.shell)] = number;
-        is_flipped_[at(other.shell)] =
-            is_flipped_[at(shell)] != disagree(mesh_, {shell, edge}, other);
+        if (result_.field_of_shell[other.shell] >= 0) continue;
+        result_.field_of_shell[other.shell] = number;
+        is_flipped_[other.shell] = is_flipped_[shell] != disagree(mesh_, {shell, edge}, other);
         open.push(other.shell);
       }
     }
@@ -179,15 +175,14 @@ class FieldFinder {
 
   /// The edge that follows on the outline of one shell, in the field's sense of rotation.
   EdgeOfShell next(const EdgeOfShell& edge) const {
-    const int step = is_flipped_[at(edge.shell)] ? 3 : 1;
+    const int step = is_flipped_[edge.shell] ? 3 : 1;
     EdgeOfShell following{edge.shell, (edge.edge + step) % 4};
     const EdgeKey key = key_of(mesh_, following);
     if (key.first == key.second) following.edge = (following.edge + step) % 4;
     return following;
   }
   int end_of(const EdgeOfShell& edge) const {
-    return vertex_of(mesh_, edge.shell,
-                     round_edges[at(edge.edge)][is_flipped_[at(edge.shell)] ? 0 : 1]);
+    return vertex_of(mesh_, edge.shell, round_edges[edge.edge][is_flipped_[edge.shell] ? 0 : 1]);
   }
 
   void outline(PlateField& field) {
@@ -260,15 +255,15 @@ class FieldFinder {
   }
 
   void append(FieldEdge& edge, const EdgeOfShell& part) const {
-    const auto& corners = round_edges[at(part.edge)];
-    const bool is_flipped = is_flipped_[at(part.shell)];
+    const auto& corners = round_edges[part.edge];
+    const bool is_flipped = is_flipped_[part.shell];
     FieldEdge::Piece piece;
     piece.shell = part.shell;
     piece.begin = corner_place(corners[is_flipped ? 1 : 0]);
     piece.end = corner_place(corners[is_flipped ? 0 : 1]);
     piece.from = vertex_of(mesh_, part.shell, corners[is_flipped ? 1 : 0]);
     piece.to = vertex_of(mesh_, part.shell, corners[is_flipped ? 0 : 1]);
-    const Shell& shell = mesh_.shells[at(part.shell)];
+    const Shell& shell = mesh_.shells[part.shell];
     const int steps = shell.curvature < 0 ? 1 : 8;
     for (int i = 0; i < steps; ++i) {
       const auto on = [&](double t) -> Eigen::Vector2d {
@@ -301,10 +296,10 @@ FieldWalker::FieldWalker(const Mesh& mesh, const PlateFields& fields)
     : mesh_(mesh), neighbours_(mesh.shells.size(), {-1, -1, -1, -1}) {
   for (const auto& [key, shells] : collect_edges(mesh)) {
     if (shells.size() != 2 ||
-        fields.field_of_shell[at(shells[0].shell)] != fields.field_of_shell[at(shells[1].shell)])
+        fields.field_of_shell[shells[0].shell] != fields.field_of_shell[shells[1].shell])
       continue;
-    neighbours_[at(shells[0].shell)][at(shells[0].edge)] = shells[1].shell;
-    neighbours_[at(shells[1].shell)][at(shells[1].edge)] = shells[0].shell;
+    neighbours_[shells[0].shell][shells[0].edge] = shells[1].shell;
+    neighbours_[shells[1].shell][shells[1].edge] = shells[0].shell;
   }
 }
 
@@ -314,7 +309,7 @@ std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPla
   ShellPlace here = start;
   int came_from = -1;
   for (int step = 0; step < most_steps; ++step) {
-    const Shell& shell = mesh_.shells[at(here.shell)];
+    const Shell& shell = mesh_.shells[here.shell];
     for (int newton = 0; newton < 12; ++newton) {
       const Eigen::Matrix<double, 3, 2> g = tangents(mesh_, here.shell, here.xi);
       const Eigen::Vector2d change =
@@ -337,7 +332,7 @@ std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPla
     int next = -1;
     double most = tolerance;
     for (std::size_t e = 0; e < 4; ++e) {
-      const int neighbour = neighbours_[at(here.shell)][e];
+      const int neighbour = neighbours_[here.shell][e];
       if (neighbour < 0 || outside[e] <= most || neighbour == came_from) continue;
       next = neighbour;
       most = outside[e];

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -34,7 +33,7 @@ class LugMaker {
     } else {
       find_by_place();
     }
-    for (const int shell : point_.shells) point_.region = mesh_.shells[at(shell)].region;
+    for (const int shell : point_.shells) point_.region = mesh_.shells[shell].region;
     point_.radius = reach();
     return point_;
   }
@@ -43,21 +42,20 @@ class LugMaker {
   std::set<int> vertices_of(const std::vector<int>& shells) const {
     std::set<int> vertices;
     for (const int shell : shells)
-      vertices.insert(mesh_.shells[at(shell)].vertices.begin(),
-                      mesh_.shells[at(shell)].vertices.end());
+      vertices.insert(mesh_.shells[shell].vertices.begin(), mesh_.shells[shell].vertices.end());
     return vertices;
   }
 
   Vector3 middle_of(const std::set<int>& vertices) const {
     Vector3 sum = Vector3::Zero();
-    for (const int vertex : vertices) sum += mesh_.vertices[at(vertex)];
+    for (const int vertex : vertices) sum += mesh_.vertices[vertex];
     return sum / static_cast<double>(vertices.size());
   }
 
   void hang_on_vertices() {
     std::set<int> carriers(lug_.vertices.begin(), lug_.vertices.end());
     for (const int beam : lug_.beams)
-      carriers.insert(mesh_.beams[at(beam)].vertices.begin(), mesh_.beams[at(beam)].vertices.end());
+      carriers.insert(mesh_.beams[beam].vertices.begin(), mesh_.beams[beam].vertices.end());
     require_used(carriers);
     point_.p_BPin = lug_.pin.value_or(middle_of(carriers));
     held_ = carriers;
@@ -79,14 +77,14 @@ class LugMaker {
   void require_used(const std::set<int>& vertices) const {
     const std::vector<int> parts = connected_parts(mesh_);
     for (const int vertex : vertices)
-      if (parts[at(vertex)] < 0)
+      if (parts[vertex] < 0)
         throw ModelError(fmt::format("lug {} stands at {}, where the mesh has nothing", lug_.name,
-                                     text_of(mesh_.vertices[at(vertex)])));
+                                     text_of(mesh_.vertices[vertex])));
   }
 
   void find_by_place() {
     int vertex = lug_.vertex;
-    point_.p_BPin = lug_.pin ? *lug_.pin : mesh_.vertices[at(vertex)];
+    point_.p_BPin = lug_.pin ? *lug_.pin : mesh_.vertices[vertex];
     if (mesh_.shells.empty() && (vertex < 0 || lug_.radius > 0))
       throw ModelError(
           fmt::format("lug {}: the mesh has no plates that a pin at {} could hang on; name the "
@@ -94,7 +92,7 @@ class LugMaker {
                       lug_.name, text_of(point_.p_BPin)));
     if (lug_.radius > 0) {
       take_shells([&](int corner) {
-        return (mesh_.vertices[at(corner)] - point_.p_BPin).norm() <= lug_.radius;
+        return (mesh_.vertices[corner] - point_.p_BPin).norm() <= lug_.radius;
       });
       if (point_.shells.empty())
         throw ModelError(
@@ -133,7 +131,7 @@ class LugMaker {
     std::pair<int, double> found{-1, std::numeric_limits<double>::infinity()};
     for (const Shell& shell : mesh_.shells)
       for (const int corner : shell.vertices) {
-        const double distance = (mesh_.vertices[at(corner)] - point_.p_BPin).norm();
+        const double distance = (mesh_.vertices[corner] - point_.p_BPin).norm();
         if (distance < found.second) found = {corner, distance};
       }
     return found;
@@ -156,8 +154,7 @@ class LugMaker {
     }
     double farthest_of_all = 0;
     for (const int vertex : vertices)
-      farthest_of_all =
-          std::max(farthest_of_all, (mesh_.vertices[at(vertex)] - point_.p_BPin).norm());
+      farthest_of_all = std::max(farthest_of_all, (mesh_.vertices[vertex] - point_.p_BPin).norm());
     return farthest_of_all;
   }
 

@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -43,7 +42,7 @@ struct SurfacePlace {
 
 SurfacePlace on_bilinear(const Mesh& mesh, const Shell& shell, double xi, double eta) {
   const auto vertex = [&](std::size_t i) -> const Vector3& {
-    return mesh.vertices[at(shell.vertices[i])];
+    return mesh.vertices[shell.vertices[i]];
   };
   const Vector3 low = vertex(1) - vertex(0), high = vertex(3) - vertex(2);
   const Vector3 start = vertex(2) - vertex(0);
@@ -92,7 +91,7 @@ void integrate(const Mesh& mesh, const Shell& shell, const Visit& visit) {
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
       const SurfacePlace place =
-          is_curved ? on_curved(mesh.curved_shells[at(shell.curvature)], points[i], points[j])
+          is_curved ? on_curved(mesh.curved_shells[shell.curvature], points[i], points[j])
                     : on_bilinear(mesh, shell, points[i], points[j]);
       const Vector3 normal = place.along_xi.cross(place.along_eta);
       const double size = normal.norm();
@@ -103,9 +102,7 @@ void integrate(const Mesh& mesh, const Shell& shell, const Visit& visit) {
 
 std::vector<MassSum> sums_by_group(const Mesh& mesh) {
   std::vector<MassSum> sums(mesh.groups.size() + 1);
-  const auto of_region = [&](int region) -> MassSum& {
-    return sums[at(mesh.regions[at(region)].group)];
-  };
+  const auto of_region = [&](int region) -> MassSum& { return sums[mesh.regions[region].group]; };
   for (const Shell& shell : mesh.shells) {
     if (shell.section < 0) continue;
     const ShellSection& section = mesh.section_of(shell);
@@ -117,13 +114,13 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
     });
   }
   for (const Beam& beam : mesh.beams) {
-    const Vector3 from = mesh.vertices[at(beam.vertices[0])] + beam.offset[0];
-    const Vector3 line = mesh.vertices[at(beam.vertices[1])] + beam.offset[1] - from;
+    const Vector3 from = mesh.vertices[beam.vertices[0]] + beam.offset[0];
+    const Vector3 line = mesh.vertices[beam.vertices[1]] + beam.offset[1] - from;
     const double half = 0.5 / std::sqrt(3.0);
     for (const double place : {0.5 - half, 0.5 + half}) {
       const BeamSection section = section_at(mesh, beam, place);
       const double per_length =
-          mesh.materials[at(section.material)].density * section.area + section.mass_per_length;
+          mesh.materials[section.material].density * section.area + section.mass_per_length;
       of_region(beam.region).add(per_length * line.norm() / 2, from + place * line);
     }
   }
@@ -133,13 +130,12 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
     for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
       const Eigen::Matrix3d jacobian = places * kind.gradients.middleRows<3>(3 * q).transpose();
       of_region(solid.region)
-          .add(
-              kind.weights[q] * jacobian.determinant() * mesh.materials[at(solid.material)].density,
-              places * kind.values.row(q).transpose());
+          .add(kind.weights[q] * jacobian.determinant() * mesh.materials[solid.material].density,
+               places * kind.values.row(q).transpose());
     }
   }
   for (const PointMass& mass : mesh.masses) {
-    sums.back().add(mass.mass, mesh.vertices[at(mass.vertex)] + mass.offset);
+    sums.back().add(mass.mass, mesh.vertices[mass.vertex] + mass.offset);
     sums.back().own += mass.inertia;
   }
   return sums;

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -31,10 +30,10 @@ class Forest {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   int root(int i) {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(int a, int b) { parent_[at(root(a))] = root(b); }
+  void join(int a, int b) { parent_[root(a)] = root(b); }
 
  private:
   std::vector<int> parent_;
@@ -50,7 +49,7 @@ void for_each_joint(const Mesh& mesh, const Visit& visit) {
   for (const Solid& solid : mesh.solids) visit(solid.vertices);
   for_each_link(mesh, [&](const std::vector<int>& all, long) { visit(all); });
   for (const SurfacePoint& point : mesh.surface_points)
-    visit(std::vector<int>{mesh.shells[at(point.shell)].vertices[0], point.vertex});
+    visit(std::vector<int>{mesh.shells[point.shell].vertices[0], point.vertex});
   for (const Spring& spring : mesh.springs) {
     std::vector<int> all;
     for (const int vertex : spring.vertices)
@@ -62,7 +61,7 @@ void for_each_joint(const Mesh& mesh, const Visit& visit) {
 /// Bars take E and G apart: Poisson's ratio, which is but what they stand for, may be any. True of
 /// a material with a ratio that no plate or solid can have, where none has it.
 bool is_of_bars_alone(const Mesh& mesh, int material) {
-  const Material& own = mesh.materials[at(material)];
+  const Material& own = mesh.materials[material];
   if (own.poisson_ratio > -1 && own.poisson_ratio < 0.5) return false;
   const bool is_of_bars =
       std::any_of(mesh.beam_sections.begin(), mesh.beam_sections.end(),
@@ -96,11 +95,11 @@ std::vector<int> vertices_of(const MotionEquation& equation) {
 }
 
 double balance(const Mesh& mesh, MotionEquation& equation) {
-  const Vector3 origin = mesh.vertices[at(equation.terms.front().vertex)];
+  const Vector3 origin = mesh.vertices[equation.terms.front().vertex];
   // Rotations count over a length, so that all coefficients are of one kind.
   double size = 0, largest = 0;
   for (const MotionEquation::Term& term : equation.terms)
-    size = std::max(size, (mesh.vertices[at(term.vertex)] - origin).norm());
+    size = std::max(size, (mesh.vertices[term.vertex] - origin).norm());
   if (!(size > 0)) size = 1;
   for (const MotionEquation::Term& term : equation.terms)
     largest = std::max({largest, term.of_displacement.cwiseAbs().maxCoeff(),
@@ -112,7 +111,7 @@ double balance(const Mesh& mesh, MotionEquation& equation) {
   Eigen::Matrix<double, 6, 1> resultant = Eigen::Matrix<double, 6, 1>::Zero();
   for (std::size_t t = 0; t < equation.terms.size(); ++t) {
     MotionEquation::Term& term = equation.terms[t];
-    const Vector3 arm = (mesh.vertices[at(term.vertex)] - origin) / size;
+    const Vector3 arm = (mesh.vertices[term.vertex] - origin) / size;
     for (int i = 0; i < 6; ++i) {
       Eigen::Matrix<double, 6, 1> column = Eigen::Matrix<double, 6, 1>::Zero();
       if (i < 3)
@@ -128,15 +127,15 @@ double balance(const Mesh& mesh, MotionEquation& equation) {
   }
   const auto count = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd effect(6, count);
-  for (Eigen::Index i = 0; i < count; ++i) effect.col(i) = columns[at(i)];
+  for (Eigen::Index i = 0; i < count; ++i) effect.col(i) = columns[i];
   const Eigen::VectorXd change =
       effect.completeOrthogonalDecomposition().solve(Eigen::VectorXd(-resultant));
   if ((effect * change + resultant).norm() > 1e-9 * largest)
     return std::numeric_limits<double>::infinity();
   double most = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const bool is_rotation = columns[at(i)].head<3>().isZero();
-    *free[at(i)] += (is_rotation ? size : 1) * change[i];
+    const bool is_rotation = columns[i].head<3>().isZero();
+    *free[i] += (is_rotation ? size : 1) * change[i];
     most = std::max(most, std::abs(change[i]) / largest);
   }
   return most;
@@ -145,7 +144,7 @@ double balance(const Mesh& mesh, MotionEquation& equation) {
 BeamSection section_at(const Mesh& mesh, const Beam& beam, double share) {
   BeamSection section = mesh.section_of(beam);
   if (beam.end_section < 0) return section;
-  const BeamSection& end = mesh.beam_sections[at(beam.end_section)];
+  const BeamSection& end = mesh.beam_sections[beam.end_section];
   const auto between = [share](double& value, double of_end) {
     // Infinite shear areas, of sections that shear does not deform, stay so.
     if (std::isfinite(value) && std::isfinite(of_end))
@@ -166,7 +165,7 @@ BeamSection section_at(const Mesh& mesh, const Beam& beam, double share) {
 
 Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi) {
   if (shell.curvature >= 0) {
-    const Eigen::Matrix3Xd& points = mesh.curved_shells[at(shell.curvature)];
+    const Eigen::Matrix3Xd& points = mesh.curved_shells[shell.curvature];
     const int count = static_cast<int>(std::lround(std::sqrt(static_cast<double>(points.cols()))));
     const Eigen::VectorXd along_xi = lagrange(count, xi.x()), along_eta = lagrange(count, xi.y());
     Vector3 place = Vector3::Zero();
@@ -175,14 +174,14 @@ Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi
         place += along_xi[i] * along_eta[j] * points.col(j * count + i);
     return place;
   }
-  const auto vertex = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
+  const auto vertex = [&](std::size_t i) { return mesh.vertices[shell.vertices[i]]; };
   return (1 - xi.y()) * ((1 - xi.x()) * vertex(0) + xi.x() * vertex(1)) +
          xi.y() * ((1 - xi.x()) * vertex(2) + xi.x() * vertex(3));
 }
 
 double longest_edge(const Mesh& mesh, const Shell& shell) {
   const auto length = [&](std::size_t a, std::size_t b) {
-    return (mesh.vertices[at(shell.vertices[a])] - mesh.vertices[at(shell.vertices[b])]).norm();
+    return (mesh.vertices[shell.vertices[a]] - mesh.vertices[shell.vertices[b]]).norm();
   };
   return std::max({length(0, 1), length(2, 3), length(0, 2), length(1, 3)});
 }
@@ -192,7 +191,7 @@ std::vector<int> connected_parts(const Mesh& mesh) {
   std::vector<char> used(mesh.vertices.size(), 0);
   for_each_joint(mesh, [&](const std::vector<int>& joined) {
     for (const int vertex : joined) {
-      used[at(vertex)] = 1;
+      used[vertex] = 1;
       forest.join(vertex, joined.front());
     }
   });
@@ -200,7 +199,7 @@ std::vector<int> connected_parts(const Mesh& mesh) {
   int next = 0;
   for (std::size_t v = 0; v < part.size(); ++v) {
     if (used[v] == 0) continue;
-    int& of_root = number[at(forest.root(static_cast<int>(v)))];
+    int& of_root = number[forest.root(static_cast<int>(v))];
     if (of_root < 0) of_root = next++;
     part[v] = of_root;
   }
@@ -229,7 +228,7 @@ void check_mesh(const Mesh& mesh) {
             "has no thickness");
     require(shell.region >= 0 && shell.region < count(mesh.regions), "shell", shell.label,
             "belongs to no region");
-    const auto vertex = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
+    const auto vertex = [&](std::size_t i) { return mesh.vertices[shell.vertices[i]]; };
     const double area = 0.5 * ((vertex(3) - vertex(0)).cross(vertex(2) - vertex(1))).norm();
     const double size = longest_edge(mesh, shell);
     require(area > 1e-8 * size * size, "shell", shell.label,
@@ -244,12 +243,12 @@ void check_mesh(const Mesh& mesh) {
       require(beam.end_section < count(mesh.beam_sections), "beam", beam.label,
               "has no section at its end");
       const BeamSection &first = mesh.section_of(beam),
-                        &last = mesh.beam_sections[at(beam.end_section)];
+                        &last = mesh.beam_sections[beam.end_section];
       require(first.material == last.material &&
                   first.stress_points.size() == last.stress_points.size(),
               "beam", beam.label, "has sections at its ends of two kinds");
     }
-    const Vector3 along = mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])];
+    const Vector3 along = mesh.vertices[beam.vertices[1]] - mesh.vertices[beam.vertices[0]];
     require(along.norm() > 0, "beam", beam.label, "has no length");
     require(along.cross(beam.axis_2).norm() > 1e-6 * along.norm() * beam.axis_2.norm(), "beam",
             beam.label, "runs along the direction that is to tell its second axis");

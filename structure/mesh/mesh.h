@@ -230,18 +230,12 @@ struct Mesh {
   std::vector<Group> groups;
   std::vector<LiftingPoint> lifting_points;
 
-  const ShellSection& section_of(const Shell& shell) const {
-    return shell_sections[static_cast<std::size_t>(shell.section)];
-  }
+  const ShellSection& section_of(const Shell& shell) const { return shell_sections[shell.section]; }
   const Material& material_of(const Shell& shell) const {
-    return materials[static_cast<std::size_t>(section_of(shell).material)];
+    return materials[section_of(shell).material];
   }
-  const BeamSection& section_of(const Beam& beam) const {
-    return beam_sections[static_cast<std::size_t>(beam.section)];
-  }
-  const Group& group_of_region(int region) const {
-    return groups[static_cast<std::size_t>(regions[static_cast<std::size_t>(region)].group)];
-  }
+  const BeamSection& section_of(const Beam& beam) const { return beam_sections[beam.section]; }
+  const Group& group_of_region(int region) const { return groups[regions[region].group]; }
 };
 
 /// Vertices of a link, those that others follow or that follows others first.

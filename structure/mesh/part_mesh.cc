@@ -37,7 +37,7 @@ std::vector<std::string> PartMesh::group_names() const {
 
 std::string PartMesh::describe(int element) const {
   const Vector3 place = centre(element);
-  return fmt::format("element {} ({}) at ({:.4g}, {:.4g}, {:.4g}) m", elements[at(element)].tag,
+  return fmt::format("element {} ({}) at ({:.4g}, {:.4g}, {:.4g}) m", elements[element].tag,
                      kind(element).name, place.x(), place.y(), place.z());
 }
 
@@ -46,19 +46,19 @@ std::vector<int> connected_bodies(const PartMesh& mesh) {
   std::iota(parent.begin(), parent.end(), 0);
   std::vector<char> used(parent.size(), 0);
   const auto root = [&](int node) {
-    while (parent[at(node)] != node) node = parent[at(node)] = parent[at(parent[at(node)])];
+    while (parent[node] != node) node = parent[node] = parent[parent[node]];
     return node;
   };
   for (const int element : mesh.solids)
     for (int i = 0; i < mesh.kind(element).nodes; ++i) {
-      used[at(mesh.node(element, i))] = 1;
-      parent[at(root(mesh.node(element, i)))] = root(mesh.node(element, 0));
+      used[mesh.node(element, i)] = 1;
+      parent[root(mesh.node(element, i))] = root(mesh.node(element, 0));
     }
   std::vector<int> number(parent.size(), -1), body(parent.size(), -1);
   int bodies = 0;
   for (std::size_t node = 0; node < parent.size(); ++node) {
     if (!used[node]) continue;
-    int& of_root = number[at(root(static_cast<int>(node)))];
+    int& of_root = number[root(static_cast<int>(node))];
     if (of_root < 0) of_root = bodies++;
     body[node] = of_root;
   }

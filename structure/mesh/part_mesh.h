@@ -53,11 +53,9 @@ struct PartMesh {
   std::vector<PartGroup> groups;
   bool meshed_here = false;  ///< the file held a geometry
 
-  const ElementKind& kind(int element) const {
-    return kinds[static_cast<std::size_t>(elements[static_cast<std::size_t>(element)].kind)];
-  }
+  const ElementKind& kind(int element) const { return kinds[elements[element].kind]; }
   int node(int element, int local) const {
-    const auto first = static_cast<std::size_t>(elements[static_cast<std::size_t>(element)].first);
+    const auto first = static_cast<std::size_t>(elements[element].first);
     return element_nodes[first + static_cast<std::size_t>(local)];
   }
   /// Places of an element's nodes, 3 x nodes, m.

@@ -8,8 +8,6 @@
 
 #include <Eigen/Dense>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -79,7 +77,7 @@ std::optional<PlatePlace> PlateFinder::find(const Vector3& place, const Vector3&
   std::optional<PlatePlace> best;
   double least = std::numeric_limits<double>::infinity();
   tree_.for_each_near(place, 2 * reach_, [&](int number) {
-    const Shell& shell = mesh_.shells[at(number)];
+    const Shell& shell = mesh_.shells[number];
     const ShellSection& section = mesh_.section_of(shell);
     const auto foot = find_plate_foot(mesh_, shell, place);
     if (!foot) return;

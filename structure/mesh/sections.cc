@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/thin_walls.h"
 
 namespace blocklift::structure {
@@ -129,7 +128,7 @@ Profile walled_profile(const std::string& name, const std::vector<Vector2>& node
   Moments moments;
   std::vector<Vector2> outline;
   for (const Wall& wall : walls) {
-    const Vector2 &from = nodes[at(wall.from)], &to = nodes[at(wall.to)];
+    const Vector2 &from = nodes[wall.from], &to = nodes[wall.to];
     const double length = (to - from).norm();
     if (!(length > 0) || !(wall.thickness > 0))
       throw ModelError(name + ": a wall has no length or no thickness");

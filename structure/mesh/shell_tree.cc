@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -48,7 +46,7 @@ ShellTree::ShellTree(const Mesh& mesh, const std::vector<int>& shells) {
 }
 
 void ShellTree::add(const Mesh& mesh, int shell) {
-  const Shell& of = mesh.shells[at(shell)];
+  const Shell& of = mesh.shells[shell];
   const int parts = of.curvature < 0 ? 1 : parts_of_curved;
   const auto corner = [&](int i, int j) {
     return position(mesh, of, Eigen::Vector2d(i, j) / parts);
@@ -70,14 +68,14 @@ int ShellTree::build(int first, int count) {
     return t.corner + (t.side_1 + t.side_2) / 3;
   };
   for (int i = first; i < first + count; ++i) {
-    const Triangle& t = triangles_[at(i)];
+    const Triangle& t = triangles_[i];
     box.extend(box_of(t.corner, t.side_1, t.side_2));
     centres.extend(centre(t));
   }
-  nodes_[at(number)].box = box;
+  nodes_[number].box = box;
   if (count <= leaf_size) {
-    nodes_[at(number)].first = first;
-    nodes_[at(number)].count = count;
+    nodes_[number].first = first;
+    nodes_[number].count = count;
     return number;
   }
   Eigen::Index axis = 0;
@@ -88,7 +86,7 @@ int ShellTree::build(int first, int count) {
   });
   build(first, count / 2);
   const int other = build(first + count / 2, count - count / 2);
-  nodes_[at(number)].other = other;
+  nodes_[number].other = other;
   return number;
 }
 
@@ -99,14 +97,13 @@ void ShellTree::for_each_near(const Vector3& place, double distance,
   while (!open.empty()) {
     const int number = open.back();
     open.pop_back();
-    const Node& node = nodes_[at(number)];
+    const Node& node = nodes_[number];
     if (node.box.squaredExteriorDistance(place) > distance * distance) continue;
     if (node.count == 0) {
       open.push_back(node.other);
       open.push_back(number + 1);
     }
-    for (int i = node.first; i < node.first + node.count; ++i)
-      found.push_back(triangles_[at(i)].shell);
+    for (int i = node.first; i < node.first + node.count; ++i) found.push_back(triangles_[i].shell);
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -120,7 +117,7 @@ bool ShellTree::is_hit(const Vector3& origin, const Vector3& direction, double f
   while (!open.empty()) {
     const int number = open.back();
     open.pop_back();
-    const Node& node = nodes_[at(number)];
+    const Node& node = nodes_[number];
     if (!meets(node.box, origin, direction, from)) continue;
     if (node.count == 0) {
       open.push_back(node.other);
@@ -128,7 +125,7 @@ bool ShellTree::is_hit(const Vector3& origin, const Vector3& direction, double f
     }
     for (int i = node.first; i < node.first + node.count; ++i) {
       // Moeller and Trumbore (1997).
-      const Triangle& t = triangles_[at(i)];
+      const Triangle& t = triangles_[i];
       const Vector3 across = direction.cross(t.side_2);
       const double determinant = t.side_1.dot(across);
       if (std::abs(determinant) <= 1e-9 * t.side_1.norm() * t.side_2.norm()) continue;

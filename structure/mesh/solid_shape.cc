@@ -180,7 +180,7 @@ const ElementShape& linear_shape_of(SolidShape shape) {
 Eigen::Matrix3Xd places_of(const Mesh& mesh, const Solid& solid) {
   Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(solid.vertices.size()));
   for (std::size_t i = 0; i < solid.vertices.size(); ++i)
-    places.col(static_cast<Eigen::Index>(i)) = mesh.vertices[at(solid.vertices[i])];
+    places.col(i) = mesh.vertices[solid.vertices[i]];
   return places;
 }
 
@@ -190,7 +190,7 @@ SolidEdgeMiddles::SolidEdgeMiddles(const Mesh& mesh) {
 
 void complete_solid(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles) {
   const SolidTopology& topology = topology_of(solid.shape);
-  solid.vertices.resize(at(topology.nodes()), -1);
+  solid.vertices.resize(topology.nodes(), -1);
   // The other way round at its centre: its nodes are counted against the rule.
   const Eigen::Matrix3Xd corners = places_of(
       mesh, {solid.shape, {solid.vertices.begin(), solid.vertices.begin() + topology.corners}});
@@ -198,18 +198,16 @@ void complete_solid(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles) {
       corners * linear_shape_of(solid.shape).gradients(centre_of(topology));
   if (jacobian.determinant() < 0) {
     const std::vector<int> given = solid.vertices;
-    for (std::size_t i = 0; i < given.size(); ++i)
-      solid.vertices[i] = given[at(topology.mirrored[i])];
+    for (std::size_t i = 0; i < given.size(); ++i) solid.vertices[i] = given[topology.mirrored[i]];
   }
   for (std::size_t e = 0; e < topology.edges.size(); ++e) {
     int& middle = solid.vertices[at(topology.corners) + e];
-    const int a = solid.vertices[at(topology.edges[e][0])],
-              b = solid.vertices[at(topology.edges[e][1])];
+    const int a = solid.vertices[topology.edges[e][0]], b = solid.vertices[topology.edges[e][1]];
     const auto [known, is_new] = middles.vertices.try_emplace(std::minmax(a, b), middle);
     if (middle < 0) middle = known->second;
     if (middle >= 0) continue;
     middle = known->second = static_cast<int>(mesh.vertices.size());
-    mesh.vertices.push_back(0.5 * (mesh.vertices[at(a)] + mesh.vertices[at(b)]));
+    mesh.vertices.push_back(0.5 * (mesh.vertices[a] + mesh.vertices[b]));
     if (!mesh.vertex_labels.empty()) mesh.vertex_labels.push_back(middles.next_label++);
   }
 }
@@ -235,7 +233,7 @@ std::vector<SolidFace> outer_faces(const Mesh& mesh) {
   for (std::size_t s = 0; s < mesh.solids.size(); ++s)
     for (const std::vector<int>& face : topology_of(mesh.solids[s].shape).faces) {
       std::vector<int> key;
-      for (const int corner : face) key.push_back(mesh.solids[s].vertices[at(corner)]);
+      for (const int corner : face) key.push_back(mesh.solids[s].vertices[corner]);
       std::sort(key.begin(), key.end());
       auto& [count, known] = faces[key];
       if (count++ == 0) known = {static_cast<int>(s), face};

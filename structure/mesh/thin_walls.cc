@@ -7,7 +7,6 @@
 #include <Eigen/Dense>
 
 #include "structure/error.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -37,15 +36,15 @@ double ThinWalls::torsion() const {
   Eigen::VectorXd flow = Eigen::VectorXd::Zero(count);
   if (walls_.size() >= nodes_.size()) {
     Eigen::VectorXd sweeps(count);
-    for (Eigen::Index i = 0; i < count; ++i) sweeps[i] = sweep(walls_[at(i)]);
+    for (Eigen::Index i = 0; i < count; ++i) sweeps[i] = sweep(walls_[i]);
     // The flow whose moment is its own energy: J is both.
-    flow = find_flows(-sweeps, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes_.size())));
+    flow = find_flows(-sweeps, Eigen::VectorXd::Zero(nodes_.size()));
     closed = flow.dot(sweeps);
     largest = flow.cwiseAbs().maxCoeff();
   }
   for (Eigen::Index i = 0; i < count; ++i)
     if (std::abs(flow[i]) <= 1e-9 * largest)
-      open += length(walls_[at(i)]) * std::pow(walls_[at(i)].thickness, 3) / 3;
+      open += length(walls_[i]) * std::pow(walls_[i].thickness, 3) / 3;
   return open + closed;
 }
 
@@ -69,8 +68,8 @@ Vector2 ThinWalls::shear_centre() const {
   return centre + centroid_;
 }
 
-Vector2 ThinWalls::start(const Wall& wall) const { return nodes_[at(wall.from)]; }
-Vector2 ThinWalls::end(const Wall& wall) const { return nodes_[at(wall.to)]; }
+Vector2 ThinWalls::start(const Wall& wall) const { return nodes_[wall.from]; }
+Vector2 ThinWalls::end(const Wall& wall) const { return nodes_[wall.to]; }
 double ThinWalls::length(const Wall& wall) const { return (end(wall) - start(wall)).norm(); }
 double ThinWalls::sweep(const Wall& wall) const {
   const Vector2 from = start(wall), to = end(wall);
@@ -98,7 +97,7 @@ Eigen::VectorXd ThinWalls::find_flows(const Eigen::VectorXd& work,
              nodes = static_cast<Eigen::Index>(nodes_.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(walls + nodes, walls + nodes);
   for (Eigen::Index i = 0; i < walls; ++i) {
-    const Wall& wall = walls_[at(i)];
+    const Wall& wall = walls_[i];
     matrix(i, i) = length(wall) / wall.thickness;
     matrix(walls + wall.to, i) += 1;
     matrix(walls + wall.from, i) -= 1;
@@ -113,13 +112,12 @@ Eigen::VectorXd ThinWalls::find_flows(const Eigen::VectorXd& work,
 std::vector<ThinWalls::Flow> ThinWalls::calc_flows(int axis) const {
   const auto walls = static_cast<Eigen::Index>(walls_.size());
   std::vector<Flow> flows(walls_.size());
-  Eigen::VectorXd work(walls),
-      given = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nodes_.size()));
+  Eigen::VectorXd work(walls), given = Eigen::VectorXd::Zero(nodes_.size());
   for (Eigen::Index i = 0; i < walls; ++i) {
-    const Wall& wall = walls_[at(i)];
+    const Wall& wall = walls_[i];
     const double grows = length(wall) * wall.thickness;
     const double at_start = growth(axis, start(wall)), at_end = growth(axis, end(wall));
-    auto& [first, middle, last] = flows[at(i)];
+    auto& [first, middle, last] = flows[i];
     first = 0;
     middle = -grows * (3 * at_start + at_end) / 8;
     last = -grows * (at_start + at_end) / 2;
@@ -128,7 +126,7 @@ std::vector<ThinWalls::Flow> ThinWalls::calc_flows(int axis) const {
   }
   const Eigen::VectorXd at_starts = find_flows(work, given);
   for (Eigen::Index i = 0; i < walls; ++i)
-    for (double& value : flows[at(i)]) value += at_starts[i];
+    for (double& value : flows[i]) value += at_starts[i];
   return flows;
 }
 
@@ -149,8 +147,8 @@ void ThinWalls::require_one_piece() const {
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
     for (const Wall& wall : walls_)
-      if (is_reached[at(wall.from)] != is_reached[at(wall.to)]) {
-        is_reached[at(wall.from)] = is_reached[at(wall.to)] = 1;
+      if (is_reached[wall.from] != is_reached[wall.to]) {
+        is_reached[wall.from] = is_reached[wall.to] = 1;
         goes_on = true;
       }
   }

@@ -10,8 +10,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -52,9 +50,9 @@ class FindingPicture {
   template <typename Visit>
   void for_each_used(const Visit& visit) const {
     for (const Shell& shell : mesh_.shells)
-      for (const int vertex : shell.vertices) visit(mesh_.vertices[at(vertex)]);
+      for (const int vertex : shell.vertices) visit(mesh_.vertices[vertex]);
     for (const Beam& beam : mesh_.beams)
-      for (const int vertex : beam.vertices) visit(mesh_.vertices[at(vertex)]);
+      for (const int vertex : beam.vertices) visit(mesh_.vertices[vertex]);
   }
 
   void find_frame() {
@@ -77,9 +75,9 @@ class FindingPicture {
   }
 
   Vector3 normal(int shell) const {
-    const auto& v = mesh_.shells[at(shell)].vertices;
-    return (mesh_.vertices[at(v[3])] - mesh_.vertices[at(v[0])])
-        .cross(mesh_.vertices[at(v[2])] - mesh_.vertices[at(v[1])])
+    const auto& v = mesh_.shells[shell].vertices;
+    return (mesh_.vertices[v[3]] - mesh_.vertices[v[0]])
+        .cross(mesh_.vertices[v[2]] - mesh_.vertices[v[1]])
         .normalized();
   }
 
@@ -99,21 +97,21 @@ class FindingPicture {
       while (end < edges.size() && std::get<0>(edges[end]) == a && std::get<1>(edges[end]) == b)
         ++end;
       if (end - i != 2 || is_drawn(std::get<2>(edges[i]), std::get<2>(edges[i + 1])))
-        text += line(mesh_.vertices[at(a)], mesh_.vertices[at(b)]);
+        text += line(mesh_.vertices[a], mesh_.vertices[b]);
       i = end;
     }
     return text;
   }
 
   bool is_drawn(int one, int other) const {
-    return mesh_.shells[at(one)].section != mesh_.shells[at(other)].section ||
+    return mesh_.shells[one].section != mesh_.shells[other].section ||
            std::abs(normal(one).dot(normal(other))) < cosine_of_fold;
   }
 
   std::string beams() const {
     std::string text;
     for (const Beam& beam : mesh_.beams)
-      text += line(mesh_.vertices[at(beam.vertices[0])], mesh_.vertices[at(beam.vertices[1])]);
+      text += line(mesh_.vertices[beam.vertices[0]], mesh_.vertices[beam.vertices[1]]);
     return text;
   }
 

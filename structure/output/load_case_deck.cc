@@ -84,7 +84,7 @@ class DeckMaker {
     for (Shell& shell : mesh_.shells) {
       if (shell.curvature < 0 && !are_all) continue;
       Eigen::Matrix3Xd points(3, 9);
-      const Shell& original = given.shells[at(&shell - mesh_.shells.data())];
+      const Shell& original = given.shells[&shell - mesh_.shells.data()];
       for (int row = 0; row < 3; ++row)
         for (int i = 0; i < 3; ++i)
           points.col(3 * row + i) = position(given, original, {0.5 * i, 0.5 * row});
@@ -128,11 +128,11 @@ class DeckMaker {
   }
 
   void place_nodes() {
-    shares_.resize(at(space_.node_count()));
+    shares_.resize(space_.node_count());
     const auto vertices = static_cast<int>(model_.mesh().vertices.size());
     for (int vertex = 0; vertex < vertices; ++vertex)
       if (const int node = space_.node_of_vertex(vertex); node >= 0)
-        shares_[at(node)] = {{vertex}, {1.0}};
+        shares_[node] = {{vertex}, {1.0}};
     place_shell_nodes();
     place_beam_nodes();
   }
@@ -142,15 +142,15 @@ class DeckMaker {
     const std::vector<double> places = lagrange_places(p);
     for (std::size_t cell = 0; cell < space_.shells().size(); ++cell) {
       const ShellCell& located = space_.shells()[cell];
-      const Shell& shell = mesh_.shells[at(located.shell)];
-      const std::vector<int>& middles = middles_[at(located.shell)];
+      const Shell& shell = mesh_.shells[located.shell];
+      const std::vector<int>& middles = middles_[located.shell];
       std::vector<int> around = corners_around(shell);
       around.insert(around.end(), middles.begin(), middles.end());
       const int* nodes = space_.shell_nodes(static_cast<int>(cell));
       for (int i = 0; i < space_.nodes_per_shell(); ++i) {
-        Shares& shares = shares_[at(nodes[i])];
+        Shares& shares = shares_[nodes[i]];
         if (!shares.vertices.empty()) continue;
-        const Eigen::Vector2d own(places[at(i % (p + 1))], places[at(i / (p + 1))]);
+        const Eigen::Vector2d own(places[i % (p + 1)], places[i / (p + 1)]);
         shares = {around, deck_shell_values(shell.is_triangle(), !middles.empty(),
                                             located.origin + located.size * own)};
       }
@@ -159,11 +159,11 @@ class DeckMaker {
 
   void place_beam_nodes() {
     for (const BeamCell& cell : space_.beams()) {
-      const Beam& beam = model_.mesh().beams[at(cell.beam)];
+      const Beam& beam = model_.mesh().beams[cell.beam];
       const int middle = middle_of(beam);
       const std::vector<double> places = lagrange_places(cell.degree);
       for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
-        Shares& shares = shares_[at(cell.nodes[i])];
+        Shares& shares = shares_[cell.nodes[i]];
         if (!shares.vertices.empty()) continue;
         const double along = cell.origin + cell.size * places[i];
         if (middle < 0) {
@@ -184,11 +184,11 @@ class DeckMaker {
     for (int node = 0; node < space_.node_count(); ++node) {
       const Vector3 force = one.loads.segment<3>(6 * static_cast<Eigen::Index>(node));
       Vector3 moment = one.loads.segment<3>(6 * static_cast<Eigen::Index>(node) + 3);
-      const Shares& shares = shares_[at(node)];
+      const Shares& shares = shares_[node];
       Vector3 place = Vector3::Zero();
       for (std::size_t i = 0; i < shares.vertices.size(); ++i) {
         forces.col(shares.vertices[i]) += shares.values[i] * force;
-        place += shares.values[i] * mesh_.vertices[at(shares.vertices[i])];
+        place += shares.values[i] * mesh_.vertices[shares.vertices[i]];
       }
       if (shares.vertices.empty()) continue;
       moment += (space_.nodes().col(node) - place).cross(force);
@@ -216,8 +216,8 @@ class DeckMaker {
       Vector3 sum = Vector3::Zero();
       const double least = small_moment * largest * longest_edge(mesh_, shell);
       for (const int vertex : all) {
-        if (is_done[at(vertex)] != 0 || moments.col(vertex).norm() > least) continue;
-        is_done[at(vertex)] = 1;
+        if (is_done[vertex] != 0 || moments.col(vertex).norm() > least) continue;
+        is_done[vertex] = 1;
         sum += moments.col(vertex);
         moments.col(vertex).setZero();
       }
@@ -229,50 +229,50 @@ class DeckMaker {
   void add_as_forces(const Vector3& moment, const std::vector<int>& corners,
                      Eigen::Matrix3Xd& forces) const {
     Vector3 centre = Vector3::Zero();
-    for (const int corner : corners) centre += mesh_.vertices[at(corner)];
+    for (const int corner : corners) centre += mesh_.vertices[corner];
     centre /= static_cast<double>(corners.size());
     Eigen::Matrix3d arms = Eigen::Matrix3d::Zero();
     for (const int corner : corners) {
-      const Vector3 arm = mesh_.vertices[at(corner)] - centre;
+      const Vector3 arm = mesh_.vertices[corner] - centre;
       arms += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
     }
     const Vector3 factor = arms.ldlt().solve(moment);
     for (const int corner : corners)
-      forces.col(corner) += factor.cross(mesh_.vertices[at(corner)] - centre);
+      forces.col(corner) += factor.cross(mesh_.vertices[corner] - centre);
   }
 
   void hold() {
     std::vector<char> is_free(at(space_.node_count()), 0);
-    for (const int node : free_nodes(space_)) is_free[at(node)] = 1;
+    for (const int node : free_nodes(space_)) is_free[node] = 1;
     // A deck has one system of axes at a vertex: springs' and links' may be turned.
     std::vector<char> is_corner(mesh_.vertices.size(), 0);
     for (const Shell& shell : mesh_.shells)
-      for (const int vertex : shell.vertices) is_corner[at(vertex)] = 1;
+      for (const int vertex : shell.vertices) is_corner[vertex] = 1;
     for (const Solid& solid : mesh_.solids)
-      for (const int vertex : solid.vertices) is_corner[at(vertex)] = 1;
+      for (const int vertex : solid.vertices) is_corner[vertex] = 1;
     if (mesh_.shells.empty() && mesh_.solids.empty())
       for (const Beam& beam : mesh_.beams)
-        for (const int vertex : beam.vertices) is_corner[at(vertex)] = 1;
+        for (const int vertex : beam.vertices) is_corner[vertex] = 1;
     for (const Spring& spring : mesh_.springs)
       for (const int vertex : spring.vertices)
-        if (vertex >= 0) is_corner[at(vertex)] = 0;
+        if (vertex >= 0) is_corner[vertex] = 0;
     std::vector<int> candidates;
     for (std::size_t vertex = 0; vertex < model_.mesh().vertices.size(); ++vertex) {
       const int node = space_.node_of_vertex(static_cast<int>(vertex));
-      if (node >= 0 && is_free[at(node)] != 0 && is_corner[vertex] != 0)
+      if (node >= 0 && is_free[node] != 0 && is_corner[vertex] != 0)
         candidates.push_back(static_cast<int>(vertex));
     }
     Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      places.col(static_cast<Eigen::Index>(i)) = mesh_.vertices[at(candidates[i])];
+      places.col(i) = mesh_.vertices[candidates[i]];
     SupportSet set;
     set.label = 1;
     set.name = "3-2-1";
     std::map<int, std::size_t> known;
     for (const HeldComponent& held : hold_points(places)) {
       const auto [found, is_new] = known.try_emplace(held.point, set.supports.size());
-      if (is_new) set.supports.emplace_back().vertex = candidates[at(held.point)];
-      set.supports[found->second].held[at(held.axis)] = true;
+      if (is_new) set.supports.emplace_back().vertex = candidates[held.point];
+      set.supports[found->second].held[held.axis] = true;
     }
     deck_.support_sets = {std::move(set)};
   }
@@ -307,22 +307,21 @@ Eigen::Matrix3Xd displacement_against(const std::vector<Support>& supports,
       result.col(column) = motion.segment<3>(6 * static_cast<Eigen::Index>(node));
   }
   // The rigid motion, translation and rotation, that the six held components have.
-  const Vector3 centre = vertices[at(supports.front().vertex)];
+  const Vector3 centre = vertices[supports.front().vertex];
   Eigen::Matrix<double, 6, 6> rows;
   Eigen::Matrix<double, 6, 1> held;
   Eigen::Index count = 0;
   for (const Support& support : supports)
     for (int axis = 0; axis < 3; ++axis) {
-      if (!support.held[at(axis)]) continue;
-      const Vector3 arm = vertices[at(support.vertex)] - centre;
+      if (!support.held[axis]) continue;
+      const Vector3 arm = vertices[support.vertex] - centre;
       rows.row(count) << Vector3::Unit(axis).transpose(),
           arm.cross(Vector3::Unit(axis)).transpose();
       held[count++] = result(axis, support.vertex);
     }
   const Eigen::Matrix<double, 6, 1> rigid = rows.fullPivLu().solve(held);
   for (std::size_t v = 0; v < vertices.size(); ++v)
-    result.col(static_cast<Eigen::Index>(v)) -=
-        rigid.head<3>() + rigid.tail<3>().cross(vertices[v] - centre);
+    result.col(v) -= rigid.head<3>() + rigid.tail<3>().cross(vertices[v] - centre);
   return result;
 }
 
@@ -330,7 +329,7 @@ Wrench resultant_of_points(const Mesh& mesh, const LoadSet& loads) {
   Wrench sum;
   for (const PointLoad& load : loads.point_loads) {
     sum.force += load.force;
-    sum.moment += mesh.vertices[at(load.vertex)].cross(load.force) + load.moment;
+    sum.moment += mesh.vertices[load.vertex].cross(load.force) + load.moment;
   }
   return sum;
 }

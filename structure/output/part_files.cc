@@ -13,7 +13,6 @@
 #include <fmt/ostream.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/output/vtk_array.h"
 #include "structure/output/vtk_grid.h"
 #include "structure/stress_tensor.h"
@@ -71,7 +70,7 @@ Grid grid_of_stress(const PartModel& model, const PartStress& stress) {
   Grid grid{stress.node, {}, {}};
   for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid) {
     for (const int i : shared_order(model.mesh.kind(model.mesh.solids[solid])))
-      grid.connectivity.push_back(stress.point_of[at(stress.first_of[solid] + i)]);
+      grid.connectivity.push_back(stress.point_of[stress.first_of[solid] + i]);
     grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
   }
   return grid;
@@ -83,7 +82,7 @@ Grid grid_of_nodes(const PartMesh& mesh) {
   std::vector<int> point_of(static_cast<std::size_t>(mesh.nodes.cols()), -1);
   for (const int element : mesh.solids) {
     for (const int i : shared_order(mesh.kind(element))) {
-      int& point = point_of[at(mesh.node(element, i))];
+      int& point = point_of[mesh.node(element, i)];
       if (point < 0) {
         point = static_cast<int>(grid.node.size());
         grid.node.push_back(mesh.node(element, i));
@@ -127,7 +126,7 @@ void write_grid(std::ofstream& file, const PartModel& model, const Grid& grid) {
 void write_cells(std::ofstream& file, const PartModel& model, const std::string& path) {
   std::vector<std::int64_t> tags;
   for (const int element : model.mesh.solids)
-    tags.push_back(static_cast<std::int64_t>(model.mesh.elements[at(element)].tag));
+    tags.push_back(static_cast<std::int64_t>(model.mesh.elements[element].tag));
   file << "<CellData>\n";
   write_array(
       file, "Int32", "material", 1,
@@ -199,19 +198,19 @@ void write_calculix(const std::string& path, const PartModel& model) {
                model.mesh.nodes(1, n), model.mesh.nodes(2, n));
   std::map<std::pair<int, int>, std::vector<int>> sets;  // (material, kind): solids
   for (std::size_t s = 0; s < model.mesh.solids.size(); ++s)
-    sets[{model.material_of_solid[s], model.mesh.elements[at(model.mesh.solids[s])].kind}]
-        .push_back(static_cast<int>(s));
+    sets[{model.material_of_solid[s], model.mesh.elements[model.mesh.solids[s]].kind}].push_back(
+        static_cast<int>(s));
   for (const auto& [set, solids] : sets) {
-    const ElementKind& kind = model.mesh.kinds[at(set.second)];
+    const ElementKind& kind = model.mesh.kinds[set.second];
     fmt::print(file, "*ELEMENT, TYPE={}, ELSET={}\n", calculix_type(kind),
-               name_of(model.materials[at(set.first)].name));
+               name_of(model.materials[set.first].name));
     for (const int solid : solids) {
       fmt::print(file, "{}", solid + 1);
       int in_line = 1;
       for (const int i : shared_order(kind)) {
         // Sixteen numbers a line at most.
         fmt::print(file, ",{}{}", in_line++ == 15 ? "\n" : " ",
-                   model.mesh.node(model.mesh.solids[at(solid)], i) + 1);
+                   model.mesh.node(model.mesh.solids[solid], i) + 1);
       }
       fmt::print(file, "\n");
     }
@@ -219,7 +218,7 @@ void write_calculix(const std::string& path, const PartModel& model) {
   std::set<int> used;  // CalculiX refuses a section of no elements
   for (const auto& [set, solids] : sets) used.insert(set.first);
   for (const int number : used) {
-    const Material& material = model.materials[at(number)];
+    const Material& material = model.materials[number];
     fmt::print(file,
                "*MATERIAL, NAME={0}\n*ELASTIC\n{1:.12g}, {2:.12g}\n*DENSITY\n{3:.12g}\n"
                "*SOLID SECTION, ELSET={0}, MATERIAL={0}\n",

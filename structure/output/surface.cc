@@ -48,12 +48,12 @@ struct SharedPoints {
   SharedPoints(const std::vector<int>& point_of, int first, int count) : place_of(at(count)) {
     std::vector<int> order(at(count));
     std::iota(order.begin(), order.end(), 0);
-    const auto point = [&](int sample) { return point_of[at(first + sample)]; };
+    const auto point = [&](int sample) { return point_of[first + sample]; };
     std::sort(order.begin(), order.end(),
               [&](int a, int b) { return std::pair(point(a), a) < std::pair(point(b), b); });
     for (int place = 0; place < count; ++place) {
-      const int sample = order[at(place)];
-      place_of[at(sample)] = place;
+      const int sample = order[place];
+      place_of[sample] = place;
       if (points.empty() || points.back() != point(sample)) {
         points.push_back(point(sample));
         begin.push_back(2 * place);
@@ -86,7 +86,7 @@ class Surface::Builder {
     for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell)
       add_shell(cell, division);
     for (int cell = 0; cell < static_cast<int>(space_.beams().size()); ++cell)
-      add_beam(cell, std::min(division, space_.beams()[at(cell)].degree));
+      add_beam(cell, std::min(division, space_.beams()[cell].degree));
     add_solids();
   }
 
@@ -100,7 +100,7 @@ class Surface::Builder {
   }
 
   void add_shell(int cell, int division) {
-    const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
+    const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
     const std::size_t first = surface_.cell_points_.size();
     const Eigen::Matrix2Xd unit = divided_square(division);
     for (Eigen::Index q = 0; q < unit.cols(); ++q)
@@ -108,13 +108,13 @@ class Surface::Builder {
     for (const std::array<int, 4>& corners : squares_of_division(division)) {
       std::array<int, 4>& quad = surface_.quads_.emplace_back();
       for (std::size_t i = 0; i < 4; ++i) quad[i] = surface_.cell_points_[first + at(corners[i])];
-      surface_.quad_groups_.push_back(space_.mesh().regions[at(shell.region)].group);
+      surface_.quad_groups_.push_back(space_.mesh().regions[shell.region].group);
     }
   }
 
   void add_beam(int cell, int division) {
-    const int number = space_.beams()[at(cell)].beam;
-    const Beam& beam = space_.mesh().beams[at(number)];
+    const int number = space_.beams()[cell].beam;
+    const Beam& beam = space_.mesh().beams[number];
     const std::array<Vector3, 2> edges = strip_of(space_.mesh(), beam);
     for (int i = 0; i <= division; ++i) {
       const double xi = static_cast<double>(i) / division;
@@ -125,7 +125,7 @@ class Surface::Builder {
       if (i > 0) {
         const std::array<int, 2>& before = surface_.stations_.back().points;
         surface_.quads_.push_back({before[0], points[0], points[1], before[1]});
-        surface_.quad_groups_.push_back(space_.mesh().regions[at(beam.region)].group);
+        surface_.quad_groups_.push_back(space_.mesh().regions[beam.region].group);
       }
       surface_.stations_.push_back({cell, xi, points});
     }
@@ -136,21 +136,21 @@ class Surface::Builder {
     const int first = static_cast<int>(space_.mesh().shells.size());  // no plate has such a number
     std::map<std::pair<int, int>, int> known;
     for (const SolidFace& face : outer_faces(space_.mesh())) {
-      const Solid& solid = space_.mesh().solids[at(face.solid)];
+      const Solid& solid = space_.mesh().solids[face.solid];
       std::array<int, 4> quad{};
       for (std::size_t i = 0; i < 4; ++i) {
         // Against the outward normal, as quadrangles of plates run round theirs.
         const int corner = face.corners[std::min(i, face.corners.size() - 1)];
         const auto [entry, is_new] = known.try_emplace({face.solid, corner}, 0);
         if (is_new) {
-          entry->second = point_at(first + solid.region,
-                                   space_.mesh().vertices[at(solid.vertices[at(corner)])]);
+          entry->second =
+              point_at(first + solid.region, space_.mesh().vertices[solid.vertices[corner]]);
           surface_.solid_stations_.push_back({face.solid, corner, entry->second});
         }
         quad[i] = entry->second;
       }
       surface_.quads_.push_back(quad);
-      surface_.quad_groups_.push_back(space_.mesh().regions[at(solid.region)].group);
+      surface_.quad_groups_.push_back(space_.mesh().regions[solid.region].group);
     }
   }
 
@@ -197,7 +197,7 @@ void Surface::take_envelopes_of_shells(const UnitResponses& responses,
         const Eigen::MatrixXd rows = recovery.of_all(begin + i, responses.displacements());
         const Eigen::MatrixXd upper = stresses_at_side(rows, 1), lower = stresses_at_side(rows, -1);
         for (int q = 0; q < per_cell; ++q) {
-          const int place = shared.place_of[at(i * per_cell + q)];
+          const int place = shared.place_of[i * per_cell + q];
           stress.middleRows<6>(12L * place) = upper.middleRows<6>(6L * q);
           stress.middleRows<6>(12L * place + 6) = lower.middleRows<6>(6L * q);
         }
@@ -206,7 +206,7 @@ void Surface::take_envelopes_of_shells(const UnitResponses& responses,
     for (std::size_t h = 0; h < histories.size(); ++h) {
       Eigen::VectorXd of_points(static_cast<Eigen::Index>(shared.points.size()));
       for (std::size_t p = 0; p < shared.points.size(); ++p)
-        of_points[static_cast<Eigen::Index>(p)] = largest[h][at(shared.points[p])];
+        of_points[p] = largest[h][shared.points[p]];
       raise_von_mises(
           histories[h], shared.begin,
           [&](int first, int taken) -> Eigen::MatrixXd {
@@ -214,7 +214,7 @@ void Surface::take_envelopes_of_shells(const UnitResponses& responses,
           },
           of_points);
       for (std::size_t p = 0; p < shared.points.size(); ++p)
-        largest[h][at(shared.points[p])] = of_points[static_cast<Eigen::Index>(p)];
+        largest[h][shared.points[p]] = of_points[p];
     }
   }
 }
@@ -230,7 +230,7 @@ void Surface::take_envelopes_of_beams(const UnitResponses& responses,
     Eigen::MatrixXd stress(0, responses.count());
     std::vector<int> begin{0};
     for (int s = first; s < first + count; ++s) {
-      const BeamStation& station = stations_[at(s)];
+      const BeamStation& station = stations_[s];
       const Eigen::MatrixXd here =
           as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
       stress.conservativeResize(stress.rows() + here.rows(), Eigen::NoChange);
@@ -245,14 +245,14 @@ void Surface::take_envelopes_of_beams(const UnitResponses& responses,
             return stress.middleRows(6L * point, 6L * taken);
           },
           of_sections, 1);
-      of_stations.row(static_cast<Eigen::Index>(h)).segment(first, count) = of_sections.transpose();
+      of_stations.row(h).segment(first, count) = of_sections.transpose();
     }
   });
   for (std::size_t h = 0; h < histories.size(); ++h)
     for (int s = 0; s < stations; ++s)
-      for (const int point : stations_[at(s)].points)
-        largest[h][at(point)] =
-            std::max(largest[h][at(point)], of_stations(static_cast<Eigen::Index>(h), s));
+      for (const int point : stations_[s].points)
+        largest[h][point] =
+            std::max(largest[h][point], of_stations(static_cast<Eigen::Index>(h), s));
 }
 
 void Surface::take_envelopes_of_solids(const UnitResponses& responses,
@@ -265,15 +265,15 @@ void Surface::take_envelopes_of_solids(const UnitResponses& responses,
         find_von_mises_envelope(histories[h], count, [&](int first, int taken) -> Eigen::MatrixXd {
           Eigen::MatrixXd stress(6L * taken, responses.count()), of_solid;
           for (int i = 0; i < taken; ++i) {
-            const SolidStation& station = solid_stations_[at(first + i)];
-            if (i == 0 || station.solid != solid_stations_[at(first + i - 1)].solid)
+            const SolidStation& station = solid_stations_[first + i];
+            if (i == 0 || station.solid != solid_stations_[first + i - 1].solid)
               of_solid = solid_corner_stresses(space, station.solid, responses.displacements());
             stress.middleRows<6>(6L * i) = of_solid.middleRows<6>(6L * station.corner);
           }
           return stress;
         });
     for (int i = 0; i < count; ++i) {
-      double& of_point = largest[h][at(solid_stations_[at(i)].point)];
+      double& of_point = largest[h][solid_stations_[i].point];
       of_point = std::max(of_point, extremes.value[i]);
     }
   }
@@ -285,8 +285,7 @@ std::vector<SurfaceField> Surface::evaluate(const UnitResponses& responses,
   Eigen::MatrixXd motions(space.freedoms(), static_cast<Eigen::Index>(load_cases.size()));
   std::vector<SurfaceField> fields(load_cases.size());
   for (std::size_t k = 0; k < load_cases.size(); ++k) {
-    motions.col(static_cast<Eigen::Index>(k)) =
-        responses.without_rigid_motion(responses.displacement(load_cases[k]));
+    motions.col(k) = responses.without_rigid_motion(responses.displacement(load_cases[k]));
     fields[k].displacement.assign(points_.size(), Vector3::Zero());
     fields[k].von_mises.assign(points_.size(), 0);
   }
@@ -313,14 +312,13 @@ void Surface::add_shells(const Space& space, const Eigen::MatrixXd& motions,
     for (int i = 0; i < count; ++i) {
       const Eigen::MatrixXd local = motions_of_cell(space, begin + i, motions);
       const int first_point = static_cast<int>(unit.cols()) * (begin + i);
-      for (Eigen::Index q = 0; q < unit.cols(); ++q)
-        ++shares[at(cell_points_[at(first_point + q)])];
+      for (Eigen::Index q = 0; q < unit.cols(); ++q) ++shares[cell_points_[first_point + q]];
       for (std::size_t k = 0; k < fields.size(); ++k) {
         const auto column = static_cast<Eigen::Index>(k);
         const Eigen::MatrixXd moved =
             shapes * local.col(column).reshaped(6, local.rows() / 6).topRows<3>().transpose();
         for (Eigen::Index q = 0; q < unit.cols(); ++q) {
-          const std::size_t point = at(cell_points_[at(first_point + q)]);
+          const std::size_t point = at(cell_points_[first_point + q]);
           fields[k].displacement[point] = moved.row(q).transpose();
           fields[k].von_mises[point] +=
               plate_von_mises(stress.col(column).segment<shell_stress_rows>(shell_stress_rows *
@@ -355,16 +353,16 @@ void Surface::add_beams(const Space& space, const Eigen::MatrixXd& motions,
                         std::vector<SurfaceField>& fields, std::vector<int>& shares) const {
   for (const BeamStation& station : stations_) {
     const Vector3 centroid = beam_point(space, station.cell, station.xi).place;
-    for (const int point : station.points) ++shares[at(point)];
+    for (const int point : station.points) ++shares[point];
     for (std::size_t k = 0; k < fields.size(); ++k) {
-      const auto motion = motions.col(static_cast<Eigen::Index>(k));
+      const auto motion = motions.col(k);
       const BeamMotion moved = beam_motion_at(space, station.cell, station.xi, motion);
       const double stress =
           beam_stresses(space, station.cell, station.xi, motion).cwiseAbs().maxCoeff();
       for (const int point : station.points) {
-        fields[k].displacement[at(point)] =
-            moved.displacement + moved.rotation.cross(points_[at(point)] - centroid);
-        fields[k].von_mises[at(point)] += stress;
+        fields[k].displacement[point] =
+            moved.displacement + moved.rotation.cross(points_[point] - centroid);
+        fields[k].von_mises[point] += stress;
       }
     }
   }

@@ -12,7 +12,6 @@
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/solid.h"
-#include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/output/divided_cell.h"
 #include "structure/output/vtk_array.h"
@@ -67,7 +66,7 @@ class Collector {
       for (Eigen::Index q = 0; q < unit.cols(); ++q)
         add_point(space_.place(cell, unit.col(q)), moved.row(q).transpose(),
                   plate_von_mises(rows.segment<shell_stress_rows>(shell_stress_rows * q)));
-      const Shell& shell = space_.mesh().shells[at(space_.shells()[at(cell)].shell)];
+      const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
       const ShellSection& section = space_.mesh().section_of(shell);
       for (const std::array<int, 4>& corners : squares) {
         add_corners(first, corners);
@@ -77,8 +76,8 @@ class Collector {
   }
 
   void add_beam(int cell) {
-    const BeamCell& located = space_.beams()[at(cell)];
-    const Beam& beam = space_.mesh().beams[at(located.beam)];
+    const BeamCell& located = space_.beams()[cell];
+    const Beam& beam = space_.mesh().beams[located.beam];
     for (int i = 0; i <= located.degree; ++i) {
       const double xi = static_cast<double>(i) / located.degree;
       const Eigen::VectorXd stress = beam_stresses(space_, cell, xi, motion_);
@@ -96,7 +95,7 @@ class Collector {
   }
 
   void add_solid(int number) {
-    const Solid& solid = space_.mesh().solids[at(number)];
+    const Solid& solid = space_.mesh().solids[number];
     const Eigen::VectorXd stress = solid_corner_stresses(space_, number, motion_);
     const auto first = static_cast<std::int32_t>(content_.von_mises.size());
     const int corners = topology_of(solid.shape).corners;
@@ -108,7 +107,7 @@ class Collector {
     // VTK's wedges begin with the triangle whose normal points out.
     static constexpr std::array<std::int32_t, 6> wedge{0, 2, 1, 3, 5, 4};
     for (int corner = 0; corner < corners; ++corner)
-      content_.connectivity.push_back(first + (corners == 6 ? wedge[at(corner)] : corner));
+      content_.connectivity.push_back(first + (corners == 6 ? wedge[corner] : corner));
     content_.types.push_back(corners == 4   ? vtk_tetra
                              : corners == 5 ? vtk_pyramid
                              : corners == 6 ? vtk_wedge
@@ -141,7 +140,7 @@ class Collector {
 
   void add_cell(int region, int material, double thickness) {
     content_.offsets.push_back(static_cast<std::int32_t>(content_.connectivity.size()));
-    content_.group.push_back(space_.mesh().regions[at(region)].group);
+    content_.group.push_back(space_.mesh().regions[region].group);
     content_.material.push_back(material);
     content_.plate.push_back(region);
     content_.thickness.push_back(static_cast<float>(thickness));

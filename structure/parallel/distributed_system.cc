@@ -90,15 +90,15 @@ class System {
     std::vector<std::vector<int>> solids(at(share_.end_row - share_.first_row));
     for (const int solid : mesh.solids)
       for (int i = 0; i < mesh.kind(solid).nodes; ++i)
-        if (const int row = share_.row_of_node[at(mesh.node(solid, i))]; owns(row))
-          solids[at(row - share_.first_row)].push_back(solid);
+        if (const int row = share_.row_of_node[mesh.node(solid, i)]; owns(row))
+          solids[row - share_.first_row].push_back(solid);
     std::vector<PetscInt> here, elsewhere;
     std::vector<int> others;
     for (const std::vector<int>& of_row : solids) {
       others.clear();
       for (const int solid : of_row)
         for (int i = 0; i < mesh.kind(solid).nodes; ++i)
-          others.push_back(share_.row_of_node[at(mesh.node(solid, i))]);
+          others.push_back(share_.row_of_node[mesh.node(solid, i)]);
       std::sort(others.begin(), others.end());
       others.erase(std::unique(others.begin(), others.end()), others.end());
       const auto own =
@@ -126,7 +126,7 @@ class System {
       columns.clear();
       bool touches = false;
       for (int i = 0; i < nodes; ++i) {
-        columns.push_back(share_.row_of_node[at(mesh.node(element, i))]);
+        columns.push_back(share_.row_of_node[mesh.node(element, i)]);
         rows.push_back(owns(columns.back()) ? columns.back() : -1);
         touches = touches || rows.back() >= 0;
       }
@@ -148,7 +148,7 @@ class System {
     for (std::size_t node = 0; node < share_.row_of_node.size(); ++node)
       if (const int row = share_.row_of_node[node]; owns(row))
         Eigen::Map<Vector3>(values + 3 * (row - share_.first_row)) =
-            share_.model.mesh.nodes.col(static_cast<Eigen::Index>(node));
+            share_.model.mesh.nodes.col(node);
     check(VecRestoreArray(places, &values));
     OwnedNullSpace motions;
     check(MatNullSpaceCreateRigidBody(places, motions.address()));

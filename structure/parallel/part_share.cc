@@ -73,34 +73,34 @@ class ShareMaker {
     share_.model.materials = whole.materials;
   }
 
-  bool has(int node) const { return place_[at(node)] >= 0; }
+  bool has(int node) const { return place_[node] >= 0; }
 
   void add(int solid) {
-    const int element = whole_.mesh.solids[at(solid)];
+    const int element = whole_.mesh.solids[solid];
     PartMesh& mesh = share_.model.mesh;
     mesh.solids.push_back(static_cast<int>(mesh.elements.size()));
-    mesh.elements.push_back({whole_.mesh.elements[at(element)].kind,
+    mesh.elements.push_back({whole_.mesh.elements[element].kind,
                              static_cast<int>(mesh.element_nodes.size()),
-                             whole_.mesh.elements[at(element)].tag});
-    share_.model.material_of_solid.push_back(whole_.material_of_solid[at(solid)]);
+                             whole_.mesh.elements[element].tag});
+    share_.model.material_of_solid.push_back(whole_.material_of_solid[solid]);
     for (int i = 0; i < whole_.mesh.kind(element).nodes; ++i)
       mesh.element_nodes.push_back(place(whole_.mesh.node(element, i)));
   }
 
   void take_places() {
     Eigen::Matrix3Xd& nodes = share_.model.mesh.nodes;
-    nodes.resize(3, static_cast<Eigen::Index>(share_.node_in_whole.size()));
+    nodes.resize(3, share_.node_in_whole.size());
     for (Eigen::Index i = 0; i < nodes.cols(); ++i)
-      nodes.col(i) = whole_.mesh.nodes.col(share_.node_in_whole[static_cast<std::size_t>(i)]);
+      nodes.col(i) = whole_.mesh.nodes.col(share_.node_in_whole[i]);
   }
 
  private:
   int place(int node) {
-    int& known = place_[at(node)];
+    int& known = place_[node];
     if (known < 0) {
       known = static_cast<int>(share_.node_in_whole.size());
       share_.node_in_whole.push_back(node);
-      share_.row_of_node.push_back(row_of_node_[at(node)]);
+      share_.row_of_node.push_back(row_of_node_[node]);
     }
     return known;
   }
@@ -136,16 +136,16 @@ PartDistribution::PartDistribution(const PartModel& model, int processes)
   for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid) {
     const int element = model.mesh.solids[solid];
     for (int i = 0; i < model.mesh.kind(element).nodes; ++i) {
-      int& of_node = owner[at(model.mesh.node(element, i))];
+      int& of_node = owner[model.mesh.node(element, i)];
       of_node = std::min(of_node, process_of_solid_[solid]);
     }
   }
-  row_of_node_.assign(at(nodes), -1);
+  row_of_node_.assign(nodes, -1);
   for (int process = 0; process < processes; ++process) {
     first_rows_.push_back(static_cast<int>(node_of_row_.size()));
     for (int node = 0; node < nodes; ++node) {
-      if (owner[at(node)] != process) continue;
-      row_of_node_[at(node)] = static_cast<int>(node_of_row_.size());
+      if (owner[node] != process) continue;
+      row_of_node_[node] = static_cast<int>(node_of_row_.size());
       node_of_row_.push_back(node);
     }
   }
@@ -158,12 +158,12 @@ PartShare PartDistribution::share(int process, const std::vector<FixedUnknown>& 
   ShareMaker maker(model_, row_of_node_, share);
   const auto solids = static_cast<int>(model_.mesh.solids.size());
   for (int solid = 0; solid < solids; ++solid)
-    if (process_of_solid_[at(solid)] == process) maker.add(solid);
+    if (process_of_solid_[solid] == process) maker.add(solid);
   share.own_solids = static_cast<int>(share.model.mesh.solids.size());
   std::vector<int> halo;
   for (int solid = 0; solid < solids; ++solid) {
-    if (process_of_solid_[at(solid)] == process) continue;
-    const int element = model_.mesh.solids[at(solid)];
+    if (process_of_solid_[solid] == process) continue;
+    const int element = model_.mesh.solids[solid];
     bool touches = false;
     for (int i = 0; i < model_.mesh.kind(element).nodes && !touches; ++i)
       touches = maker.has(model_.mesh.node(element, i));
@@ -171,16 +171,16 @@ PartShare PartDistribution::share(int process, const std::vector<FixedUnknown>& 
   }
   for (const int solid : halo) maker.add(solid);
   maker.take_places();
-  share.first_row = first_rows_[at(process)];
+  share.first_row = first_rows_[process];
   share.end_row = first_rows_[at(process) + 1];
   for (const FixedUnknown& one : fixed) {
-    const int row = row_of_node_[at(one.unknown / 3)];
+    const int row = row_of_node_[one.unknown / 3];
     if (row >= share.first_row && row < share.end_row)
       share.fixed.push_back({3 * row + one.unknown % 3, one.value});
   }
   share.load.resize(3 * (share.end_row - share.first_row));
   for (int row = share.first_row; row < share.end_row; ++row)
-    share.load.segment<3>(3 * (row - share.first_row)) = load.segment<3>(3 * node_of_row_[at(row)]);
+    share.load.segment<3>(3 * (row - share.first_row)) = load.segment<3>(3 * node_of_row_[row]);
   return share;
 }
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/output/part_files.h"
 
 namespace blocklift::structure {
@@ -28,13 +27,13 @@ void write_piece(const std::string& stem, const ProcessGroup& group, const PartS
   PartSolution solution;
   solution.displacement = displacement;
   solution.stress = recover_part_stress(model, displacement);
-  model.mesh.solids.resize(static_cast<std::size_t>(share.own_solids));
+  model.mesh.solids.resize(share.own_solids);
   PartStress& stress = solution.stress;
   int points = 0;
   for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid)
     for (int i = 0; i < model.mesh.kind(model.mesh.solids[solid]).nodes; ++i)
-      points = std::max(points, 1 + stress.point_of[at(stress.first_of[solid] + i)]);
-  stress.node.resize(static_cast<std::size_t>(points));
+      points = std::max(points, 1 + stress.point_of[stress.first_of[solid] + i]);
+  stress.node.resize(points);
   write_part_vtu(piece_name(stem, group.rank()), model, solution);
 }
 
@@ -130,10 +129,9 @@ PartDisplacement PartTeam::solve(const PartModel& model, const std::vector<Fixed
   // Nodes of no solid stay where they are put.
   for (const FixedUnknown& one : fixed) result.displacement[one.unknown] = one.value;
   const auto place = [&](int process, const Eigen::VectorXd& rows) {
-    const int first = distribution.first_rows()[static_cast<std::size_t>(process)];
+    const int first = distribution.first_rows()[process];
     for (Eigen::Index row = 0; row < rows.size() / 3; ++row)
-      result.displacement.segment<3>(
-          3 * distribution.node_of_row()[static_cast<std::size_t>(first + row)]) =
+      result.displacement.segment<3>(3 * distribution.node_of_row()[first + row]) =
           rows.segment<3>(3 * row);
   };
   place(0, own_displacement(*share_, displacement_));
@@ -143,10 +141,9 @@ PartDisplacement PartTeam::solve(const PartModel& model, const std::vector<Fixed
     place(process, rows);
   }
   const Eigen::VectorXd forces = part_internal_forces(model, result.displacement);
-  result.reactions.resize(static_cast<Eigen::Index>(fixed.size()));
+  result.reactions.resize(fixed.size());
   for (std::size_t i = 0; i < fixed.size(); ++i)
-    result.reactions[static_cast<Eigen::Index>(i)] =
-        forces[fixed[i].unknown] - load[fixed[i].unknown];
+    result.reactions[i] = forces[fixed[i].unknown] - load[fixed[i].unknown];
   return result;
 }
 

@@ -57,7 +57,7 @@ std::vector<BarChain> find_free_chains(const Mesh& mesh, const MeetingPoints& po
   }
   return find_bar_chains(mesh, points, beams, straight, [&](int beam, int next, int vertex) {
     return points.beams(vertex).size() == 2 && !is_held(points, vertex) &&
-           are_one_bar(mesh, mesh.beams[at(beam)], mesh.beams[at(next)]);
+           are_one_bar(mesh, mesh.beams[beam], mesh.beams[next]);
   });
 }
 
@@ -85,8 +85,8 @@ void weaken(const BeamSection& section, const Eigen::Matrix2d& axes, Column& col
     double outermost = 0;
     for (const Eigen::Vector2d& point : stress_points(section))
       outermost = std::max(outermost, std::abs(point.y() * axis.x() - point.x() * axis.y()));
-    smaller(column.second_moments[at(i)], moment);
-    smaller(column.section_moduli[at(i)], moment / outermost);
+    smaller(column.second_moments[i], moment);
+    smaller(column.section_moduli[i], moment / outermost);
   }
 }
 
@@ -97,12 +97,12 @@ Column column_of(const Mesh& mesh, const BarChain& chain, const Eigen::Matrix2d&
   column.elastic_modulus = column.yield_stress = column.area = no_limit;
   column.second_moments = column.section_moduli = {no_limit, no_limit};
   for (const auto& [number, reversed] : chain.beams) {
-    const Beam& beam = mesh.beams[at(number)];
-    const Material& material = mesh.materials[at(mesh.section_of(beam).material)];
+    const Beam& beam = mesh.beams[number];
+    const Material& material = mesh.materials[mesh.section_of(beam).material];
     column.elastic_modulus = std::min(column.elastic_modulus, material.youngs_modulus);
     column.yield_stress = std::min(column.yield_stress, material.yield_stress);
     weaken(mesh.section_of(beam), axes, column);
-    if (beam.end_section >= 0) weaken(mesh.beam_sections[at(beam.end_section)], axes, column);
+    if (beam.end_section >= 0) weaken(mesh.beam_sections[beam.end_section], axes, column);
   }
   return column;
 }
@@ -138,7 +138,7 @@ class BarForces {
         panels_(panels),
         cells_of_beam_(mesh_.beams.size()) {
     for (std::size_t c = 0; c < space_.beams().size(); ++c)
-      cells_of_beam_[at(space_.beams()[c].beam)].push_back(static_cast<int>(c));
+      cells_of_beam_[space_.beams()[c].beam].push_back(static_cast<int>(c));
   }
 
   /// Stations along a chain; `forces_at` gives the rows of a beam's cell at its place xi.
@@ -147,8 +147,8 @@ class BarForces {
     std::vector<BarStation> stations;
     double passed = 0;
     for (const auto& [beam, reversed] : chain.beams) {
-      const double length = reach_of(mesh_, mesh_.beams[at(beam)]).norm();
-      for (const int cell : cells_of_beam_[at(beam)])
+      const double length = reach_of(mesh_, mesh_.beams[beam]).norm();
+      for (const int cell : cells_of_beam_[beam])
         for (const double xi : places_in_cell) {
           const double share = share_at(cell, xi);
           stations.push_back({(passed + (reversed ? 1 - share : share) * length) / chain.length,
@@ -170,7 +170,7 @@ class BarForces {
   /// Of a bar with its plates: their force with the bar's own, the moment of the curvature along
   /// the plate's normal in the section of both, and the bar's stresses.
   Eigen::MatrixXd of_stiffener(int cell, double xi, const PlateAlong& plate) const {
-    const Beam& beam = mesh_.beams[at(space_.beams()[at(cell)].beam)];
+    const Beam& beam = mesh_.beams[space_.beams()[cell].beam];
     const double share = share_at(cell, xi);
     const Vector3 e_1 = reach_of(mesh_, beam).normalized();
     const Vector3 e_2 = across(mesh_, beam);
@@ -186,7 +186,7 @@ class BarForces {
     for (std::size_t side = 0; side < 2; ++side)
       rows.row(0) +=
           strips[side].width * strips[side].thickness *
-          panels_.stress_beside(panel_of(plate, side), e_1, mesh_.vertices[at(beam.vertices[0])]);
+          panels_.stress_beside(panel_of(plate, side), e_1, mesh_.vertices[beam.vertices[0]]);
     // By which the stress grows along the normal.
     const Eigen::RowVectorXd growth = plate.normal.dot(e_1.cross(e_2)) * scaled_curvatures.row(0) -
                                       plate.normal.dot(e_2) * scaled_curvatures.row(1);
@@ -206,7 +206,7 @@ class BarForces {
     const Vector3 e_1 = reach_of(mesh_, beam).normalized();
     std::array<PlateStrip, 2> strips;
     for (std::size_t side = 0; side < 2; ++side) {
-      const Shell& shell = mesh_.shells[at(plate.shells[side])];
+      const Shell& shell = mesh_.shells[plate.shells[side]];
       strips[side] = {panels_.field_width(panel_of(plate, side), e_1) / 2,
                       mesh_.section_of(shell).thickness, plate_height(mesh_, shell, plate.normal)};
     }
@@ -223,7 +223,7 @@ class BarForces {
   }
   /// Place of a point of a cell on its beam.
   double share_at(int cell, double xi) const {
-    const BeamCell& located = space_.beams()[at(cell)];
+    const BeamCell& located = space_.beams()[cell];
     return located.origin + located.size * xi;
   }
 
@@ -236,12 +236,12 @@ class BarForces {
 
 /// A span without its column.
 BarSpan span_of(const Mesh& mesh, const BarChain& chain) {
-  const Region& region = mesh.regions[at(mesh.beams[at(chain.beams.front().first)].region)];
+  const Region& region = mesh.regions[mesh.beams[chain.beams.front().first].region];
   BarSpan span;
   span.bar = region.name;
-  span.group = mesh.groups[at(region.group)].name;
-  span.p_BFrom = mesh.vertices[at(chain.from)];
-  span.p_BTo = mesh.vertices[at(chain.to)];
+  span.group = mesh.groups[region.group].name;
+  span.p_BFrom = mesh.vertices[chain.from];
+  span.p_BTo = mesh.vertices[chain.to];
   return span;
 }
 
@@ -250,13 +250,13 @@ Column stiffener_column_of(const Mesh& mesh, const BarChain& chain,
                            const StiffenerChains& stiffeners, const BarForces& bars) {
   std::optional<Column> weakest;
   for (const auto& [number, reversed] : chain.beams) {
-    const Beam& beam = mesh.beams[at(number)];
-    const PlateAlong& plate = stiffeners.plates[at(number)];
-    Material material = mesh.materials[at(mesh.section_of(beam).material)];
+    const Beam& beam = mesh.beams[number];
+    const PlateAlong& plate = stiffeners.plates[number];
+    Material material = mesh.materials[mesh.section_of(beam).material];
     for (const int shell : plate.shells)
-      material.yield_stress = std::min(
-          material.yield_stress,
-          mesh.materials[at(mesh.section_of(mesh.shells[at(shell)]).material)].yield_stress);
+      material.yield_stress =
+          std::min(material.yield_stress,
+                   mesh.materials[mesh.section_of(mesh.shells[shell]).material].yield_stress);
     for (const double share : {0.0, 1.0}) {
       const Column column =
           stiffener_column(material, stiffener_section(mesh, beam, plate.normal, share),
@@ -271,13 +271,13 @@ Column stiffener_column_of(const Mesh& mesh, const BarChain& chain,
 void set_tripping(const Mesh& mesh, const BarChain& chain, const StiffenerChains& stiffeners,
                   const BarForces& bars, BarSpan& span) {
   const double brackets =
-      mesh.group_of_region(mesh.beams[at(chain.beams.front().first)].region).tripping_brackets;
+      mesh.group_of_region(mesh.beams[chain.beams.front().first].region).tripping_brackets;
   const double length = brackets > 0 ? std::min(brackets, chain.length) : chain.length;
   double elastic = std::numeric_limits<double>::infinity(), strength = elastic;
   for (const auto& [number, reversed] : chain.beams) {
-    const Beam& beam = mesh.beams[at(number)];
-    const PlateAlong& plate = stiffeners.plates[at(number)];
-    const Material& material = mesh.materials[at(mesh.section_of(beam).material)];
+    const Beam& beam = mesh.beams[number];
+    const PlateAlong& plate = stiffeners.plates[number];
+    const Material& material = mesh.materials[mesh.section_of(beam).material];
     const double plate_at = BarForces::height_of(bars.strips_beside(beam, plate));
     for (const double share : {0.0, 1.0}) {
       const TrippingSection section = tripping_section(mesh, beam, plate.normal, plate_at, share);
@@ -294,7 +294,7 @@ void set_tripping(const Mesh& mesh, const BarChain& chain, const StiffenerChains
 
 bool resists_bending(const Mesh& mesh, const BarChain& chain) {
   return std::all_of(chain.beams.begin(), chain.beams.end(), [&](const auto& beam) {
-    return bending_law(mesh.section_of(mesh.beams[at(beam.first)])).determinant() > 0;
+    return bending_law(mesh.section_of(mesh.beams[beam.first])).determinant() > 0;
   });
 }
 
@@ -311,7 +311,7 @@ BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::Ma
       ++unknown_rods_;
       continue;
     }
-    const Beam& first = mesh.beams[at(chain.beams.front().first)];
+    const Beam& first = mesh.beams[chain.beams.front().first];
     const Eigen::Matrix2d axes = principal_axes(mesh.section_of(first));
     BarSpan& span = spans_.emplace_back(span_of(mesh, chain));
     span.column = column_of(mesh, chain, axes);
@@ -322,9 +322,7 @@ BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::Ma
   }
   const StiffenerChains stiffeners = find_stiffeners(mesh, points);
   for (const BarChain& chain : stiffeners.chains) {
-    const auto plate_of = [&](int beam) -> const PlateAlong& {
-      return stiffeners.plates[at(beam)];
-    };
+    const auto plate_of = [&](int beam) -> const PlateAlong& { return stiffeners.plates[beam]; };
     if (!resists_bending(mesh, chain) ||
         !std::all_of(chain.beams.begin(), chain.beams.end(),
                      [&](const auto& beam) { return bars.has_panels(plate_of(beam.first)); }))
@@ -333,10 +331,10 @@ BlockBars::BlockBars(const ElasticModel& model, const Eigen::Ref<const Eigen::Ma
     span.column = stiffener_column_of(mesh, chain, stiffeners, bars);
     set_tripping(mesh, chain, stiffeners, bars, span);
     const int first = chain.beams.front().first;
-    for (const PlateStrip& strip : bars.strips_beside(mesh.beams[at(first)], plate_of(first)))
+    for (const PlateStrip& strip : bars.strips_beside(mesh.beams[first], plate_of(first)))
       span.plate_width += strip.width;
     found.push_back(bars.along(chain, [&](int cell, double xi) {
-      return bars.of_stiffener(cell, xi, plate_of(model.space().beams()[at(cell)].beam));
+      return bars.of_stiffener(cell, xi, plate_of(model.space().beams()[cell].beam));
     }));
   }
   Eigen::Index rows = 0;

@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -21,14 +19,14 @@ class ChainFinder {
         goes_on_(goes_on),
         least_cosine_(std::cos(most_turn)),
         open_(mesh.beams.size(), false) {
-    for (const int beam : beams) open_[at(beam)] = true;
+    for (const int beam : beams) open_[beam] = true;
   }
 
-  bool is_open(int beam) const { return open_[at(beam)]; }
+  bool is_open(int beam) const { return open_[beam]; }
 
   BarChain chain_of(int beam) {
-    const Beam& of = mesh_.beams[at(beam)];
-    open_[at(beam)] = false;
+    const Beam& of = mesh_.beams[beam];
+    open_[beam] = false;
     BarChain chain{{{beam, false}}, of.vertices[0], of.vertices[1], reach_of(mesh_, of).norm()};
     for (int end = 0; end < 2; ++end) {
       while (extend(chain)) {
@@ -46,11 +44,11 @@ class ChainFinder {
   }
 
   Vector3 direction(int beam, bool reversed) const {
-    return (reversed ? -1 : 1) * reach_of(mesh_, mesh_.beams[at(beam)]).normalized();
+    return (reversed ? -1 : 1) * reach_of(mesh_, mesh_.beams[beam]).normalized();
   }
 
   bool has_release(int beam, int vertex) const {
-    const Beam& of = mesh_.beams[at(beam)];
+    const Beam& of = mesh_.beams[beam];
     const BeamRelease& release = of.release[of.vertices[0] == vertex ? 0 : 1];
     return std::find(release.begin(), release.end(), true) != release.end();
   }
@@ -59,14 +57,14 @@ class ChainFinder {
     const auto [last, last_reversed] = chain.beams.back();
     const auto [first, first_reversed] = chain.beams.front();
     for (const int next : points_.beams(chain.to)) {
-      if (!open_[at(next)]) continue;
-      const Beam& beam = mesh_.beams[at(next)];
+      if (!open_[next]) continue;
+      const Beam& beam = mesh_.beams[next];
       const bool reversed = beam.vertices[1] == chain.to;
       if (direction(first, first_reversed).dot(direction(next, reversed)) < least_cosine_ ||
           has_release(last, chain.to) || has_release(next, chain.to) ||
           !goes_on_(last, next, chain.to))
         continue;
-      open_[at(next)] = false;
+      open_[next] = false;
       chain.beams.emplace_back(next, reversed);
       chain.to = beam.vertices[reversed ? 0 : 1];
       chain.length += reach_of(mesh_, beam).norm();
@@ -87,7 +85,7 @@ class ChainFinder {
 MeetingPoints::MeetingPoints(const Mesh& mesh)
     : cells_(mesh.vertices.size()), beams_(mesh.vertices.size()) {
   const auto add_cell = [&](int vertex, int cell) {
-    std::vector<int>& cells = cells_[at(vertex)];
+    std::vector<int>& cells = cells_[vertex];
     if (std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
   };
   for (std::size_t s = 0; s < mesh.shells.size(); ++s)
@@ -98,8 +96,7 @@ MeetingPoints::MeetingPoints(const Mesh& mesh)
       add_cell(vertex, static_cast<int>(mesh.shells.size() + s));
   for (std::vector<int>& cells : cells_) std::sort(cells.begin(), cells.end());
   for (std::size_t b = 0; b < mesh.beams.size(); ++b)
-    for (const int vertex : mesh.beams[b].vertices)
-      beams_[at(vertex)].push_back(static_cast<int>(b));
+    for (const int vertex : mesh.beams[b].vertices) beams_[vertex].push_back(static_cast<int>(b));
   for_each_link(mesh, [&](const std::vector<int>& vertices, long) {
     fastened_.insert(vertices.begin(), vertices.end());
   });
@@ -126,7 +123,7 @@ std::vector<BarChain> find_bar_chains(const Mesh& mesh, const MeetingPoints& poi
 }
 
 Vector3 reach_of(const Mesh& mesh, const Beam& beam) {
-  return mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])];
+  return mesh.vertices[beam.vertices[1]] - mesh.vertices[beam.vertices[0]];
 }
 
 }  // namespace blocklift::structure

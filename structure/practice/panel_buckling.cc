@@ -12,7 +12,6 @@
 
 #include "structure/batches.h"
 #include "structure/formulation/shell.h"
-#include "structure/index.h"
 #include "structure/response/cell_finder.h"
 #include "structure/response/shell_stress.h"
 
@@ -30,9 +29,7 @@ std::set<Edge> edges_with_beams(const Mesh& mesh) {
   return edges;
 }
 
-bool is_lug(const Mesh& mesh, int shell) {
-  return mesh.regions[at(mesh.shells[at(shell)].region)].is_lug;
-}
+bool is_lug(const Mesh& mesh, int shell) { return mesh.regions[mesh.shells[shell].region].is_lug; }
 
 /// Fields that buckle as one: pads belong to their plates, beams and lugs' edges hold.
 PlateFields find_buckling_fields(const Mesh& mesh, const std::set<Edge>& beams) {
@@ -49,7 +46,7 @@ struct ShellShare {
 };
 
 ShellShare share_of_shell(const Mesh& mesh, int number, bool is_flipped) {
-  const Shell& shell = mesh.shells[at(number)];
+  const Shell& shell = mesh.shells[number];
   const auto corner = [&](double x, double y) { return position(mesh, shell, {x, y}); };
   ShellShare share;
   // Two triangles: the middle of a triangle as a shell lies elsewhere than that of its square.
@@ -75,7 +72,7 @@ Vector3 main_direction(const Mesh& mesh, const PlateField& field, const Vector3&
   for (const auto& outline : field.outlines)
     for (const FieldEdge& edge : outline) {
       const Vector3 chord =
-          mesh.vertices[at(edge.pieces.back().to)] - mesh.vertices[at(edge.pieces.front().from)];
+          mesh.vertices[edge.pieces.back().to] - mesh.vertices[edge.pieces.front().from];
       chords.push_back(chord - normal * normal.dot(chord));
     }
   const auto preference = [](const Vector3& d) { return std::abs(d.x()) + 0.5 * std::abs(d.y()); };
@@ -121,8 +118,8 @@ Eigen::Vector2d in_plane(const Panel& panel, const Vector3& place) {
 Bounds bounds_of(const Mesh& mesh, const PlateField& field, const Panel& panel) {
   Bounds bounds;
   for (const int shell : field.shells)
-    for (const int vertex : mesh.shells[at(shell)].vertices) {
-      const Eigen::Vector2d place = in_plane(panel, mesh.vertices[at(vertex)]);
+    for (const int vertex : mesh.shells[shell].vertices) {
+      const Eigen::Vector2d place = in_plane(panel, mesh.vertices[vertex]);
       bounds.lower = bounds.lower.cwiseMin(place);
       bounds.upper = bounds.upper.cwiseMax(place);
     }
@@ -136,7 +133,7 @@ void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Pa
   std::map<int, double> of_region;        // volume
   std::map<double, double> of_thickness;  // area
   for (std::size_t i = 0; i < field.shells.size(); ++i) {
-    const Shell& shell = mesh.shells[at(field.shells[i])];
+    const Shell& shell = mesh.shells[field.shells[i]];
     const double thickness = mesh.section_of(shell).thickness;
     const ShellShare share = share_of_shell(mesh, field.shells[i], field.is_flipped[i]);
     panel.centre_B += share.area * thickness * share.middle;
@@ -148,7 +145,7 @@ void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Pa
   panel.centre_B /= volume;
   const auto largest = std::max_element(of_region.begin(), of_region.end(),
                                         [](auto& a, auto& b) { return a.second < b.second; });
-  panel.plate = mesh.regions[at(largest->first)].name;
+  panel.plate = mesh.regions[largest->first].name;
   panel.group = mesh.group_of_region(largest->first).name;
   const auto thinnest = std::find_if(of_thickness.begin(), of_thickness.end(),
                                      [&](auto& one) { return one.second > 0.1 * area; });
@@ -156,8 +153,8 @@ void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Pa
   panel.size = {sides[0], sides[1],
                 thinnest == of_thickness.end() ? of_thickness.begin()->first : thinnest->first};
   for (const int shell : field.shells)
-    if (mesh.section_of(mesh.shells[at(shell)]).thickness == panel.size.thickness)
-      panel.material = mesh.section_of(mesh.shells[at(shell)]).material;
+    if (mesh.section_of(mesh.shells[shell]).thickness == panel.size.thickness)
+      panel.material = mesh.section_of(mesh.shells[shell]).material;
 }
 
 /// Twice the area that an outline encloses in a panel's plane; holes' are negative.
@@ -165,8 +162,8 @@ double enclosed_area(const Mesh& mesh, const std::vector<FieldEdge>& outline, co
   double area = 0;
   for (const FieldEdge& edge : outline)
     for (const FieldEdge::Piece& piece : edge.pieces) {
-      const Eigen::Vector2d from = in_plane(panel, mesh.vertices[at(piece.from)] - panel.centre_B),
-                            to = in_plane(panel, mesh.vertices[at(piece.to)] - panel.centre_B);
+      const Eigen::Vector2d from = in_plane(panel, mesh.vertices[piece.from] - panel.centre_B),
+                            to = in_plane(panel, mesh.vertices[piece.to] - panel.centre_B);
       area += from.x() * to.y() - from.y() * to.x();
     }
   return area;
@@ -187,12 +184,11 @@ FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const std::
   for (const FieldEdge& edge : *outer)
     for (const FieldEdge::Piece& piece : edge.pieces) {
       const bool is_free = edge.is_free && beams.count(std::minmax(piece.from, piece.to)) == 0;
-      const Eigen::Vector2d run = in_plane(panel, mesh.vertices[at(piece.to)]) -
-                                  in_plane(panel, mesh.vertices[at(piece.from)]);
+      const Eigen::Vector2d run =
+          in_plane(panel, mesh.vertices[piece.to]) - in_plane(panel, mesh.vertices[piece.from]);
       const Eigen::Vector2d outward(run.y(), -run.x());  // the field is on the left
       for (int across = 0; across < 2; ++across)
-        free[at(across)][outward[across] > 0 ? 1 : 0] +=
-            (is_free ? 1 : -1) * std::abs(outward[across]);
+        free[across][outward[across] > 0 ? 1 : 0] += (is_free ? 1 : -1) * std::abs(outward[across]);
     }
   FreeEdges result;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -325,8 +321,7 @@ void BlockPanels::describe(const Mesh& mesh) {
     const Bounds bounds = bounds_of(mesh, field, panel);
     measure(mesh, field, bounds, panel);
     panel.free = find_free_edges(mesh, field, beams, panel);
-    for (const int shell : field.shells)
-      panel_of_shell_[at(shell)] = static_cast<int>(shells_.size());
+    for (const int shell : field.shells) panel_of_shell_[shell] = static_cast<int>(shells_.size());
     shells_.push_back(field.shells);
   }
 }
@@ -354,13 +349,12 @@ void BlockPanels::integrate(const ElasticModel& model,
   const Eigen::Matrix3Xd rule = square_rule(space.degree() + 1);
   const CellFinder finder(space);
   const auto add = [&](int p, int cell, ShellStress& recovery, Eigen::Vector3d& weights) {
-    const Panel& panel = panels_[at(p)];
+    const Panel& panel = panels_[p];
     const Eigen::MatrixXd rows = recovery.of_all(cell, motions);
-    const double thickness =
-        mesh.section_of(mesh.shells[at(space.shells()[at(cell)].shell)]).thickness;
+    const double thickness = mesh.section_of(mesh.shells[space.shells()[cell].shell]).thickness;
     auto sums = components_.middleRows<rows_per_panel>(rows_per_panel * p);
     for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-      const ShellPoint& point = recovery.points()[at(q)];
+      const ShellPoint& point = recovery.points()[q];
       const Eigen::MatrixXd stress =
           turn_into(panel, point) * rows.middleRows<3>(shell_stress_rows * q + membrane_stress_11);
       const double volume = rule(2, q) * point.area * thickness;
@@ -375,9 +369,9 @@ void BlockPanels::integrate(const ElasticModel& model,
     ShellStress recovery(space, rule.topRows<2>());
     for (int p = first; p < first + count; ++p) {
       Eigen::Vector3d weights = Eigen::Vector3d::Zero();  // volume and second moments
-      for (const int shell : shells_[at(p)])
+      for (const int shell : shells_[p])
         for (const int cell : finder.cells_of(shell)) add(p, cell, recovery, weights);
-      const PanelSize& size = panels_[at(p)].size;
+      const PanelSize& size = panels_[p].size;
       components_.middleRows<3>(rows_per_panel * p) /= weights[0];
       components_.row(rows_per_panel * p + 3) *= size.b / 2 / weights[1];
       components_.row(rows_per_panel * p + 4) *= size.a / 2 / weights[2];
@@ -386,13 +380,13 @@ void BlockPanels::integrate(const ElasticModel& model,
 }
 
 double BlockPanels::field_width(int panel, const Vector3& along) const {
-  const Panel& of = panels_[at(panel)];
+  const Panel& of = panels_[panel];
   return runs_along_1(of, along) ? of.size.b / of.fields_b : of.size.a / of.fields_a;
 }
 
 Eigen::RowVectorXd BlockPanels::stress_beside(int panel, const Vector3& along,
                                               const Vector3& place) const {
-  const Panel& of = panels_[at(panel)];
+  const Panel& of = panels_[panel];
   const bool along_1 = runs_along_1(of, along);
   const Eigen::Index first = rows_per_panel * panel + (along_1 ? 0 : 1);
   const double fields = along_1 ? of.fields_b : of.fields_a;
@@ -409,14 +403,14 @@ std::vector<PanelStress> BlockPanels::stresses(const Eigen::VectorXd& factors) c
 }
 
 BucklingUtilisation BlockPanels::utilisation(int panel, const PanelStress& stress) const {
-  const Panel& of = panels_[at(panel)];
+  const Panel& of = panels_[panel];
   PanelSize size = of.size;
   PanelStress field = stress;
   size.a /= of.fields_a;
   size.b /= of.fields_b;
   take_field(field.s11, field.s11_gradient, of.fields_b);
   take_field(field.s22, field.s22_gradient, of.fields_a);
-  return buckling_utilisation(size, of.free, materials_[at(of.material)], field);
+  return buckling_utilisation(size, of.free, materials_[of.material], field);
 }
 
 std::vector<BlockPanels::Worst> BlockPanels::find_worst(const Eigen::MatrixXd& factors,
@@ -430,7 +424,7 @@ std::vector<BlockPanels::Worst> BlockPanels::find_worst(const Eigen::MatrixXd& f
         const auto s = all.block<rows_per_panel, 1>(rows_per_panel * p, t);
         const PanelStress stress{s[0], s[1], s[2], s[3], s[4]};
         const BucklingUtilisation found = utilisation(first + p, stress);
-        Worst& worst = result[at(first + p)];
+        Worst& worst = result[first + p];
         if (found.critical > worst.utilisation.critical)
           worst = {found, stress, static_cast<int>(t)};
       }

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include "structure/formulation/beam.h"
-#include "structure/index.h"
 #include "structure/response/beam_stress.h"
 
 namespace blocklift::structure {
@@ -19,7 +18,7 @@ constexpr double most_turn = std::numbers::pi / 4;  // of a curved stiffener bet
 constexpr double support_ratio = 5;                 // of second moments
 
 Vector3 corner(const Mesh& mesh, const Shell& shell, std::size_t number) {
-  return mesh.vertices[at(shell.vertices[number])];
+  return mesh.vertices[shell.vertices[number]];
 }
 
 Vector3 middle_of(const Mesh& mesh, const Shell& shell) {
@@ -45,9 +44,9 @@ class StiffenerFinder {
     if (beam.is_rod || cells.size() != 2 || cells[1] >= static_cast<int>(mesh_.shells.size()))
       return {};
     const Vector3 e_1 = reach_of(mesh_, beam).normalized();
-    const Vector3 middle = mesh_.vertices[at(beam.vertices[0])] + reach_of(mesh_, beam) / 2;
+    const Vector3 middle = mesh_.vertices[beam.vertices[0]] + reach_of(mesh_, beam) / 2;
     const auto side = [&](int shell) {
-      const Vector3 off = middle_of(mesh_, mesh_.shells[at(shell)]) - middle;
+      const Vector3 off = middle_of(mesh_, mesh_.shells[shell]) - middle;
       return Vector3((off - e_1 * e_1.dot(off)).normalized());
     };
     const Vector3 one = side(cells[0]), other = side(cells[1]);
@@ -59,12 +58,12 @@ class StiffenerFinder {
   bool is_supported(int beam, const PlateAlong& plate, int vertex) const {
     for (const int cell : points_.cells(vertex)) {
       if (cell >= static_cast<int>(mesh_.shells.size())) return true;
-      if (std::abs(normal_of(mesh_, mesh_.shells[at(cell)]).dot(plate.normal)) < goes_on_cosine)
+      if (std::abs(normal_of(mesh_, mesh_.shells[cell]).dot(plate.normal)) < goes_on_cosine)
         return true;
     }
     const std::vector<int>& beams = points_.beams(vertex);
     return std::any_of(beams.begin(), beams.end(), [&](int other) {
-      return holds(mesh_.beams[at(other)], mesh_.beams[at(beam)], plate.normal);
+      return holds(mesh_.beams[other], mesh_.beams[beam], plate.normal);
     });
   }
 
@@ -98,7 +97,7 @@ StiffenerChains find_stiffeners(const Mesh& mesh, const MeetingPoints& points) {
   }
   stiffeners.chains =
       find_bar_chains(mesh, points, beams, most_turn, [&](int beam, int /*next*/, int vertex) {
-        return !finder.is_supported(beam, stiffeners.plates[at(beam)], vertex);
+        return !finder.is_supported(beam, stiffeners.plates[beam], vertex);
       });
   return stiffeners;
 }

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "structure/index.h"
 #include "structure/response/block_envelope.h"
 #include "structure/response/squares.h"
 
@@ -57,8 +56,8 @@ Eigen::VectorXd share_of(const RefinementState& state) {
 double smallest_edge_of(const ElasticModel& model) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ShellCell& cell : model.space().shells())
-    smallest = std::min(
-        smallest, cell.size * longest_edge(model.mesh(), model.mesh().shells[at(cell.shell)]));
+    smallest =
+        std::min(smallest, cell.size * longest_edge(model.mesh(), model.mesh().shells[cell.shell]));
   return smallest;
 }
 
@@ -89,7 +88,7 @@ std::vector<Vector3> centres_of(const RefinementState& found, double corners) {
   std::vector<Vector3> centres;
   for (const int s : order) {
     if (share[s] < corners || centres.size() >= most_centres) break;
-    const Square& square = found.squares[at(s)];
+    const Square& square = found.squares[s];
     if (share[s] < refined_at && !square.at_corner()) continue;
     const auto is_near = [&](const Vector3& centre) {
       return (centre - square.centre_B).norm() < 2 * square.size;

@@ -6,7 +6,6 @@
 
 #include "structure/formulation/beam.h"
 #include "structure/formulation/gauss_line.h"
-#include "structure/index.h"
 #include "structure/space/joints.h"
 
 namespace blocklift::structure {
@@ -23,15 +22,15 @@ Eigen::MatrixXd motions_of_beam(const BeamCell& cell,
 }
 
 const Beam& beam_of(const Space& space, int cell) {
-  return space.mesh().beams[at(space.beams()[at(cell)].beam)];
+  return space.mesh().beams[space.beams()[cell].beam];
 }
 
 double modulus_of(const Mesh& mesh, const BeamSection& section) {
-  return mesh.materials[at(section.material)].youngs_modulus;
+  return mesh.materials[section.material].youngs_modulus;
 }
 
 BeamSection section_of(const Space& space, int cell, double xi) {
-  const BeamCell& located = space.beams()[at(cell)];
+  const BeamCell& located = space.beams()[cell];
   return section_at(space.mesh(), beam_of(space, cell), located.origin + located.size * xi);
 }
 
@@ -39,7 +38,7 @@ BeamSection section_of(const Space& space, int cell, double xi) {
 Eigen::MatrixXd own_strains_of(const Space& space, int cell, double xi,
                                const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   return beam_point(space, cell, xi).strain * beam_motion(space, cell) *
-         motions_of_beam(space.beams()[at(cell)], motions);
+         motions_of_beam(space.beams()[cell], motions);
 }
 
 /// Of a tapered beam the strains that the section forces at the Gauss points, carried to the place,
@@ -49,9 +48,9 @@ Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
   if (beam_of(space, cell).end_section < 0) return own_strains_of(space, cell, xi, motions);
   const auto law_at = [&](double place) {
     const BeamSection section = section_of(space, cell, place);
-    return beam_stiffness_law(space.mesh().materials[at(section.material)], section);
+    return beam_stiffness_law(space.mesh().materials[section.material], section);
   };
-  const std::vector<double> points = gauss_places(space.beams()[at(cell)].degree);
+  const std::vector<double> points = gauss_places(space.beams()[cell].degree);
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(6, motions.cols());
   const std::vector<double> shares = lagrange_at(points, xi);
   for (std::size_t q = 0; q < points.size(); ++q)
@@ -82,7 +81,7 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
   const std::vector<Eigen::Vector2d> points = stress_points(section);
   Eigen::MatrixXd stresses(static_cast<Eigen::Index>(points.size()), motions.cols());
   for (std::size_t p = 0; p < points.size(); ++p) {
-    auto row = stresses.row(static_cast<Eigen::Index>(p));
+    auto row = stresses.row(p);
     row = modulus * strain.row(0);
     if (!beam.is_rod)
       row += modulus * (points[p].y() * strain.row(4) - points[p].x() * strain.row(5));
@@ -99,7 +98,7 @@ Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double 
 Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
                             const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const BeamSection section = section_of(space, cell, xi);
-  const Material& material = space.mesh().materials[at(section.material)];
+  const Material& material = space.mesh().materials[section.material];
   Eigen::MatrixXd forces =
       beam_stiffness_law(material, section) * strains_of(space, cell, xi, motions);
   if (!beam_of(space, cell).is_rod) return forces;
@@ -117,7 +116,7 @@ Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses) {
 
 BeamMotion beam_motion_at(const Space& space, int cell, double xi,
                           const Eigen::Ref<const Eigen::VectorXd>& motion) {
-  const BeamCell& located = space.beams()[at(cell)];
+  const BeamCell& located = space.beams()[cell];
   const Eigen::VectorXd local = beam_motion(space, cell) * motions_of_beam(located, motion);
   const std::vector<double> values = lagrange_values(located.degree, xi);
   BeamMotion moved;

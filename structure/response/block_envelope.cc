@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -50,7 +48,7 @@ SquareMaxima square_maxima(const Mesh& mesh, const StressRecovery& recovery,
     const int point = static_cast<int>(s);
     const SquareSite site = squares[s].site;
     maxima.block.take(value, point, site);
-    maxima.groups[at(mesh.regions[at(squares[s].region)].group)].take(value, point, site);
+    maxima.groups[mesh.regions[squares[s].region].group].take(value, point, site);
     for (std::size_t lug = 0; lug < mesh.lifting_points.size(); ++lug)
       if (value > maxima.lugs[lug].at_site[site].value &&
           (squares[s].centre_B - mesh.lifting_points[lug].p_BPin).norm() <=
@@ -64,10 +62,10 @@ TimedExtreme of_square(const Mesh& mesh, const CheckedStress& checked,
                        const PointExtremes& von_mises, const Running& found) {
   TimedExtreme extreme;
   if (found.point < 0) return extreme;  // no square lies in it
-  const Square& square = checked.squares()[at(found.point)];
+  const Square& square = checked.squares()[found.point];
   extreme.value = found.value;
   extreme.point_B = square.centre_B;
-  extreme.part = mesh.regions[at(square.region)].name;
+  extreme.part = mesh.regions[square.region].name;
   extreme.instant = von_mises.instant[found.point];
   extreme.unit_stress = unit_stress_of_square(checked, found.point);
   return extreme;
@@ -82,7 +80,7 @@ TimedExtreme of_point(const UnitResponses& responses, const StressPoints& points
   result.value = largest.value;
   result.instant = largest.instant;
   result.point_B = points.place(largest.point);
-  result.part = mesh.regions[at(points.region(largest.point))].name;
+  result.part = mesh.regions[points.region(largest.point)].name;
   result.unit_stress = points.stresses(largest.point, 1, responses.displacements());
   return result;
 }
@@ -191,7 +189,7 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
       [&](int first, int count) {
         return points.stresses(first, count, responses.displacements());
       },
-      groups, [&](int point) { return mesh.regions[at(points.region(point))].group; }, threads);
+      groups, [&](int point) { return mesh.regions[points.region(point)].group; }, threads);
   envelope.places = squares + points.count();
   LargestValue peak;
   for (const LargestValue& of_group : peaks.von_mises)
@@ -204,7 +202,7 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
   envelope.largest_principal = at_point(peaks.largest_principal);
   envelope.smallest_principal = at_point(peaks.smallest_principal);
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
-    const Material& material = mesh.materials[at(mesh.groups[g].material)];
+    const Material& material = mesh.materials[mesh.groups[g].material];
     const TimedExtreme peak_of_group = at_point(peaks.von_mises[g]);
     GroupEnvelope group{
         mesh.groups[g].name, material.name, material.yield_stress, peak_of_group, {},

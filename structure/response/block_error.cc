@@ -42,22 +42,22 @@ struct Orientation {
   explicit Orientation(const ElasticModel& model)
       : fields(find_fields(model.mesh())), is_flipped(model.mesh().shells.size(), false) {
     for (const PlateField& field : fields.fields) {
-      const Shell& first = model.mesh().shells[at(field.shells.front())];
+      const Shell& first = model.mesh().shells[field.shells.front()];
       along.push_back(
           (position(model.mesh(), first, {1, 0.5}) - position(model.mesh(), first, {0, 0.5}))
               .normalized());
       for (std::size_t i = 0; i < field.shells.size(); ++i)
-        is_flipped[at(field.shells[i])] = field.is_flipped[i];
+        is_flipped[field.shells[i]] = field.is_flipped[i];
     }
   }
   Law turn(const ShellPoint& point, int shell) const {
-    const int field = fields.field_of_shell[at(shell)];
-    const Vector3 normal = (is_flipped[at(shell)] ? -1 : 1) * point.normal;
+    const int field = fields.field_of_shell[shell];
+    const Vector3 normal = (is_flipped[shell] ? -1 : 1) * point.normal;
     const Vector3 e_2 = normal.cross(point.e_1);
     // The angle of the cell's first axis against the field's direction, in the tangent plane.
-    const Vector3& direction = along[at(field)];
+    const Vector3& direction = along[field];
     return turn_to_field(std::atan2(-direction.dot(e_2), direction.dot(point.e_1)),
-                         is_flipped[at(shell)]);
+                         is_flipped[shell]);
   }
 
   PlateFields fields;
@@ -78,11 +78,10 @@ class Points {
         // Tied nodes share an unknown; what follows a polynomial stands for itself.
         const std::int64_t place =
             end - begin == 1 ? begin->unknown : space.unknowns() + static_cast<std::int64_t>(node);
-        const std::int64_t key =
-            count * place + fields.field_of_shell[at(space.shells()[cell].shell)];
+        const std::int64_t key = count * place + fields.field_of_shell[space.shells()[cell].shell];
         const auto [found, is_new] = known.try_emplace(key, static_cast<int>(shares_.size()));
         if (is_new) shares_.push_back(0);
-        ++shares_[at(found->second)];
+        ++shares_[found->second];
         of_cell_.push_back(found->second);
       }
   }
@@ -90,7 +89,7 @@ class Points {
     return of_cell_[at(cell) * at(space_.nodes_per_shell()) + at(local)];
   }
   int count() const { return static_cast<int>(shares_.size()); }
-  int share(int point) const { return shares_[at(point)]; }
+  int share(int point) const { return shares_[point]; }
 
  private:
   const Space& space_;
@@ -105,7 +104,7 @@ Eigen::VectorXd motion_of_cell(const Space& space, int cell, const Eigen::Vector
 }
 
 Law law_of(const ElasticModel& model, int cell) {
-  const Shell& shell = model.mesh().shells[at(model.space().shells()[at(cell)].shell)];
+  const Shell& shell = model.mesh().shells[model.space().shells()[cell].shell];
   return shell_stiffness_law(model.mesh().material_of(shell),
                              model.mesh().section_of(shell).thickness)
       .topLeftCorner<6, 6>();
@@ -120,9 +119,8 @@ Resultants resultants_of(const ElasticModel& model, const Orientation& orientati
   Resultants resultants(6, static_cast<Eigen::Index>(shell_operator.points().size()));
   for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
     const ShellPoint& point = shell_operator.points()[q];
-    resultants.col(static_cast<Eigen::Index>(q)) =
-        orientation.turn(point, model.space().shells()[at(cell)].shell) *
-        (law * (point.strain.topRows<6>() * local));
+    resultants.col(q) = orientation.turn(point, model.space().shells()[cell].shell) *
+                        (law * (point.strain.topRows<6>() * local));
   }
   return resultants;
 }
@@ -145,7 +143,7 @@ Eigen::MatrixXd to_nodes(int degree) {
     for (int a = 0; a < n; ++a)
       for (int j = 0; j < degree; ++j)
         for (int i = 0; i < degree; ++i)
-          result(j * degree + i, b * n + a) = value(i, line[at(a)]) * value(j, line[at(b)]);
+          result(j * degree + i, b * n + a) = value(i, line[a]) * value(j, line[b]);
   return result;
 }
 
@@ -187,8 +185,7 @@ class AveragedCorners {
   };
   std::int64_t key(std::size_t solid, Eigen::Index corner) const {
     const Solid& of = mesh_.solids[solid];
-    return static_cast<std::int64_t>(mesh_.materials.size()) * of.vertices[at(corner)] +
-           of.material;
+    return static_cast<std::int64_t>(mesh_.materials.size()) * of.vertices[corner] + of.material;
   }
 
   const Mesh& mesh_;
@@ -202,7 +199,7 @@ SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, 
   const AveragedCorners corners(space, motion);
   in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
     for (int s = first; s < first + many; ++s) {
-      const Solid& solid = mesh.solids[at(s)];
+      const Solid& solid = mesh.solids[s];
       const Elasticity compliance = elasticity_of(mesh, solid).inverse();
       const auto energy = [&](const Stress& stress) { return stress.dot(compliance * stress); };
       const Eigen::VectorXd own = solid_stresses(space, s, motion);
@@ -255,7 +252,7 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& mo
       const Resultants difference = smooth * values - s_h;
       const Law compliance = law_of(model, cell).inverse();
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-        const double area = rule(2, q) * own.points()[at(q)].area;
+        const double area = rule(2, q) * own.points()[q].area;
         norms.error[cell] += area * difference.col(q).dot(compliance * difference.col(q));
         norms.norm[cell] += area * s_h.col(q).dot(compliance * s_h.col(q));
       }
@@ -281,16 +278,16 @@ BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd
   std::vector<double> e(mesh.groups.size(), 0), s(mesh.groups.size(), 0);
   const auto add = [&](const SquaredNorms& norms, const auto& region_of) {
     for (int i = 0; i < norms.error.size(); ++i) {
-      const std::size_t group = at(mesh.regions[at(region_of(i))].group);
+      const std::size_t group = at(mesh.regions[region_of(i)].group);
       e[group] += norms.error[i];
       s[group] += norms.norm[i];
     }
   };
   const auto region_of_cell = [&](int cell) {
-    return mesh.shells[at(space.shells()[at(cell)].shell)].region;
+    return mesh.shells[space.shells()[cell].shell].region;
   };
   add(cells, region_of_cell);
-  add(solids, [&](int solid) { return mesh.solids[at(solid)].region; });
+  add(solids, [&](int solid) { return mesh.solids[solid].region; });
 
   BlockError result;
   result.relative =
@@ -300,12 +297,12 @@ BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd
   double largest = 0;
   if (cells.error.size() > 0) {
     largest = cells.error.maxCoeff(&worst);
-    result.worst_part = mesh.regions[at(region_of_cell(static_cast<int>(worst)))].name;
+    result.worst_part = mesh.regions[region_of_cell(static_cast<int>(worst))].name;
     result.worst_point = space.place(static_cast<int>(worst), {0.5, 0.5});
   }
   if (solids.error.size() > 0 && solids.error.maxCoeff(&worst) > largest) {
-    const Solid& solid = mesh.solids[at(worst)];
-    result.worst_part = mesh.regions[at(solid.region)].name;
+    const Solid& solid = mesh.solids[worst];
+    result.worst_part = mesh.regions[solid.region].name;
     result.worst_point = centre_of(mesh, solid);
   }
   result.of_cells = std::move(cells.error);

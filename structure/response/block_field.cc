@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/response/shell_stress.h"
 
 namespace blocklift::structure {
@@ -60,8 +59,7 @@ Eigen::MatrixXd stresses_at(const ElasticModel& model,
   const Eigen::MatrixXd rows = stress.of_all(place.cell, motions);
   const ShellPoint& point = stress.points().front();
   const double share =
-      2 * place.height /
-      mesh.section_of(mesh.shells[at(space.shells()[at(place.cell)].shell)]).thickness;
+      2 * place.height / mesh.section_of(mesh.shells[space.shells()[place.cell].shell]).thickness;
   Eigen::Matrix3d axes;
   axes << point.e_1, point.e_2, point.normal;
   Eigen::MatrixXd result(6, motions.cols());

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/system/linear_solver.h"
 #include "structure/system/matter.h"
 
@@ -40,10 +39,10 @@ void require_memory(const Mesh& mesh, const Resolution& resolution) {
 std::vector<int> cells_of_lug(const Space& space, const LiftingPoint& point) {
   if (point.shells.empty()) return cells_of_region(space, point.region);
   std::vector<char> carries(space.mesh().shells.size(), 0);
-  for (const int shell : point.shells) carries[at(shell)] = 1;
+  for (const int shell : point.shells) carries[shell] = 1;
   std::vector<int> cells;
   for (std::size_t cell = 0; cell < space.shells().size(); ++cell)
-    if (carries[at(space.shells()[cell].shell)] != 0) cells.push_back(static_cast<int>(cell));
+    if (carries[space.shells()[cell].shell] != 0) cells.push_back(static_cast<int>(cell));
   return cells;
 }
 
@@ -85,7 +84,7 @@ ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& r
   lug_loads_.resize(freedoms(), 3 * lug_count());
   const Eigen::Matrix<double, 6, 3> forces = Eigen::Matrix<double, 6, 3>::Identity();
   for (int lug = 0; lug < lug_count(); ++lug) {
-    const LiftingPoint& point = mesh_->lifting_points[at(lug)];
+    const LiftingPoint& point = mesh_->lifting_points[lug];
     lug_loads_.middleCols<3>(3 * lug) =
         point.vertex >= 0
             ? forces_at_vertex(*space_, point)
@@ -121,7 +120,7 @@ std::unique_ptr<ElasticModel> ElasticModel::with(const Resolution& resolution) c
 std::vector<int> cells_of_region(const Space& space, int region) {
   std::vector<int> cells;
   for (std::size_t cell = 0; cell < space.shells().size(); ++cell)
-    if (space.mesh().shells[at(space.shells()[cell].shell)].region == region)
+    if (space.mesh().shells[space.shells()[cell].shell].region == region)
       cells.push_back(static_cast<int>(cell));
   return cells;
 }

@@ -11,7 +11,6 @@
 
 #include "structure/batches.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/response/envelope_search.h"
 
 namespace blocklift::structure {
@@ -91,13 +90,13 @@ void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
                      const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads) {
   const int runs = static_cast<int>(begin.size()) - 1;
   in_batches(runs, 16, threads, [&](int first, int count) {
-    const int from = begin[at(first)], points = begin[at(first + count)] - from;
+    const int from = begin[first], points = begin[first + count] - from;
     if (points == 0) return;
     const Rows rows = responses_of(history, stress, from, points, 6);
     SearchWorkspace workspace(history);
     for (int run = first; run < first + count; ++run) {
       StressFound found = von_mises_above(largest[run]);
-      for (int point = begin[at(run)]; point < begin[at(run + 1)]; ++point)
+      for (int point = begin[run]; point < begin[run + 1]; ++point)
         found = search_stress(history, rows.data() + 6L * (point - from) * rows.cols(), workspace,
                               found);
       largest[run] = found.von_mises.value;
@@ -127,7 +126,7 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
                                       const std::function<int(int)>& set_of, int threads) {
   // Within, the smallest principal stress stands with the opposite sign.
   LargestStresses all;
-  all.von_mises.resize(static_cast<std::size_t>(sets));
+  all.von_mises.resize(sets);
   std::mutex updating;
   in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/system/matter.h"
 
 namespace blocklift::structure {
@@ -76,7 +75,7 @@ std::optional<LineLoads::Nearest> LineLoads::find_nearest(const Vector3& place,
   constexpr double first = 0.02;  // m
   for (double distance = std::min(first, farthest);; distance = std::min(4 * distance, farthest)) {
     tree_.for_each_near(place, distance, [&](int number) {
-      const Shell& shell = mesh.shells[at(number)];
+      const Shell& shell = mesh.shells[number];
       const Eigen::Vector2d xi = nearest_of(mesh, shell, place);
       const double apart = (place - position(mesh, shell, xi)).norm();
       if (apart <= distance && (!nearest || apart < nearest->distance))

@@ -71,17 +71,17 @@ void LoadHistory::divide(const Eigen::MatrixXd& coordinates, std::vector<int>& o
 
 void LoadHistory::store(const Eigen::MatrixXd& coordinates, const std::vector<int>& order) {
   const Eigen::Index rank = coordinates.rows();
-  centres_.assign(at(rank * padded_clusters()), 0);
+  centres_.assign(rank * padded_clusters(), 0);
   half_widths_.assign(centres_.size(), 0);
-  members_.resize(at(rank * clusters() * cluster_size));
+  members_.resize(rank * clusters() * cluster_size);
   coarse_members_.resize(members_.size());
-  middles_.resize(at(rank * clusters()));
+  middles_.resize(rank * clusters());
   member_instants_.resize(at(clusters()) * cluster_size);
   for (int cluster = 0; cluster < clusters(); ++cluster) {
-    const int first = first_member_[at(cluster)], last = first_member_[at(cluster) + 1] - 1;
-    Eigen::VectorXd lower = coordinates.col(order[at(first)]), upper = lower;
+    const int first = first_member_[cluster], last = first_member_[at(cluster) + 1] - 1;
+    Eigen::VectorXd lower = coordinates.col(order[first]), upper = lower;
     for (int i = 0; i < cluster_size; ++i) {
-      const int instant = order[at(std::min(first + i, last))];
+      const int instant = order[std::min(first + i, last)];
       member_instants_[at(cluster) * cluster_size + at(i)] = instant;
       const auto place = coordinates.col(instant);
       lower = lower.cwiseMin(place);
@@ -94,7 +94,7 @@ void LoadHistory::store(const Eigen::MatrixXd& coordinates, const std::vector<in
     for (Eigen::Index k = 0; k < rank; ++k) {
       const std::size_t entry = at(k * padded_clusters() + cluster);
       const double middle = (lower[k] + upper[k]) / 2;
-      middles_[at(cluster * rank + k)] = middle;
+      middles_[cluster * rank + k] = middle;
       for (int i = 0; i < cluster_size; ++i) {
         const std::size_t member = start(cluster) + at(k * cluster_size + i);
         coarse_members_[member] = static_cast<float>(members_[member] - middle);

@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 
-#include "structure/index.h"
 #include "structure/mesh/files/part_reader.h"
 
 namespace blocklift::structure {
@@ -22,7 +21,7 @@ PadeyeModel::PadeyeModel(const PadeyeGeometry& padeye, const Material& material,
   part_.material_of_solid.resize(part_.mesh.solids.size());
   for (std::size_t c = 0; c < columns_.size(); ++c)
     for (const int solid : solids_of_column_[c])
-      part_.material_of_solid[at(solid)] = columns_[c].plate == PadeyePlate::main ? 0 : 1;
+      part_.material_of_solid[solid] = columns_[c].plate == PadeyePlate::main ? 0 : 1;
   part_.supports = {{"base", "base", {true, true, true}, Vector3::Zero()}};
   std::vector<int> support_of;
   const std::vector<FixedUnknown> fixed = part_supports(part_, support_of);

@@ -7,7 +7,6 @@
 
 #include <Eigen/Dense>
 
-#include "structure/index.h"
 #include "structure/response/part_solution.h"
 #include "structure/stress_tensor.h"
 
@@ -38,7 +37,7 @@ Mean mean_of(const PartModel& part, const std::vector<int>& solids,
              const Eigen::VectorXd& displacement) {
   Mean mean;
   for (const int solid : solids) {
-    const int element = part.mesh.solids[at(solid)];
+    const int element = part.mesh.solids[solid];
     const ElementKind& kind = part.mesh.kind(element);
     const auto stress = part_stresses(part, solid, kind.gradients, displacement);
     const Eigen::Matrix3Xd places = part.mesh.places(element);
@@ -64,7 +63,7 @@ std::vector<std::vector<int>> solids_of_columns(const PartMesh& mesh,
                                                 const std::vector<PadeyeMesh::Column>& columns) {
   std::map<std::size_t, int> solid_of_tag;
   for (std::size_t s = 0; s < mesh.solids.size(); ++s)
-    solid_of_tag[mesh.elements[at(mesh.solids[s])].tag] = static_cast<int>(s);
+    solid_of_tag[mesh.elements[mesh.solids[s]].tag] = static_cast<int>(s);
   std::vector<std::vector<int>> solids;
   for (const PadeyeMesh::Column& column : columns) {
     solids.emplace_back();
@@ -82,30 +81,30 @@ PadeyeStress find_padeye_stress(const PadeyeGeometry& padeye,
   std::vector<Mean> means;
   result.column_von_mises.resize(count);
   for (int c = 0; c < count; ++c) {
-    means.push_back(mean_of(part, solids_of_column[at(c)], displacement));
+    means.push_back(mean_of(part, solids_of_column[c], displacement));
     result.column_von_mises[c] = means.back().von_mises();
   }
   const double reach = std::min(patch_side / std::sqrt(std::numbers::pi), padeye.hole_diameter / 4);
   for (int c = 0; c < count; ++c) {
-    if (centre_of(columns[at(c)]).y() <= -padeye.height + padeye.thickness) continue;
-    const bool is_main = columns[at(c)].plate == PadeyePlate::main;
+    if (centre_of(columns[c]).y() <= -padeye.height + padeye.thickness) continue;
+    const bool is_main = columns[c].plate == PadeyePlate::main;
     PadeyePlateStress& plate = is_main ? result.main_plate : result.cheeks;
     const char* name = is_main ? "main plate" : "cheek plate";
-    const Eigen::Vector2d centre = centre_of(columns[at(c)]);
+    const Eigen::Vector2d centre = centre_of(columns[c]);
     Mean patch;
     for (int other = 0; other < count; ++other) {
-      if (columns[at(other)].plate != columns[at(c)].plate ||
-          (centre_of(columns[at(other)]) - centre).norm() > reach)
+      if (columns[other].plate != columns[c].plate ||
+          (centre_of(columns[other]) - centre).norm() > reach)
         continue;
-      patch.integral += means[at(other)].integral;
-      patch.volume += means[at(other)].volume;
+      patch.integral += means[other].integral;
+      patch.volume += means[other].volume;
     }
-    const auto side = static_cast<double>(columns[at(c)].plate == PadeyePlate::cheek_front) -
-                      static_cast<double>(columns[at(c)].plate == PadeyePlate::cheek_back);
+    const auto side = static_cast<double>(columns[c].plate == PadeyePlate::cheek_front) -
+                      static_cast<double>(columns[c].plate == PadeyePlate::cheek_back);
     const double level = side * (padeye.thickness + padeye.cheek_thickness) / 2;
     take(plate.checked_von_mises, patch.von_mises(), {centre.x(), centre.y(), level}, name);
-    for (const int solid : solids_of_column[at(c)]) {
-      const int element = part.mesh.solids[at(solid)];
+    for (const int solid : solids_of_column[c]) {
+      const int element = part.mesh.solids[solid];
       const auto stress =
           part_stresses(part, solid, part.mesh.kind(element).gradients_at_nodes, displacement);
       for (int i = 0; i < part.mesh.kind(element).nodes; ++i)

@@ -7,7 +7,6 @@
 
 #include <Eigen/Dense>
 
-#include "structure/index.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/stress_tensor.h"
 
@@ -50,8 +49,7 @@ Eigen::Matrix3Xd accurate_points(const ElementKind& kind) {
       points.emplace_back(Vector3::Constant(a) + (1 - 4 * a) * Vector3::Unit(axis));
   }
   Eigen::Matrix3Xd columns(3, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t p = 0; p < points.size(); ++p)
-    columns.col(static_cast<Eigen::Index>(p)) = points[p];
+  for (std::size_t p = 0; p < points.size(); ++p) columns.col(p) = points[p];
   return columns;
 }
 
@@ -93,53 +91,51 @@ class Recovery {
         stress_(stress),
         solids_of_(stress.node.size()),
         is_corner_(stress.node.size(), 0),
-        recovered_(StressColumns::Zero(6, static_cast<Eigen::Index>(stress.node.size()))),
+        recovered_(StressColumns::Zero(6, stress.node.size())),
         shares_(stress.node.size(), 0) {
     sample(displacement);
     for (std::size_t point = 0; point < solids_of_.size(); ++point)
       if (is_corner_[point]) fit(static_cast<int>(point));
     for (std::size_t point = 0; point < shares_.size(); ++point)
-      recovered_.col(static_cast<Eigen::Index>(point)) /= std::max(1, shares_[point]);
+      recovered_.col(point) /= std::max(1, shares_[point]);
   }
 
   const StressColumns& at_points() const { return recovered_; }
 
  private:
   int point(int solid, int local) const {
-    return stress_.point_of[at(stress_.first_of[at(solid)] + local)];
+    return stress_.point_of[stress_.first_of[solid] + local];
   }
-  const ElementKind& kind(int solid) const {
-    return model_.mesh.kind(model_.mesh.solids[at(solid)]);
-  }
-  Vector3 place(int point) const { return model_.mesh.nodes.col(stress_.node[at(point)]); }
+  const ElementKind& kind(int solid) const { return model_.mesh.kind(model_.mesh.solids[solid]); }
+  Vector3 place(int point) const { return model_.mesh.nodes.col(stress_.node[point]); }
 
   void sample(const Eigen::VectorXd& displacement) {
     std::map<int, Sampling> tables;
     for (int solid = 0; solid < static_cast<int>(model_.mesh.solids.size()); ++solid) {
-      const int element = model_.mesh.solids[at(solid)];
-      const int number = model_.mesh.elements[at(element)].kind;
+      const int element = model_.mesh.solids[solid];
+      const int number = model_.mesh.elements[element].kind;
       auto table = tables.find(number);
       if (table == tables.end()) table = tables.emplace(number, tabulate(kind(solid))).first;
       sample_places_.push_back(model_.mesh.places(element) * table->second.values.transpose());
       sample_stresses_.push_back(
           part_stresses(model_, solid, table->second.gradients, displacement));
       for (int i = 0; i < kind(solid).corners; ++i) {
-        is_corner_[at(point(solid, i))] = 1;
-        solids_of_[at(point(solid, i))].push_back(solid);
+        is_corner_[point(solid, i)] = 1;
+        solids_of_[point(solid, i)].push_back(solid);
       }
     }
   }
 
   // The solids about a corner; with those about their corners where they are too few to fit.
   std::vector<int> patch(int corner, Eigen::Index terms) const {
-    const std::vector<int>& near = solids_of_[at(corner)];
+    const std::vector<int>& near = solids_of_[corner];
     Eigen::Index samples = 0;
-    for (const int solid : near) samples += sample_places_[at(solid)].cols();
+    for (const int solid : near) samples += sample_places_[solid].cols();
     if (samples >= 2 * terms) return near;
     std::vector<int> wider;
     for (const int solid : near)
       for (int i = 0; i < kind(solid).corners; ++i) {
-        const std::vector<int>& others = solids_of_[at(point(solid, i))];
+        const std::vector<int>& others = solids_of_[point(solid, i)];
         wider.insert(wider.end(), others.begin(), others.end());
       }
     std::sort(wider.begin(), wider.end());
@@ -149,23 +145,23 @@ class Recovery {
 
   void fit(int corner) {
     int order = 1;
-    for (const int solid : solids_of_[at(corner)]) order = std::max(order, kind(solid).order);
+    for (const int solid : solids_of_[corner]) order = std::max(order, kind(solid).order);
     const Vector3 centre = place(corner);
     const Eigen::Index terms = order == 1 ? 4 : 10;
     const std::vector<int> solids = patch(corner, terms);
     double reach = 0;
     Eigen::Index samples = 0;
     for (const int solid : solids) {
-      samples += sample_places_[at(solid)].cols();
-      reach = std::max(reach,
-                       (sample_places_[at(solid)].colwise() - centre).colwise().norm().maxCoeff());
+      samples += sample_places_[solid].cols();
+      reach =
+          std::max(reach, (sample_places_[solid].colwise() - centre).colwise().norm().maxCoeff());
     }
     Eigen::MatrixXd rows(samples, terms), values(samples, 6);
     Eigen::Index row = 0;
     for (const int solid : solids)
-      for (Eigen::Index q = 0; q < sample_places_[at(solid)].cols(); ++q, ++row) {
-        rows.row(row) = monomials((sample_places_[at(solid)].col(q) - centre) / reach, order);
-        values.row(row) = sample_stresses_[at(solid)].col(q).transpose();
+      for (Eigen::Index q = 0; q < sample_places_[solid].cols(); ++q, ++row) {
+        rows.row(row) = monomials((sample_places_[solid].col(q) - centre) / reach, order);
+        values.row(row) = sample_stresses_[solid].col(q).transpose();
       }
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fitted(rows.rows(), rows.cols());
     fitted.setThreshold(1e-11);
@@ -176,10 +172,10 @@ class Recovery {
     const auto add = [&](int to) {
       recovered_.col(to) +=
           (mean + monomials((place(to) - centre) / reach, order) * polynomial).transpose();
-      ++shares_[at(to)];
+      ++shares_[to];
     };
     add(corner);
-    for (const int solid : solids_of_[at(corner)])
+    for (const int solid : solids_of_[corner])
       for (int i = kind(solid).corners; i < kind(solid).nodes; ++i) add(point(solid, i));
   }
 
@@ -199,9 +195,9 @@ PartError compare_stresses(const PartModel& model, const Eigen::VectorXd& displa
   const auto solids = static_cast<Eigen::Index>(model.mesh.solids.size());
   PartError error{Eigen::VectorXd::Zero(solids), Eigen::VectorXd::Zero(solids), {}};
   for (int solid = 0; solid < solids; ++solid) {
-    const int element = model.mesh.solids[at(solid)];
+    const int element = model.mesh.solids[solid];
     const ElementKind& kind = model.mesh.kind(element);
-    const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
+    const Material& material = model.materials[model.material_of_solid[solid]];
     const StressColumns own = part_stresses(model, solid, kind.gradients, displacement);
     const StressColumns other = better(solid);
     const Eigen::Matrix3Xd places = model.mesh.places(element);
@@ -232,10 +228,10 @@ PartError estimate_part_error(const PartModel& model, const PartStress& stress,
                               const Eigen::VectorXd& displacement) {
   const Recovery recovery(model, stress, displacement);
   PartError error = compare_stresses(model, displacement, [&](int solid) -> StressColumns {
-    const ElementKind& kind = model.mesh.kind(model.mesh.solids[at(solid)]);
+    const ElementKind& kind = model.mesh.kind(model.mesh.solids[solid]);
     StressColumns nodal(6, kind.nodes);
     for (int i = 0; i < kind.nodes; ++i)
-      nodal.col(i) = recovery.at_points().col(stress.point_of[at(stress.first_of[at(solid)] + i)]);
+      nodal.col(i) = recovery.at_points().col(stress.point_of[stress.first_of[solid] + i]);
     return nodal * kind.values.transpose();
   });
   error.recovered = recovery.at_points();
@@ -245,7 +241,7 @@ PartError estimate_part_error(const PartModel& model, const PartStress& stress,
 PartError true_part_error(const PartModel& model, const Eigen::VectorXd& displacement,
                           const std::function<Eigen::Matrix<double, 6, 1>(const Vector3&)>& exact) {
   return compare_stresses(model, displacement, [&](int solid) -> StressColumns {
-    const int element = model.mesh.solids[at(solid)];
+    const int element = model.mesh.solids[solid];
     const Eigen::Matrix3Xd places =
         model.mesh.places(element) * model.mesh.kind(element).values.transpose();
     StressColumns stresses(6, places.cols());

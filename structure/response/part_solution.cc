@@ -13,7 +13,6 @@
 #include "structure/elasticity/part_unknowns.h"
 #include "structure/elasticity/rigid_freedom.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/response/part_error.h"
 #include "structure/stopwatch.h"
@@ -59,27 +58,27 @@ PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
   std::vector<int> shares;
   const int solids = static_cast<int>(model.mesh.solids.size());
   for (int solid = 0; solid < solids; ++solid) {
-    const int element = model.mesh.solids[at(solid)];
+    const int element = model.mesh.solids[solid];
     const ElementKind& kind = model.mesh.kind(element);
     of_solids.push_back(part_stresses(model, solid, kind.gradients_at_nodes, displacement));
     stress.first_of.push_back(static_cast<int>(stress.point_of.size()));
     for (int i = 0; i < kind.nodes; ++i) {
       const int node = model.mesh.node(element, i);
-      const auto [entry, is_new] = known.try_emplace({node, model.material_of_solid[at(solid)]},
+      const auto [entry, is_new] = known.try_emplace({node, model.material_of_solid[solid]},
                                                      static_cast<int>(stress.node.size()));
       if (is_new) {
         stress.node.push_back(node);
         shares.push_back(0);
       }
       stress.point_of.push_back(entry->second);
-      ++shares[at(entry->second)];
+      ++shares[entry->second];
     }
   }
-  stress.averaged.setZero(6, static_cast<Eigen::Index>(stress.node.size()));
+  stress.averaged.setZero(6, stress.node.size());
   for (int solid = 0; solid < solids; ++solid)
-    for (Eigen::Index i = 0; i < of_solids[at(solid)].cols(); ++i) {
-      const int point = stress.point_of[at(stress.first_of[at(solid)] + static_cast<int>(i))];
-      stress.averaged.col(point) += of_solids[at(solid)].col(i) / shares[at(point)];
+    for (Eigen::Index i = 0; i < of_solids[solid].cols(); ++i) {
+      const int point = stress.point_of[stress.first_of[solid] + static_cast<int>(i)];
+      stress.averaged.col(point) += of_solids[solid].col(i) / shares[point];
     }
   return stress;
 }
@@ -89,7 +88,7 @@ StressColumns at_nodes_of(int solid, int nodes, const PartStress& stress,
                           const StressColumns& at_points) {
   StressColumns result(6, nodes);
   for (int i = 0; i < nodes; ++i)
-    result.col(i) = at_points.col(stress.point_of[at(stress.first_of[at(solid)] + i)]);
+    result.col(i) = at_points.col(stress.point_of[stress.first_of[solid] + i]);
   return result;
 }
 
@@ -99,16 +98,16 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
   PartGroupResult result;
   result.group = std::move(name);
   for (const int solid : solids) {
-    const int element = model.mesh.solids[at(solid)];
+    const int element = model.mesh.solids[solid];
     for (int i = 0; i < model.mesh.kind(element).nodes; ++i) {
       const int node = model.mesh.node(element, i);
       const double averaged = von_mises(solution.stress.averaged.col(
-          solution.stress.point_of[at(solution.stress.first_of[at(solid)] + i)]));
+          solution.stress.point_of[solution.stress.first_of[solid] + i]));
       if (averaged > result.von_mises) {
         result.von_mises = averaged;
         result.point = model.mesh.nodes.col(node);
       }
-      const double raw = von_mises(of_solids[at(solid)].col(i));
+      const double raw = von_mises(of_solids[solid].col(i));
       if (raw > result.raw_von_mises) {
         result.raw_von_mises = raw;
         result.raw_point = model.mesh.nodes.col(node);
@@ -119,12 +118,12 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
   }
   result.estimated_error = error.relative(solids);
   for (const int solid : solids)
-    for (int i = 0; i < model.mesh.kind(model.mesh.solids[at(solid)]).nodes; ++i) {
-      const int point = solution.stress.point_of[at(solution.stress.first_of[at(solid)] + i)];
+    for (int i = 0; i < model.mesh.kind(model.mesh.solids[solid]).nodes; ++i) {
+      const int point = solution.stress.point_of[solution.stress.first_of[solid] + i];
       if (von_mises(solution.stress.averaged.col(point)) == result.von_mises)
         result.von_mises_error =
             std::max(result.von_mises_error,
-                     von_mises(of_solids[at(solid)].col(i) - error.recovered.col(point)));
+                     von_mises(of_solids[solid].col(i) - error.recovered.col(point)));
     }
   return result;
 }
@@ -136,7 +135,7 @@ void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_so
   std::map<int, int> solid_of_element;
   std::vector<int> all;
   for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
-    solid_of_element[model.mesh.solids[at(solid)]] = solid;
+    solid_of_element[model.mesh.solids[solid]] = solid;
     all.push_back(solid);
   }
   solution.all = largest_of(model, solution, of_solids, error, "all", all);
@@ -171,7 +170,7 @@ void find_balance(const PartModel& model, const Eigen::VectorXd& load,
   for (std::size_t i = 0; i < support_of.size(); ++i) {  // idle nodes come after and bear nothing
     const Vector3 place = model.mesh.nodes.col(fixed[i].unknown / 3);
     const Vector3 reaction = forces[i] * Vector3::Unit(fixed[i].unknown % 3);
-    Wrench& of_support = solution.reactions[at(support_of[i])];
+    Wrench& of_support = solution.reactions[support_of[i]];
     of_support.force += reaction;
     of_support.moment += place.cross(reaction);
     force += reaction;
@@ -186,8 +185,8 @@ void find_balance(const PartModel& model, const Eigen::VectorXd& load,
 
 StressColumns part_stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
                             const Eigen::VectorXd& displacement) {
-  const int element = model.mesh.solids[at(solid)];
-  const Material& material = model.materials[at(model.material_of_solid[at(solid)])];
+  const int element = model.mesh.solids[solid];
+  const Material& material = model.materials[model.material_of_solid[solid]];
   const Eigen::Matrix3Xd places = model.mesh.places(element);
   Eigen::Matrix3Xd moved(3, places.cols());
   for (int i = 0; i < places.cols(); ++i)
@@ -222,7 +221,7 @@ PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<Fix
   const Eigen::VectorXd found = system.solve(forces);
   const Eigen::VectorXd held = system.reactions(found, forces);
   result.displacement = unknowns.to_freedoms(found);
-  result.reactions.setZero(static_cast<Eigen::Index>(fixed.size()));
+  result.reactions.setZero(fixed.size());
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     if (unknowns.of(fixed[i].unknown) >= 0)
@@ -259,7 +258,7 @@ PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
 Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(displacement.size());
   for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
-    const int element = model.mesh.solids[at(solid)];
+    const int element = model.mesh.solids[solid];
     const ElementKind& kind = model.mesh.kind(element);
     const StressColumns stress = part_stresses(model, solid, kind.gradients, displacement);
     const Eigen::Matrix3Xd places = model.mesh.places(element);
@@ -283,13 +282,13 @@ PartProbe probe_part(const PartModel& model, const PartSolution& solution, const
   probe.point = point;
   std::map<int, std::unique_ptr<ElementShape>> shapes;  // by kind
   for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
-    const int element = model.mesh.solids[at(solid)];
+    const int element = model.mesh.solids[solid];
     const Eigen::Matrix3Xd places = model.mesh.places(element);
     // Curved sides may stand out of the box of the nodes a little.
     const Vector3 lower = places.rowwise().minCoeff(), upper = places.rowwise().maxCoeff();
     const Vector3 slack = Vector3::Constant(0.1 * (upper - lower).maxCoeff());
     if ((point - lower + slack).minCoeff() < 0 || (upper + slack - point).minCoeff() < 0) continue;
-    auto& shape = shapes[model.mesh.elements[at(element)].kind];
+    auto& shape = shapes[model.mesh.elements[element].kind];
     if (!shape) shape = std::make_unique<ElementShape>(model.mesh.kind(element));
     Vector3 xi;
     if (!shape->locate(places, point, 1e-6, xi)) continue;

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/shell_tree.h"
 #include "structure/system/matter.h"
 
@@ -31,9 +30,7 @@ int main_axis(const Vector3& normal) {
   return 2;
 }
 
-bool is_lug(const Mesh& mesh, int shell) {
-  return mesh.regions[at(mesh.shells[at(shell)].region)].is_lug;
-}
+bool is_lug(const Mesh& mesh, int shell) { return mesh.regions[mesh.shells[shell].region].is_lug; }
 
 std::vector<int> shells_without_lugs(const Mesh& mesh) {
   std::vector<int> shells;
@@ -57,11 +54,11 @@ void ShellRegions::divide(double size) {
   const ShellTree tree(mesh, shells_without_lugs(mesh));
   std::map<std::array<int, 5>, int> found;  // plate, side, axis, place along two others
   for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
-    const int shell = space.shells()[at(cell)].shell;
+    const int shell = space.shells()[cell].shell;
     if (is_lug(mesh, shell)) continue;
     const Vector3 area = area_vector(space, cell), place = space.place(cell, middle);
     // The tree's triangles of a curved shell lie a little off the place that a ray starts from.
-    const double own_shell = 5e-3 * std::sqrt(area.norm()) / space.shells()[at(cell)].size;
+    const double own_shell = 5e-3 * std::sqrt(area.norm()) / space.shells()[cell].size;
     for (const int side : {-1, 1}) {
       const Vector3 outward = side * area.normalized();
       if (tree.is_hit(place, outward, own_shell)) continue;
@@ -70,11 +67,11 @@ void ShellRegions::divide(double size) {
         return static_cast<int>(std::floor(place[along] / size));
       };
       const auto [entry, is_new] =
-          found.try_emplace({mesh.shells[at(shell)].region, outward[axis] < 0 ? -1 : 1, axis,
+          found.try_emplace({mesh.shells[shell].region, outward[axis] < 0 ? -1 : 1, axis,
                              band((axis + 1) % 3), band((axis + 2) % 3)},
                             static_cast<int>(regions_.size()));
       if (is_new) regions_.emplace_back();
-      ShellRegion& region = regions_[at(entry->second)];
+      ShellRegion& region = regions_[entry->second];
       region.cells.push_back(cell);
       region.outward_B += side * area;
       Face face;
@@ -125,7 +122,7 @@ int ShellRegions::nearest(const Vector3& place_B, const Vector3& outward_B) cons
 Eigen::MatrixXd ShellRegions::loads(const Eigen::MatrixXd& wrenches) const {
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(model_.freedoms(), wrenches.cols());
   for (std::size_t r = 0; r < regions_.size(); ++r) {
-    const auto rows = wrenches.middleRows<6>(static_cast<Eigen::Index>(6 * r));
+    const auto rows = wrenches.middleRows<6>(6 * r);
     if (rows.isZero(0)) continue;
     add_spread_wrenches(model_.space(), regions_[r].cells, regions_[r].centre_B, rows, loads);
   }

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 
 #include "structure/batches.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -35,7 +34,7 @@ ShellStress::ShellStress(const Space& space, const Eigen::Matrix2Xd& points)
 
 Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Mesh& mesh = space_.mesh();
-  const Shell& shell = mesh.shells[at(space_.shells()[at(cell)].shell)];
+  const Shell& shell = mesh.shells[space_.shells()[cell].shell];
   current_ = of_triangles_ && shell.is_triangle() ? of_triangles_.get() : &of_squares_;
   current_->reinit(cell);
   const double thickness = mesh.section_of(shell).thickness;

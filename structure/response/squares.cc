@@ -12,7 +12,6 @@
 
 #include "structure/batches.h"
 #include "structure/formulation/shell.h"
-#include "structure/index.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress_tensor.h"
 
@@ -61,7 +60,7 @@ ShellPlace place_of(const FieldEdge& edge, double s) {
 }
 
 Vector3 normal_of(const Mesh& mesh, const ShellPlace& place) {
-  const Shell& shell = mesh.shells[at(place.shell)];
+  const Shell& shell = mesh.shells[place.shell];
   const Eigen::Vector2d inward = place.xi + 0.01 * (Eigen::Vector2d(0.5, 0.5) - place.xi);
   const double step = 1e-3;
   const Vector3 g_1 = position(mesh, shell, inward + Eigen::Vector2d(step, 0)) -
@@ -151,7 +150,7 @@ class SquarePlacer {
     return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
       const auto found = walker_.find(point.place, start);
       return found &&
-             (position(mesh_, mesh_.shells[at(found->shell)], found->xi) - point.place).norm() <
+             (position(mesh_, mesh_.shells[found->shell], found->xi) - point.place).norm() <
                  0.2 * square.size;
     });
   }
@@ -161,14 +160,14 @@ class SquarePlacer {
     const ShellPlace begin = place_of(edge, s), middle = place_of(edge, s + size / 2),
                      end = place_of(edge, s + size);
     const auto at_place = [&](const ShellPlace& p) {
-      return position(mesh_, mesh_.shells[at(p.shell)], p.xi);
+      return position(mesh_, mesh_.shells[p.shell], p.xi);
     };
     const auto shell = std::find(field.shells.begin(), field.shells.end(), middle.shell);
-    const double side = field.is_flipped[at(shell - field.shells.begin())] ? -1 : 1;
+    const double side = field.is_flipped[shell - field.shells.begin()] ? -1 : 1;
     Square square;
     square.size = size;
     square.shell = middle.shell;
-    square.region = mesh_.shells[at(middle.shell)].region;
+    square.region = mesh_.shells[middle.shell].region;
     square.e_1 = (at_place(end) - at_place(begin)).normalized();
     const Vector3 normal = side * normal_of(mesh_, middle);
     square.e_1 = (square.e_1 - normal * normal.dot(square.e_1)).normalized();
@@ -202,9 +201,9 @@ class SquarePlacer {
     // A lattice that hangs on the first corner of the outline.
     const FieldEdge& first = field.outlines.front().front();
     const ShellPlace origin = place_of(first, 0);
-    const Vector3 begin = position(mesh_, mesh_.shells[at(origin.shell)], origin.xi);
+    const Vector3 begin = position(mesh_, mesh_.shells[origin.shell], origin.xi);
     const ShellPlace next = place_of(first, first.length);
-    Vector3 e_1 = position(mesh_, mesh_.shells[at(next.shell)], next.xi) - begin;
+    Vector3 e_1 = position(mesh_, mesh_.shells[next.shell], next.xi) - begin;
     const Vector3 normal = normal_of(mesh_, origin);
     e_1 = (e_1 - normal * normal.dot(e_1)).normalized();
     if (!e_1.allFinite()) return;
@@ -212,8 +211,8 @@ class SquarePlacer {
     Eigen::Array2d lower = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
     Eigen::Array2d upper = -lower;
     for (const int shell : field.shells)
-      for (const int vertex : mesh_.shells[at(shell)].vertices) {
-        const Vector3 arm = mesh_.vertices[at(vertex)] - begin;
+      for (const int vertex : mesh_.shells[shell].vertices) {
+        const Vector3 arm = mesh_.vertices[vertex] - begin;
         const Eigen::Array2d in_plane(arm.dot(e_1), arm.dot(e_2));
         lower = lower.min(in_plane);
         upper = upper.max(in_plane);
@@ -229,8 +228,8 @@ class SquarePlacer {
         Square square;
         square.size = size_;
         square.shell = found->shell;
-        square.region = mesh_.shells[at(found->shell)].region;
-        square.centre_B = position(mesh_, mesh_.shells[at(found->shell)], found->xi);
+        square.region = mesh_.shells[found->shell].region;
+        square.centre_B = position(mesh_, mesh_.shells[found->shell], found->xi);
         const Vector3 here = normal_of(mesh_, *found);
         square.e_1 = (e_1 - here * here.dot(e_1)).normalized();
         square.e_2 = here.cross(square.e_1);
@@ -241,14 +240,13 @@ class SquarePlacer {
   void mark_corners() {
     const double reach = corner_reach * size_;
     PlaceGrid corners(reach);
-    for (const int vertex : fields_.singular_vertices)
-      corners.add(mesh_.vertices[at(vertex)], vertex);
+    for (const int vertex : fields_.singular_vertices) corners.add(mesh_.vertices[vertex], vertex);
     PlaceGrid at_corners(reach);
     for (std::size_t s = 0; s < squares_.size(); ++s) {
       Square& square = squares_[s];
       const Vector3 around = Vector3::Constant(reach);
       corners.visit(square.centre_B - around, square.centre_B + around, [&](int vertex) {
-        if ((square.centre_B - mesh_.vertices[at(vertex)]).norm() <= reach)
+        if ((square.centre_B - mesh_.vertices[vertex]).norm() <= reach)
           square.site = SquareSite::corner;
       });
       if (square.at_corner()) at_corners.add(square.centre_B, static_cast<int>(s));
@@ -262,7 +260,7 @@ class SquarePlacer {
       const Vector3 way = end - begin, around = Vector3::Constant(beside_weld * size_);
       if (!(way.squaredNorm() > 0)) return;
       at_corners.visit(begin.cwiseMin(end) - around, begin.cwiseMax(end) + around, [&](int s) {
-        Square& square = squares_[at(s)];
+        Square& square = squares_[s];
         const Vector3 off = square.centre_B - begin;
         const double share = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
         if ((off - share * way).norm() < beside_weld * square.size)
@@ -274,7 +272,7 @@ class SquarePlacer {
         for (const FieldEdge& edge : outline)
           if (!edge.is_free) for_each_stretch(edge, mark);
     for (const Beam& beam : mesh_.beams)
-      mark(mesh_.vertices[at(beam.vertices[0])], mesh_.vertices[at(beam.vertices[1])]);
+      mark(mesh_.vertices[beam.vertices[0]], mesh_.vertices[beam.vertices[1]]);
   }
 
   /// Calls visit(begin, end) for straight stretches of an edge.
@@ -282,7 +280,7 @@ class SquarePlacer {
   void for_each_stretch(const FieldEdge& edge, const Visit& visit) const {
     constexpr int of_curved = 4;
     for (const FieldEdge::Piece& piece : edge.pieces) {
-      const Shell& shell = mesh_.shells[at(piece.shell)];
+      const Shell& shell = mesh_.shells[piece.shell];
       const int parts = shell.curvature < 0 ? 1 : of_curved;
       const auto place_at = [&](int i) {
         const double share = static_cast<double>(i) / parts;
@@ -336,9 +334,9 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
     Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> moved(6, columns);
     Eigen::MatrixXd strain(3, columns), curvature(3, columns);
     for (int s = first; s < first + count; ++s) {
-      const Square& square = squares_[at(s)];
+      const Square& square = squares_[s];
       const Vector3 normal = square.e_1.cross(square.e_2);
-      const Shell& shell = model.mesh().shells[at(square.shell)];
+      const Shell& shell = model.mesh().shells[square.shell];
       const ShellSection& section = model.mesh().section_of(shell);
       // The section's offset is along the shell's own normal.
       const double side =

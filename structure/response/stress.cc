@@ -26,7 +26,7 @@ struct RunningExtreme {
     region = of_region;
   }
   Extreme named(const Mesh& mesh) const {
-    return {value, point, region < 0 ? std::string() : mesh.regions[at(region)].name};
+    return {value, point, region < 0 ? std::string() : mesh.regions[region].name};
   }
 };
 
@@ -42,7 +42,7 @@ class Maxima {
 
   void take(double value, const Vector3& place, int region) {
     all_.take(value, place, region);
-    if (region >= 0) groups_[at(mesh_->regions[at(region)].group)].take(value, place, region);
+    if (region >= 0) groups_[mesh_->regions[region].group].take(value, place, region);
     for (std::size_t i = 0; i < lugs_.size(); ++i) {
       const LiftingPoint& lug = mesh_->lifting_points[i];
       if (value > lugs_[i].value && (place - lug.p_BPin).norm() <= recovery_->lug_radius(lug))
@@ -88,7 +88,7 @@ std::vector<Maxima> find_peaks(const StressPoints& points, const Eigen::MatrixXd
         maxima[c].take(von_mises(stress.block<6, 1>(6 * i, static_cast<Eigen::Index>(c))), place,
                        region);
     }
-    of_batch[at(first / batch)] = std::move(maxima);
+    of_batch[first / batch] = std::move(maxima);
   });
   std::vector<Maxima> all(cases, none);
   for (const std::vector<Maxima>& maxima : of_batch)
@@ -99,7 +99,7 @@ std::vector<Maxima> find_peaks(const StressPoints& points, const Eigen::MatrixXd
 Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& motion,
                           Maxima moved) {
   for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
-    const int region = space.mesh().shells[at(space.shells()[at(cell)].shell)].region;
+    const int region = space.mesh().shells[space.shells()[cell].shell].region;
     for (int i = 0; i < space.nodes_per_shell(); ++i) {
       const int node = space.shell_nodes(cell)[i];
       moved.take(motion.segment<3>(6 * static_cast<Eigen::Index>(node)).norm(),
@@ -109,7 +109,7 @@ Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::Vect
   for (const BeamCell& cell : space.beams())
     for (const int node : cell.nodes)
       moved.take(motion.segment<3>(6 * static_cast<Eigen::Index>(node)).norm(),
-                 space.nodes().col(node), space.mesh().beams[at(cell.beam)].region);
+                 space.nodes().col(node), space.mesh().beams[cell.beam].region);
   for (std::size_t s = 0; s < space.mesh().solids.size(); ++s) {
     const Solid& solid = space.mesh().solids[s];
     for (std::size_t i = 0; i < solid.vertices.size(); ++i) {
@@ -135,7 +135,7 @@ void fill_in(const MotionStress& recovery, const Mesh& mesh, const Maxima& check
   result.peak_von_mises = peak.all();
   result.displacement = moved.all();
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
-    const Material& material = mesh.materials[at(mesh.groups[g].material)];
+    const Material& material = mesh.materials[mesh.groups[g].material];
     result.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
                              checked.is_empty(g) ? peak.group(g) : checked.group(g),
                              by_site(checked.is_empty(g) ? peak.group(g) : Extreme(),
@@ -180,7 +180,7 @@ std::vector<LoadCaseResult> MotionStress::evaluate(const Eigen::MatrixXd& factor
     }
     const Maxima displaced = find_displacements(model_.space(), moved.col(c), none);
     LoadCaseResult& result = results.emplace_back();
-    fill_in(*this, model_.mesh(), checked, at_site, peaks[at(c)], displaced, result);
+    fill_in(*this, model_.mesh(), checked, at_site, peaks[c], displaced, result);
     result.field_von_mises = at_site[SquareSite::field].all();
   }
   return results;
@@ -199,8 +199,8 @@ std::vector<LoadCaseResult> StressRecovery::evaluate(
   Eigen::MatrixXd factors(responses_.count(), cases);
   Eigen::MatrixXd relative(responses_.displacements().rows(), cases);
   for (Eigen::Index c = 0; c < cases; ++c) {
-    factors.col(c) = responses_.coefficients(load_cases[at(c)]);
-    relative.col(c) = responses_.without_rigid_motion(responses_.displacement(load_cases[at(c)]));
+    factors.col(c) = responses_.coefficients(load_cases[c]);
+    relative.col(c) = responses_.without_rigid_motion(responses_.displacement(load_cases[c]));
   }
   std::vector<LoadCaseResult> results = of_motions_.evaluate(factors, relative);
   for (std::size_t c = 0; c < load_cases.size(); ++c) {

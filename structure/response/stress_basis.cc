@@ -49,7 +49,7 @@ Eigen::VectorXd StressBasis::factors(const LoadCase& load_case, const MassProper
                     components.cols() - densities * fields));
   Eigen::VectorXd all(components.cols());
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
-    all.segment<3>(static_cast<Eigen::Index>(3 * lug)) = load_case.lug_forces_B[lug];
+    all.segment<3>(3 * lug) = load_case.lug_forces_B[lug];
   const Eigen::Matrix<double, fields, 1> field = load_case.field.coefficients();
   all.segment<fields>(lug_forces) = mass.factor_alpha * field;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
@@ -63,8 +63,7 @@ StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square
   const ElasticModel& model = responses.model();
   StressBasis basis{std::move(squares), {}};
   const Eigen::Index lug_forces = model.lug_loads().cols();
-  basis.components.resize(static_cast<Eigen::Index>(3 * basis.squares.size()),
-                          lug_forces + densities * fields);
+  basis.components.resize(3 * basis.squares.size(), lug_forces + densities * fields);
   // The balanced responses to the lugs' unit forces are known; densities go one after another, for
   // their loads fill the memory.
   basis.components.leftCols(lug_forces) =

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 
 #include "structure/formulation/solid.h"
-#include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/response/beam_stress.h"
 #include "structure/space/joints.h"
@@ -22,7 +21,7 @@ Eigen::Matrix2Xd points_of_cell(int degree) {
   Eigen::Matrix2Xd points(2, (degree + 1) * (degree + 1));
   for (int j = 0; j <= degree; ++j)
     for (int i = 0; i <= degree; ++i)
-      points.col(j * (degree + 1) + i) << 0.01 + 0.98 * line[at(i)], 0.01 + 0.98 * line[at(j)];
+      points.col(j * (degree + 1) + i) << 0.01 + 0.98 * line[i], 0.01 + 0.98 * line[j];
   return points;
 }
 
@@ -32,7 +31,7 @@ StressPoints::StressPoints(const Space& space)
     : space_(space),
       shell_points_(2 * space.nodes_per_shell() * static_cast<int>(space.shells().size())) {
   for (std::size_t cell = 0; cell < space.beams().size(); ++cell) {
-    const Beam& beam = space.mesh().beams[at(space.beams()[cell].beam)];
+    const Beam& beam = space.mesh().beams[space.beams()[cell].beam];
     const int points = static_cast<int>(stress_points(space.mesh().section_of(beam)).size());
     for (const int end : {0, 1})
       for (int point = 0; point < points; ++point)
@@ -47,10 +46,10 @@ StressPoints::StressPoints(const Space& space)
 int StressPoints::region(int point) const {
   const Mesh& mesh = space_.mesh();
   if (point < shell_points_)
-    return mesh.shells[at(space_.shells()[at(point / points_per_cell())].shell)].region;
-  if (is_of_solid(point)) return mesh.solids[at(solid_point(point).solid)].region;
-  const BeamPointOf& of_beam = beam_points_[at(point - shell_points_)];
-  return mesh.beams[at(space_.beams()[at(of_beam.cell)].beam)].region;
+    return mesh.shells[space_.shells()[point / points_per_cell()].shell].region;
+  if (is_of_solid(point)) return mesh.solids[solid_point(point).solid].region;
+  const BeamPointOf& of_beam = beam_points_[point - shell_points_];
+  return mesh.beams[space_.beams()[of_beam.cell].beam].region;
 }
 
 Vector3 StressPoints::place(int point) const {
@@ -61,8 +60,8 @@ Vector3 StressPoints::place(int point) const {
     const SolidPointOf& of_solid = solid_point(point);
     return space_.nodes().col(space_.solid_nodes(of_solid.solid)[of_solid.corner]);
   }
-  const BeamPointOf& of_beam = beam_points_[at(point - shell_points_)];
-  const std::vector<int>& nodes = space_.beams()[at(of_beam.cell)].nodes;
+  const BeamPointOf& of_beam = beam_points_[point - shell_points_];
+  const std::vector<int>& nodes = space_.beams()[of_beam.cell].nodes;
   return space_.nodes().col(of_beam.end == 0 ? nodes.front() : nodes.back());
 }
 
@@ -99,7 +98,7 @@ Eigen::MatrixXd StressPoints::stresses(int first, int count,
       rows.middleRows<6>(6 * i) = of_end.middleRows<6>(6 * of_solid.corner);
       continue;
     }
-    const BeamPointOf& point = beam_points_[at(first + i - shell_points_)];
+    const BeamPointOf& point = beam_points_[first + i - shell_points_];
     if (i == shells || point.at == 0)
       of_end = beam_stresses(space_, point.cell, point.end, motions);
     rows.row(6 * i) = of_end.row(point.at);

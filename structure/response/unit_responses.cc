@@ -156,7 +156,7 @@ Eigen::VectorXd UnitResponses::coefficients(const LoadCase& load_case) const {
   const Eigen::Index lug_forces = 3 * model_.lug_count(), balanced = balancing_.cols();
   Eigen::VectorXd all = Eigen::VectorXd::Zero(balanced + 6);
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
-    all.segment<3>(static_cast<Eigen::Index>(3 * lug)) = load_case.lug_forces_B[lug];
+    all.segment<3>(3 * lug) = load_case.lug_forces_B[lug];
   const Eigen::Matrix<double, 12, 1> field = load_case.field.coefficients();
   all.segment<6>(lug_forces) = field.tail<6>();
   all.segment(lug_forces + 6, load_case.added.size()) = load_case.added;
@@ -168,8 +168,7 @@ Eigen::VectorXd UnitResponses::load_vector(const LoadCase& load_case) const {
   coefficients(load_case);  // for its check
   Eigen::VectorXd load = model_.inertia_loads() * load_case.field.coefficients();
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
-    load += model_.lug_loads().middleCols<3>(static_cast<Eigen::Index>(3 * lug)) *
-            load_case.lug_forces_B[lug];
+    load += model_.lug_loads().middleCols<3>(3 * lug) * load_case.lug_forces_B[lug];
   if (load_case.added.size() > 0) load += added_loads_ * load_case.added;
   return load;
 }

@@ -29,19 +29,17 @@ std::vector<UnknownGroup> find_groups(int unknowns, const std::vector<std::vecto
   std::vector<std::vector<int>> elements_of(at(unknowns));
   for (std::size_t e = 0; e < elements.size(); ++e)
     for (const int unknown : elements[e])
-      if (elements_of[at(unknown)].empty() ||
-          elements_of[at(unknown)].back() != static_cast<int>(e))
-        elements_of[at(unknown)].push_back(static_cast<int>(e));
+      if (elements_of[unknown].empty() || elements_of[unknown].back() != static_cast<int>(e))
+        elements_of[unknown].push_back(static_cast<int>(e));
   std::vector<UnknownGroup> groups;
   std::unordered_map<std::vector<int>, int, HashOfList> known;
-  group_of.assign(at(unknowns), -1);
+  group_of.assign(unknowns, -1);
   for (int u = 0; u < unknowns; ++u) {
-    if (elements_of[at(u)].empty()) continue;
-    const auto [entry, is_new] =
-        known.try_emplace(elements_of[at(u)], static_cast<int>(groups.size()));
-    if (is_new) groups.push_back({0, 0, elements_of[at(u)]});
-    ++groups[at(entry->second)].count;
-    group_of[at(u)] = entry->second;
+    if (elements_of[u].empty()) continue;
+    const auto [entry, is_new] = known.try_emplace(elements_of[u], static_cast<int>(groups.size()));
+    if (is_new) groups.push_back({0, 0, elements_of[u]});
+    ++groups[entry->second].count;
+    group_of[u] = entry->second;
   }
   return groups;
 }
@@ -58,9 +56,9 @@ std::vector<int> dissection_order(const std::vector<UnknownGroup>& groups,
   for (std::size_t g = 0; g < groups.size(); ++g) {
     mark[g] = static_cast<int>(g);
     for (const int element : groups[g].elements)
-      for (const int other : groups_of_elements[at(element)])
-        if (mark[at(other)] != static_cast<int>(g)) {
-          mark[at(other)] = static_cast<int>(g);
+      for (const int other : groups_of_elements[element])
+        if (mark[other] != static_cast<int>(g)) {
+          mark[other] = static_cast<int>(g);
           neighbours.push_back(other);
         }
     start.push_back(static_cast<idx_t>(neighbours.size()));
@@ -81,14 +79,14 @@ std::vector<int> elimination_tree(const std::vector<int>& order,
                                   const std::vector<std::vector<int>>& groups_of_elements) {
   const int count = static_cast<int>(order.size());
   std::vector<int> place(order.size()), parent(order.size(), -1), ancestor(order.size(), -1);
-  for (int i = 0; i < count; ++i) place[at(order[at(i)])] = i;
+  for (int i = 0; i < count; ++i) place[order[i]] = i;
   for (int i = 0; i < count; ++i)
-    for (const int element : groups[at(order[at(i)])].elements)
-      for (const int other : groups_of_elements[at(element)])
-        for (int j = place[at(other)]; j >= 0 && j < i;) {
-          const int next = ancestor[at(j)];
-          ancestor[at(j)] = i;
-          if (next < 0) parent[at(j)] = i;
+    for (const int element : groups[order[i]].elements)
+      for (const int other : groups_of_elements[element])
+        for (int j = place[other]; j >= 0 && j < i;) {
+          const int next = ancestor[j];
+          ancestor[j] = i;
+          if (next < 0) parent[j] = i;
           if (next == i) break;
           j = next;
         }
@@ -101,18 +99,18 @@ std::vector<int> postordered(const std::vector<int>& order, const std::vector<in
   std::vector<std::vector<int>> children(order.size());
   std::vector<int> open, result;
   for (int i = 0; i < count; ++i)
-    if (parent[at(i)] >= 0) children[at(parent[at(i)])].push_back(i);
+    if (parent[i] >= 0) children[parent[i]].push_back(i);
   for (int root = 0; root < count; ++root) {
-    if (parent[at(root)] >= 0) continue;
+    if (parent[root] >= 0) continue;
     open.push_back(root);
     while (!open.empty()) {
       const int i = open.back();
-      if (children[at(i)].empty()) {
-        result.push_back(order[at(i)]);
+      if (children[i].empty()) {
+        result.push_back(order[i]);
         open.pop_back();
       } else {
-        open.push_back(children[at(i)].back());
-        children[at(i)].pop_back();
+        open.push_back(children[i].back());
+        children[i].pop_back();
       }
     }
   }
@@ -123,7 +121,7 @@ std::vector<std::vector<int>> list_by_element(const std::vector<UnknownGroup>& g
                                               std::size_t elements) {
   std::vector<std::vector<int>> lists(elements);
   for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const int element : groups[g].elements) lists[at(element)].push_back(static_cast<int>(g));
+    for (const int element : groups[g].elements) lists[element].push_back(static_cast<int>(g));
   return lists;
 }
 
@@ -140,16 +138,16 @@ Elimination find_elimination(int unknowns, const std::vector<std::vector<int>>& 
   Elimination result;
   std::vector<int> new_group(found.size());
   for (const int g : order) {
-    new_group[at(g)] = static_cast<int>(result.groups.size());
-    result.groups.push_back({result.count, found[at(g)].count, found[at(g)].elements});
-    result.count += found[at(g)].count;
+    new_group[g] = static_cast<int>(result.groups.size());
+    result.groups.push_back({result.count, found[g].count, found[g].elements});
+    result.count += found[g].count;
   }
   std::vector<int> filled(found.size(), 0);
-  result.place.assign(at(unknowns), -1);
+  result.place.assign(unknowns, -1);
   for (int u = 0; u < unknowns; ++u) {
-    if (group_of[at(u)] < 0) continue;
-    const int group = new_group[at(group_of[at(u)])];
-    result.place[at(u)] = result.groups[at(group)].first + filled[at(group)]++;
+    if (group_of[u] < 0) continue;
+    const int group = new_group[group_of[u]];
+    result.place[u] = result.groups[group].first + filled[group]++;
   }
   result.groups_of_elements = list_by_element(result.groups, elements.size());
   return result;

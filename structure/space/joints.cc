@@ -20,13 +20,13 @@ class Forest {
  public:
   explicit Forest(int count) : parent_(at(count)) { std::iota(parent_.begin(), parent_.end(), 0); }
   int root(int i) {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
   void join(int a, int b) {
     a = root(a);
     b = root(b);
-    parent_[at(std::max(a, b))] = std::min(a, b);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
 
  private:
@@ -82,7 +82,7 @@ std::vector<double> lagrange_places(int degree) {
     }
     return places;
   }();
-  return tables[at(degree)];
+  return tables[degree];
 }
 
 std::vector<double> lagrange_values(int degree, double x) {
@@ -98,7 +98,7 @@ std::vector<NodeTie> find_joint_ties(int nodes, const std::vector<EdgeTrace>& tr
                                      std::vector<int>& vertex_node) {
   Forest forest(nodes);
   const auto join_vertex = [&](int vertex, int node) {
-    int& known = vertex_node[at(vertex)];
+    int& known = vertex_node[vertex];
     if (known < 0) known = node;
     forest.join(known, node);
   };
@@ -119,7 +119,7 @@ std::vector<NodeTie> find_joint_ties(int nodes, const std::vector<EdgeTrace>& tr
       if (std::abs(masters[i]->begin - masters[i - 1]->end) < same_place)
         forest.join(masters[i - 1]->nodes.back(), masters[i]->nodes.front());
     for_each_follower(meeting, [&](const EdgeTrace& master, int node, double x) {
-      if (const int i = same_node(master, x); i >= 0) forest.join(node, master.nodes[at(i)]);
+      if (const int i = same_node(master, x); i >= 0) forest.join(node, master.nodes[i]);
     });
   }
   std::vector<NodeTie> ties;
@@ -127,8 +127,8 @@ std::vector<NodeTie> find_joint_ties(int nodes, const std::vector<EdgeTrace>& tr
   for (const auto& [edge, meeting] : edges)
     for_each_follower(meeting, [&](const EdgeTrace& master, int node, double x) {
       const int follower = forest.root(node);
-      if (same_node(master, x) >= 0 || is_tied[at(follower)] != 0) return;
-      is_tied[at(follower)] = 1;
+      if (same_node(master, x) >= 0 || is_tied[follower] != 0) return;
+      is_tied[follower] = 1;
       NodeTie tie{follower, {}, lagrange_values(static_cast<int>(master.nodes.size()) - 1, x)};
       for (const int m : master.nodes) tie.masters.push_back(forest.root(m));
       ties.push_back(std::move(tie));

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -64,10 +63,10 @@ bool tie_by_rows(const Eigen::MatrixX3d& rows, int first, const std::vector<Moti
   for (Eigen::Index i = 0; i < count; ++i) {
     FreedomTie tie{first + static_cast<int>(order[i]), {}, {}};
     for (Eigen::Index r = 0; r < count; ++r)
-      for (std::size_t k = 0; k < wanted[at(r)].freedoms.size(); ++k) {
-        const double weight = inverse(i, r) * wanted[at(r)].weights[k];
+      for (std::size_t k = 0; k < wanted[r].freedoms.size(); ++k) {
+        const double weight = inverse(i, r) * wanted[r].weights[k];
         if (weight == 0) continue;
-        tie.masters.push_back(wanted[at(r)].freedoms[k]);
+        tie.masters.push_back(wanted[r].freedoms[k]);
         tie.weights.push_back(weight);
       }
     for (Eigen::Index k = count; k < 3; ++k) {
@@ -87,7 +86,7 @@ void tie_along(const Matrix3& axes, const bool* bound, int first,
   const bool all = bound[0] && bound[1] && bound[2];
   if (all || axes.isIdentity(1e-12)) {
     for (int c = 0; c < 3; ++c)
-      if (bound[c]) ties.push_back({first + c, wanted[at(c)].freedoms, wanted[at(c)].weights});
+      if (bound[c]) ties.push_back({first + c, wanted[c].freedoms, wanted[c].weights});
     return;
   }
   Eigen::MatrixX3d rows(0, 3);
@@ -98,9 +97,9 @@ void tie_along(const Matrix3& axes, const bool* bound, int first,
     rows.bottomRows<1>() = axes.col(c).transpose();
     Motion& sum = along.emplace_back();
     for (int i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < wanted[at(i)].freedoms.size(); ++k) {
-        sum.freedoms.push_back(wanted[at(i)].freedoms[k]);
-        sum.weights.push_back(axes(i, c) * wanted[at(i)].weights[k]);
+      for (std::size_t k = 0; k < wanted[i].freedoms.size(); ++k) {
+        sum.freedoms.push_back(wanted[i].freedoms[k]);
+        sum.weights.push_back(axes(i, c) * wanted[i].weights[k]);
       }
   }
   tie_by_rows(rows, first, along, ties);
@@ -108,15 +107,15 @@ void tie_along(const Matrix3& axes, const bool* bound, int first,
 
 void tie_slaves(const RigidLink& link, const std::vector<int>& node_of,
                 const Eigen::Matrix3Xd& nodes, std::vector<FreedomTie>& ties) {
-  const int master = node_of[at(link.master)];
+  const int master = node_of[link.master];
   for (const int vertex : link.slaves) {
-    const int slave = node_of[at(vertex)];
+    const int slave = node_of[vertex];
     if (slave == master) continue;
     const Matrix3 arm = -cross_matrix(nodes.col(slave) - nodes.col(master));
     std::array<Motion, 3> displacement, rotation;
     for (int c = 0; c < 3; ++c) {
-      append(displacement[at(c)], master, Vector3::Unit(c).transpose(), arm.row(c));
-      rotation[at(c)] = {{6 * master + 3 + c}, {1}};
+      append(displacement[c], master, Vector3::Unit(c).transpose(), arm.row(c));
+      rotation[c] = {{6 * master + 3 + c}, {1}};
     }
     tie_along(link.axes, link.bound.data(), 6 * slave, displacement, ties);
     tie_along(link.axes, link.bound.data() + 3, 6 * slave + 3, rotation, ties);
@@ -129,12 +128,12 @@ void tie_reference(const DistributingLink& link, const std::vector<int>& node_of
   Vector3 centre = Vector3::Zero();
   for (std::size_t i = 0; i < link.vertices.size(); ++i) {
     sum += link.weights[i];
-    centre += link.weights[i] * nodes.col(node_of[at(link.vertices[i])]);
+    centre += link.weights[i] * nodes.col(node_of[link.vertices[i]]);
   }
   centre /= sum;
   Matrix3 inertia = Matrix3::Zero();
   for (std::size_t i = 0; i < link.vertices.size(); ++i) {
-    const Vector3 r = nodes.col(node_of[at(link.vertices[i])]) - centre;
+    const Vector3 r = nodes.col(node_of[link.vertices[i]]) - centre;
     inertia += link.weights[i] * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3> axes(inertia);
@@ -146,11 +145,11 @@ void tie_reference(const DistributingLink& link, const std::vector<int>& node_of
       axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
   const Matrix3 left_open = Matrix3::Identity() - pseudo_inverse * inertia;
 
-  const int reference = node_of[at(link.reference)];
+  const int reference = node_of[link.reference];
   const Matrix3 arm = -cross_matrix(nodes.col(reference) - centre);
   std::array<Motion, 3> displacement, rotation;
   for (std::size_t i = 0; i < link.vertices.size(); ++i) {
-    const int node = node_of[at(link.vertices[i])];
+    const int node = node_of[link.vertices[i]];
     const double weight = link.weights[i];
     const Matrix3 rotation_of_u =
         pseudo_inverse * (weight * cross_matrix(nodes.col(node) - centre));
@@ -159,8 +158,8 @@ void tie_reference(const DistributingLink& link, const std::vector<int>& node_of
     const Matrix3 u_of_u = (weight / sum) * Matrix3::Identity() + arm * rotation_of_u;
     const Matrix3 u_of_theta = arm * rotation_of_theta;
     for (int c = 0; c < 3; ++c) {
-      append(displacement[at(c)], node, u_of_u.row(c), u_of_theta.row(c));
-      append(rotation[at(c)], node, rotation_of_u.row(c), rotation_of_theta.row(c));
+      append(displacement[c], node, u_of_u.row(c), u_of_theta.row(c));
+      append(rotation[c], node, rotation_of_u.row(c), rotation_of_theta.row(c));
     }
   }
   tie_along(link.axes, link.bound.data(), 6 * reference, displacement, ties);
@@ -182,7 +181,7 @@ void tie_by_equations(const Mesh& mesh, const std::vector<int>& node_of,
   for (const MotionEquation& equation : mesh.equations) {
     const MotionEquation::Term& first = equation.terms.front();
     const bool is_rotation = first.of_displacement.isZero(0);
-    const int node = node_of[at(first.vertex)];
+    const int node = node_of[first.vertex];
     EquationsOfVertex& own = of_freedom[6 * node + (is_rotation ? 3 : 0)];
     own.rows.conservativeResize(own.rows.rows() + 1, Eigen::NoChange);
     own.rows.bottomRows<1>() =
@@ -192,7 +191,7 @@ void tie_by_equations(const Mesh& mesh, const std::vector<int>& node_of,
     if (!is_rotation)
       append(others, node, Eigen::RowVector3d::Zero(), -first.of_rotation.transpose());
     for (std::size_t t = 1; t < equation.terms.size(); ++t)
-      append(others, node_of[at(equation.terms[t].vertex)],
+      append(others, node_of[equation.terms[t].vertex],
              -equation.terms[t].of_displacement.transpose(),
              -equation.terms[t].of_rotation.transpose());
   }
@@ -209,7 +208,7 @@ std::string describe_node(const Mesh& mesh, const std::vector<int>& node_of_vert
   std::string name = "a vertex";
   const auto vertex = std::find(node_of_vertex.begin(), node_of_vertex.end(), node);
   if (vertex != node_of_vertex.end() && !mesh.vertex_labels.empty())
-    name = fmt::format("node {}", mesh.vertex_labels[at(vertex - node_of_vertex.begin())]);
+    name = fmt::format("node {}", mesh.vertex_labels[vertex - node_of_vertex.begin()]);
   return fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) m", name, nodes(0, node), nodes(1, node),
                      nodes(2, node));
 }

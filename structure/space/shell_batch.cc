@@ -16,10 +16,10 @@ std::vector<std::unique_ptr<ShellBatch>> make_shell_batches(const Mesh& mesh) {
     std::vector<dealii::Point<3>> vertices;
     std::vector<dealii::CellData<2>> cells(at(end - first));
     for (int s = first; s < end; ++s) {
-      dealii::CellData<2>& cell = cells[at(s - first)];
+      dealii::CellData<2>& cell = cells[s - first];
       for (unsigned v = 0; v < 4; ++v) {
         cell.vertices[v] = static_cast<unsigned>(vertices.size());
-        const Vector3& place = mesh.vertices[at(mesh.shells[at(s)].vertices[v])];
+        const Vector3& place = mesh.vertices[mesh.shells[s].vertices[v]];
         vertices.emplace_back(place.x(), place.y(), place.z());
       }
       cell.material_id = static_cast<dealii::types::material_id>(batches.size());

@@ -45,7 +45,7 @@ void create_beams(const Mesh& mesh, dealii::Triangulation<1, 3>& triangulation) 
   for (std::size_t b = 0; b < mesh.beams.size(); ++b) {
     for (unsigned v = 0; v < 2; ++v) {
       cells[b].vertices[v] = static_cast<unsigned>(vertices.size());
-      vertices.push_back(to_point(mesh.vertices[at(mesh.beams[b].vertices[v])]));
+      vertices.push_back(to_point(mesh.vertices[mesh.beams[b].vertices[v]]));
     }
     cells[b].material_id = 0;
   }
@@ -67,7 +67,7 @@ ShellCell locate(const ShellBatch& batch, const Iterator& cell) {
 }
 
 Vector3 place_on(const Mesh& mesh, const ShellCell& cell, const Eigen::Vector2d& xi) {
-  return position(mesh, mesh.shells[at(cell.shell)], cell.origin + cell.size * xi);
+  return position(mesh, mesh.shells[cell.shell], cell.origin + cell.size * xi);
 }
 
 double longest_edge_of(const Mesh& mesh, const ShellCell& cell) {
@@ -133,7 +133,7 @@ class TraceCollector {
   }
 
   void collect(const ShellIterator& cell, int edge, double begin, double end) {
-    const ShellEdge& ends = shell_edges[at(edge)];
+    const ShellEdge& ends = shell_edges[edge];
     if (cell->has_children()) {
       const double middle = 0.5 * (begin + end);
       collect(cell->child(static_cast<unsigned>(ends.from)), edge, begin, middle);
@@ -141,13 +141,13 @@ class TraceCollector {
       return;
     }
     const int active = first_cell_ + static_cast<int>(cell->active_cell_index());
-    const Shell& shell = space_.mesh().shells[at(space_.shells()[at(active)].shell)];
+    const Shell& shell = space_.mesh().shells[space_.shells()[active].shell];
     const int p = space_.degree(), *nodes = space_.shell_nodes(active);
     const auto corner = [&](int c) { return (c & 1) * p + (c >> 1) * p * (p + 1); };
     const int first = corner(ends.from), step = (corner(ends.to) - first) / p;
     std::vector<int> along;
     for (int i = 0; i <= p; ++i) along.push_back(nodes[first + i * step]);
-    add(shell.vertices[at(ends.from)], shell.vertices[at(ends.to)], begin, end, std::move(along));
+    add(shell.vertices[ends.from], shell.vertices[ends.to], begin, end, std::move(along));
   }
 
   void add(int from, int to, double begin, double end, std::vector<int> nodes) {
@@ -170,7 +170,7 @@ std::vector<std::pair<int, int>> edges_of_shells(const Mesh& mesh) {
   std::vector<std::pair<int, int>> edges;
   for (const Shell& shell : mesh.shells)
     for (const ShellEdge& edge : shell_edges)
-      edges.push_back(std::minmax(shell.vertices[at(edge.from)], shell.vertices[at(edge.to)]));
+      edges.push_back(std::minmax(shell.vertices[edge.from], shell.vertices[edge.to]));
   std::sort(edges.begin(), edges.end());
   return edges;
 }
@@ -292,18 +292,18 @@ void Space::make_beams(const Resolution& resolution) {
     return located;
   };
   const auto point_on = [&](const BeamCell& cell, double xi) -> Vector3 {
-    const auto& ends = mesh_->beams[at(cell.beam)].vertices;
-    const Vector3 a = mesh_->vertices[at(ends[0])], b = mesh_->vertices[at(ends[1])];
+    const auto& ends = mesh_->beams[cell.beam].vertices;
+    const Vector3 a = mesh_->vertices[ends[0]], b = mesh_->vertices[ends[1]];
     return a + (cell.origin + cell.size * xi) * (b - a);
   };
   const auto edges = edges_of_shells(*mesh_);
   const auto is_on_edge = [&](const BeamCell& cell) {
-    const auto& ends = mesh_->beams[at(cell.beam)].vertices;
+    const auto& ends = mesh_->beams[cell.beam].vertices;
     return std::binary_search(edges.begin(), edges.end(),
                               std::pair<int, int>(std::minmax(ends[0], ends[1])));
   };
   const auto is_lone_rod = [&](const BeamCell& cell) {
-    return mesh_->beams[at(cell.beam)].is_rod && !is_on_edge(cell);
+    return mesh_->beams[cell.beam].is_rod && !is_on_edge(cell);
   };
   for (int round = 0; round < most_divisions; ++round) {
     bool is_any = false;
@@ -362,8 +362,8 @@ void Space::make_solids() {
   const int first = node_count();
   nodes_.conservativeResize(Eigen::NoChange, first + static_cast<Eigen::Index>(node_of.size()));
   for (const auto& [vertex, node] : node_of) {
-    nodes_.col(node) = mesh_->vertices[at(vertex)];
-    node_of_vertex_[at(vertex)] = node;
+    nodes_.col(node) = mesh_->vertices[vertex];
+    node_of_vertex_[vertex] = node;
   }
 }
 
@@ -371,16 +371,16 @@ void Space::make_solids() {
 void Space::make_free_nodes() {
   std::vector<char> has_cell(mesh_->vertices.size(), 0);
   for (const Shell& shell : mesh_->shells)
-    for (const int vertex : shell.vertices) has_cell[at(vertex)] = 1;
+    for (const int vertex : shell.vertices) has_cell[vertex] = 1;
   for (const Beam& beam : mesh_->beams)
-    for (const int vertex : beam.vertices) has_cell[at(vertex)] = 1;
+    for (const int vertex : beam.vertices) has_cell[vertex] = 1;
   for (const Solid& solid : mesh_->solids)
-    for (const int vertex : solid.vertices) has_cell[at(vertex)] = 1;
+    for (const int vertex : solid.vertices) has_cell[vertex] = 1;
   const auto want = [&](int vertex) {
-    if (vertex < 0 || has_cell[at(vertex)] != 0 || node_of_vertex_[at(vertex)] >= 0) return;
-    node_of_vertex_[at(vertex)] = node_count();
+    if (vertex < 0 || has_cell[vertex] != 0 || node_of_vertex_[vertex] >= 0) return;
+    node_of_vertex_[vertex] = node_count();
     nodes_.conservativeResize(Eigen::NoChange, nodes_.cols() + 1);
-    nodes_.col(nodes_.cols() - 1) = mesh_->vertices[at(vertex)];
+    nodes_.col(nodes_.cols() - 1) = mesh_->vertices[vertex];
   };
   for_each_link(*mesh_, [&](const std::vector<int>& vertices, long) {
     for (const int vertex : vertices) want(vertex);
@@ -396,12 +396,12 @@ void Space::add_surface_ties(dealii::AffineConstraints<double>& ties) const {
   if (mesh_->surface_points.empty()) return;
   std::vector<std::vector<int>> cells(mesh_->shells.size());
   for (std::size_t cell = 0; cell < shells_.size(); ++cell)
-    cells[at(shells_[cell].shell)].push_back(static_cast<int>(cell));
+    cells[shells_[cell].shell].push_back(static_cast<int>(cell));
   for (const SurfacePoint& point : mesh_->surface_points) {
     const auto node = static_cast<dealii::types::global_dof_index>(node_of_vertex(point.vertex));
     if (ties.is_constrained(node)) continue;
-    for (const int cell : cells[at(point.shell)]) {
-      const Eigen::Vector2d xi = (point.xi - shells_[at(cell)].origin) / shells_[at(cell)].size;
+    for (const int cell : cells[point.shell]) {
+      const Eigen::Vector2d xi = (point.xi - shells_[cell].origin) / shells_[cell].size;
       if (xi.minCoeff() < -1e-9 || xi.maxCoeff() > 1 + 1e-9) continue;
       const Eigen::VectorXd values = shell_values(xi);
       ties.add_line(node);
@@ -415,7 +415,7 @@ void Space::add_surface_ties(dealii::AffineConstraints<double>& ties) const {
 }
 
 Vector3 Space::place(int cell, const Eigen::Vector2d& xi) const {
-  return place_on(*mesh_, shells_[at(cell)], xi);
+  return place_on(*mesh_, shells_[cell], xi);
 }
 
 Eigen::VectorXd Space::shell_values(const Eigen::Vector2d& xi) const {
@@ -423,7 +423,7 @@ Eigen::VectorXd Space::shell_values(const Eigen::Vector2d& xi) const {
                             y = lagrange_values(degree_, xi.y());
   Eigen::VectorXd values(nodes_per_shell());
   for (int j = 0; j <= degree_; ++j)
-    for (int i = 0; i <= degree_; ++i) values[j * (degree_ + 1) + i] = x[at(i)] * y[at(j)];
+    for (int i = 0; i <= degree_; ++i) values[j * (degree_ + 1) + i] = x[i] * y[j];
   return values;
 }
 
@@ -437,14 +437,14 @@ std::vector<int> Space::element_freedoms(int element) const {
   if (element < shells) {
     for (int i = 0; i < nodes_per_shell(); ++i) take(shell_nodes(element)[i]);
   } else if (element < shells + beams) {
-    for (const int node : beams_[at(element - shells)].nodes) take(node);
+    for (const int node : beams_[element - shells].nodes) take(node);
   } else if (element < shells + beams + springs) {
-    const Spring& spring = mesh_->springs[at(element - shells - beams)];
+    const Spring& spring = mesh_->springs[element - shells - beams];
     for (const int vertex : spring.vertices)
       if (vertex >= 0) take(node_of_vertex(vertex));
   } else {
     const int solid = element - shells - beams - springs;
-    for (std::size_t i = 0; i < mesh_->solids[at(solid)].vertices.size(); ++i)
+    for (std::size_t i = 0; i < mesh_->solids[solid].vertices.size(); ++i)
       for (int c = 0; c < 3; ++c) freedoms.push_back(6 * solid_nodes(solid)[i] + c);
   }
   return freedoms;
@@ -461,13 +461,13 @@ void Space::number_unknowns() {
     const int* nodes = solid_nodes(static_cast<int>(s));
     for (std::size_t e = 0; e < topology.edges.size(); ++e) {
       const auto [from, to] = topology.edges[e];
-      collector.add(solid.vertices[at(from)], solid.vertices[at(to)], 0, 1,
+      collector.add(solid.vertices[from], solid.vertices[to], 0, 1,
                     {nodes[from], nodes[at(topology.corners) + e], nodes[to]});
     }
   }
   for (const auto& batch : own.shell_batches) collector.collect(*batch);
   for (const BeamCell& cell : beams_) {
-    const auto& ends = mesh_->beams[at(cell.beam)].vertices;
+    const auto& ends = mesh_->beams[cell.beam].vertices;
     collector.add(ends[0], ends[1], cell.origin, cell.origin + cell.size, cell.nodes);
   }
 
@@ -530,17 +530,17 @@ void Space::number_unknowns() {
   std::vector<std::vector<int>> elements(at(element_count()));
   for (int e = 0; e < element_count(); ++e)
     for (const int freedom : element_freedoms(e))
-      for (long t = start[at(freedom)]; t < start[at(freedom + 1)]; ++t)
-        elements[at(e)].push_back(terms[at(t)].unknown);
+      for (long t = start[freedom]; t < start[freedom + 1]; ++t)
+        elements[e].push_back(terms[t].unknown);
   elimination_ = find_elimination(freedoms(), elements);
   unknowns_ = elimination_.count;
 
   // Without stiffness nothing moves.
   term_start_.assign(1, 0);
   for (int freedom = 0; freedom < freedoms(); ++freedom) {
-    for (long t = start[at(freedom)]; t < start[at(freedom + 1)]; ++t)
-      if (const int place = elimination_.place[at(terms[at(t)].unknown)]; place >= 0)
-        terms_.push_back({place, terms[at(t)].weight});
+    for (long t = start[freedom]; t < start[freedom + 1]; ++t)
+      if (const int place = elimination_.place[terms[t].unknown]; place >= 0)
+        terms_.push_back({place, terms[t].weight});
     term_start_.push_back(static_cast<long>(terms_.size()));
   }
 }

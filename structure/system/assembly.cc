@@ -44,14 +44,14 @@ Pattern make_pattern(const Elimination& elimination) {
     const UnknownGroup& group = elimination.groups[g];
     others.clear();
     for (const int element : group.elements)
-      for (const int other : elimination.groups_of_elements[at(element)])
+      for (const int other : elimination.groups_of_elements[element])
         if (other > static_cast<int>(g)) others.push_back(other);
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
     long rows = 0;
     for (const int other : others) {
       pattern.neighbours[g].push_back({other, rows});
-      rows += elimination.groups[at(other)].count;
+      rows += elimination.groups[other].count;
     }
     for (long k = 0; k < group.count; ++k)
       pattern.column_start.push_back(pattern.column_start.back() + group.count - k + rows);
@@ -66,10 +66,10 @@ SparseLower make_matrix(const Elimination& elimination, const Pattern& pattern) 
   for (std::size_t g = 0; g < elimination.groups.size(); ++g) {
     const UnknownGroup& group = elimination.groups[g];
     for (int k = 0; k < group.count; ++k) {
-      long* row = matrix.innerIndexPtr() + pattern.column_start[at(group.first + k)];
+      long* row = matrix.innerIndexPtr() + pattern.column_start[group.first + k];
       for (int r = k; r < group.count; ++r) *row++ = group.first + r;
       for (const Neighbour& neighbour : pattern.neighbours[g]) {
-        const UnknownGroup& other = elimination.groups[at(neighbour.group)];
+        const UnknownGroup& other = elimination.groups[neighbour.group];
         for (int r = 0; r < other.count; ++r) *row++ = other.first + r;
       }
     }
@@ -92,8 +92,7 @@ void take_freedoms(const Space& space, int element, const Eigen::MatrixXd& of_fr
   if (is_plain) return take_entries(unknowns, of_freedoms, entries);
   std::sort(unknowns.begin(), unknowns.end());
   unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
-  Eigen::MatrixXd terms = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(freedoms.size()),
-                                                static_cast<Eigen::Index>(unknowns.size()));
+  Eigen::MatrixXd terms = Eigen::MatrixXd::Zero(freedoms.size(), unknowns.size());
   for (std::size_t i = 0; i < freedoms.size(); ++i)
     for (const Space::Term* term = space.begin_of(freedoms[i]); term != space.end_of(freedoms[i]);
          ++term)
@@ -107,31 +106,31 @@ void take_freedoms(const Space& space, int element, const Eigen::MatrixXd& of_fr
 /// Adds an element's matrix to the columns of those groups that are this part's.
 void scatter(const Elimination& elimination, const Pattern& pattern, int element,
              const ElementEntries& entries, SparseLower& matrix, int part, int parts) {
-  const std::vector<int>& groups = elimination.groups_of_elements[at(element)];
+  const std::vector<int>& groups = elimination.groups_of_elements[element];
   thread_local std::vector<std::size_t> starts;  // of each group in entries.unknowns, and the end
   starts.clear();
   for (const int g : groups)
     starts.push_back(at(std::lower_bound(entries.unknowns.begin(), entries.unknowns.end(),
-                                         elimination.groups[at(g)].first) -
+                                         elimination.groups[g].first) -
                         entries.unknowns.begin()));
   starts.push_back(entries.unknowns.size());
   for (std::size_t c = 0; c < groups.size(); ++c) {
     const int g = groups[c];
     if (g % parts != part) continue;
-    const UnknownGroup& group = elimination.groups[at(g)];
+    const UnknownGroup& group = elimination.groups[g];
     for (std::size_t r = c; r < groups.size(); ++r) {
-      const UnknownGroup& other = elimination.groups[at(groups[r])];
+      const UnknownGroup& other = elimination.groups[groups[r]];
       long offset = 0;
       if (r != c) {
-        const auto& list = pattern.neighbours[at(g)];
+        const auto& list = pattern.neighbours[g];
         offset = std::lower_bound(list.begin(), list.end(), groups[r],
                                   [](const Neighbour& n, int wanted) { return n.group < wanted; })
                      ->offset;
       }
       for (std::size_t j = starts[c]; j < starts[c + 1]; ++j) {
         const long k = entries.unknowns[j] - group.first;
-        double* column = matrix.valuePtr() + pattern.column_start[at(entries.unknowns[j])];
-        const double* source = entries.matrix.col(static_cast<Eigen::Index>(j)).data();
+        double* column = matrix.valuePtr() + pattern.column_start[entries.unknowns[j]];
+        const double* source = entries.matrix.col(j).data();
         double* target = r == c ? column - k : column + (group.count - k) + offset;
         for (std::size_t i = r == c ? j : starts[r]; i < starts[r + 1]; ++i)
           target[entries.unknowns[i] - other.first] += source[i];
@@ -163,8 +162,8 @@ class ElementStiffness {
     const Mesh& mesh = space_.mesh();
     const int springs = static_cast<int>(mesh.springs.size());
     if (element >= shells + beams + springs)
-      return own_ = solid_stiffness(mesh, mesh.solids[at(element - shells - beams - springs)]);
-    const Spring& spring = mesh.springs[at(element - shells - beams)];
+      return own_ = solid_stiffness(mesh, mesh.solids[element - shells - beams - springs]);
+    const Spring& spring = mesh.springs[element - shells - beams];
     // How far it is stretched by the freedoms of its vertices.
     std::vector<double> row;
     for (std::size_t end = 0; end < 2; ++end) {
@@ -193,7 +192,7 @@ class ElementStiffness {
 /// need not be one of the world's: along it the node gets a stiffness of its own and stays at rest.
 void hold_loose_rotations(const Space& space, SparseLower& stiffness) {
   for (const BeamCell& cell : space.beams()) {
-    const Beam& beam = space.mesh().beams[at(cell.beam)];
+    const Beam& beam = space.mesh().beams[cell.beam];
     for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
       const bool is_released = std::any_of(beam.release[end].begin() + 3, beam.release[end].end(),
                                            [](bool released) { return released; });
@@ -204,12 +203,12 @@ void hold_loose_rotations(const Space& space, SparseLower& stiffness) {
       for (int c = 0; c < 3; ++c) {
         const Space::Term* term = space.begin_of(6 * node + 3 + c);
         is_plain = is_plain && space.end_of(6 * node + 3 + c) - term == 1;
-        if (is_plain) unknowns[at(c)] = term->unknown;
+        if (is_plain) unknowns[c] = term->unknown;
       }
       if (!is_plain) continue;
       const auto entry = [&](int a, int b) -> double& {
-        return stiffness.coeffRef(std::max(unknowns[at(a)], unknowns[at(b)]),
-                                  std::min(unknowns[at(a)], unknowns[at(b)]));
+        return stiffness.coeffRef(std::max(unknowns[a], unknowns[b]),
+                                  std::min(unknowns[a], unknowns[b]));
       };
       Eigen::Matrix3d block;
       for (int a = 0; a < 3; ++a)
@@ -261,12 +260,11 @@ SparseLower assemble(const Elimination& elimination,
   for (int first = 0; first < count; first += batch) {
     const int last = std::min(count, first + batch);
     in_batches(threads, 1, threads, [&](int thread, int) {
-      for (int e = first + thread; e < last; e += threads)
-        workers[at(thread)](e, entries[at(e - first)]);
+      for (int e = first + thread; e < last; e += threads) workers[thread](e, entries[e - first]);
     });
     in_batches(threads, 1, threads, [&](int thread, int) {
       for (int e = first; e < last; ++e)
-        scatter(elimination, pattern, e, entries[at(e - first)], matrix, thread, threads);
+        scatter(elimination, pattern, e, entries[e - first], matrix, thread, threads);
     });
   }
   return matrix;

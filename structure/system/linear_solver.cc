@@ -150,15 +150,14 @@ Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads,
     throw NotEnoughMemory(
         fmt::format("the memory did not suffice to solve for {} loads", loads.cols()));
   for (std::size_t i = 0; i < fixed_.size(); ++i)
-    displacements.row(fixed_[i].unknown) = given.row(static_cast<Eigen::Index>(i));
+    displacements.row(fixed_[i].unknown) = given.row(i);
   return displacements;
 }
 
 Eigen::MatrixXd ConstrainedSystem::reactions(const Eigen::MatrixXd& displacements,
                                              const Eigen::MatrixXd& loads) const {
   Eigen::MatrixXd forces = fixed_rows_ * displacements;
-  for (std::size_t i = 0; i < fixed_.size(); ++i)
-    forces.row(static_cast<Eigen::Index>(i)) -= loads.row(fixed_[i].unknown);
+  for (std::size_t i = 0; i < fixed_.size(); ++i) forces.row(i) -= loads.row(fixed_[i].unknown);
   return forces;
 }
 

@@ -32,8 +32,8 @@ Eigen::Matrix3d cross_matrix(const Vector3& v) {
 void visit_beams(const Space& space, const VisitMatter& visit) {
   const Mesh& mesh = space.mesh();
   for (int cell = 0; cell < static_cast<int>(space.beams().size()); ++cell) {
-    const BeamCell& located = space.beams()[at(cell)];
-    const Beam& beam = mesh.beams[at(located.beam)];
+    const BeamCell& located = space.beams()[cell];
+    const Beam& beam = mesh.beams[located.beam];
     const Eigen::Matrix3d axes = beam_axes(mesh, beam);
     const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree) + 1);
     for (unsigned q = 0; q < rule.size(); ++q) {
@@ -52,7 +52,7 @@ void visit_beams(const Space& space, const VisitMatter& visit) {
       point.values = values.data();
       point.node_count = located.degree + 1;
       point.volume = 0.25 * rule.weight(q) * strained.weight * section.area;
-      point.mass = point.volume * mesh.materials[at(section.material)].density;
+      point.mass = point.volume * mesh.materials[section.material].density;
       for (const Vector3& reach : reaches) {
         point.arm = arm + reach;
         point.place = strained.place + reach;
@@ -73,7 +73,7 @@ void visit_solids(const Space& space, const VisitMatter& visit) {
       point.node_count = static_cast<int>(solid.vertices.size());
       point.place = integrated.place;
       point.volume = integrated.weight;
-      point.mass = integrated.weight * mesh.materials[at(solid.material)].density;
+      point.mass = integrated.weight * mesh.materials[solid.material].density;
       visit(point);
     }
   }
@@ -130,8 +130,8 @@ void for_each_shell_point(const Space& space, const std::vector<int>& cells,
   std::vector<Eigen::VectorXd> shapes;
   for (const auto& xi : rule.get_points()) shapes.push_back(space.shell_values({xi[0], xi[1]}));
   for (const int cell : cells) {
-    values.reinit(own.shell_cells[at(cell)]);
-    const Shell& shell = space.mesh().shells[at(space.shells()[at(cell)].shell)];
+    values.reinit(own.shell_cells[cell]);
+    const Shell& shell = space.mesh().shells[space.shells()[cell].shell];
     const ShellSection& section = space.mesh().section_of(shell);
     MatterPoint point;
     point.nodes = space.shell_nodes(cell);
@@ -307,7 +307,7 @@ class MassSum {
     for (int j = 0; j < 6 * count_; ++j)
       for (int i = 0; i < 6 * count_; ++i)
         if (std::abs(own_(i, j)) > least)
-          entries_.emplace_back(6 * members_[at(i / 6)] + i % 6, 6 * members_[at(j / 6)] + j % 6,
+          entries_.emplace_back(6 * members_[i / 6] + i % 6, 6 * members_[j / 6] + j % 6,
                                 own_(i, j));
     count_ = next.node_count;
     members_.assign(next.nodes, next.nodes + next.node_count);

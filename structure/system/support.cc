@@ -7,7 +7,6 @@
 #include <Eigen/SVD>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/system/held_points.h"
 
 namespace blocklift::structure {
@@ -86,10 +85,10 @@ std::vector<FixedUnknown> statically_determinate_support(const Space& space) {
   const std::vector<int> candidates = free_nodes(space);
   Eigen::Matrix3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    places.col(static_cast<Eigen::Index>(i)) = space.nodes().col(candidates[i]);
+    places.col(i) = space.nodes().col(candidates[i]);
   std::vector<FixedUnknown> support;
   for (const HeldComponent& held : hold_points(places))
-    support.push_back({own_unknown(space, 6 * candidates[at(held.point)] + held.axis), 0});
+    support.push_back({own_unknown(space, 6 * candidates[held.point] + held.axis), 0});
   return support;
 }
 

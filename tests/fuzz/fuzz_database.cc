@@ -72,7 +72,7 @@ void put_other(hid_t file, const char* part, Bytes& bytes) {
   const auto rank = static_cast<int>(bytes.next() % 4);
   std::array<hsize_t, 4> size{};
   hsize_t count = 1;
-  for (int i = 0; i < rank; ++i) count *= size[static_cast<std::size_t>(i)] = bytes.next() % 13;
+  for (int i = 0; i < rank; ++i) count *= size[i] = bytes.next() % 13;
   const std::vector<double> values(count + 1, extremes[bytes.next() % extremes.size()]);
   const hid_t space =
       rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, size.data(), nullptr);

@@ -226,19 +226,17 @@ std::vector<Row> make_rows(const Mechanism& mechanism, const std::vector<LoopDef
 
 Eigen::VectorXd calc_residual(const std::vector<Row>& rows, const State& state) {
   Eigen::VectorXd residual(static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    residual[static_cast<Eigen::Index>(i)] = calc_residual(rows[i], state);
+  for (std::size_t i = 0; i < rows.size(); ++i) residual[i] = calc_residual(rows[i], state);
   return residual;
 }
 
 Eigen::MatrixXd calc_jacobian(const std::vector<Row>& rows, const State& state) {
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(
-      static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(6 * state.p_WBcm.size()));
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows.size(), 6 * state.p_WBcm.size());
   Eigen::RowVectorXd row(jacobian.cols());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     row.setZero();
     calc_jacobian(rows[i], state, JacobianRow(state, row));
-    jacobian.row(static_cast<Eigen::Index>(i)) = row;
+    jacobian.row(i) = row;
   }
   return jacobian;
 }
@@ -249,7 +247,7 @@ std::vector<Row> independent_rows(const std::vector<Row>& rows, const State& sta
   qr.setThreshold(1e-9);
   std::vector<Row> chosen;
   for (Eigen::Index i = 0; i < qr.rank(); ++i)
-    chosen.push_back(rows[static_cast<std::size_t>(qr.colsPermutation().indices()[i])]);
+    chosen.push_back(rows[qr.colsPermutation().indices()[i]]);
   return chosen;
 }
 

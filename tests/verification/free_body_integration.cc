@@ -78,8 +78,8 @@ class System {
   VectorXd velocities(const State& state) const {
     VectorXd u(6 * n_);
     for (Index i = 0; i < n_; ++i) {
-      u.segment<3>(3 * i) = state.v_WBcm[static_cast<std::size_t>(i)];
-      u.segment<3>(3 * (n_ + i)) = state.w_WB_B[static_cast<std::size_t>(i)];
+      u.segment<3>(3 * i) = state.v_WBcm[i];
+      u.segment<3>(3 * (n_ + i)) = state.w_WB_B[i];
     }
     return u;
   }

@@ -40,7 +40,7 @@ free_bodies::State state_of(const Mechanism& mechanism, const dynamics::History&
                             Eigen::Index sample) {
   free_bodies::State state;
   for (int i = 1; i < mechanism.body_count(); ++i) {
-    const dynamics::BodyHistory& body = history.bodies[static_cast<std::size_t>(i - 1)];
+    const dynamics::BodyHistory& body = history.bodies[i - 1];
     const Pose X_WB = body.X_WB(sample);
     const Vector3 p_BoBcm_W = X_WB.R * mechanism.body(i).inertia.p_BoBcm;
     const dynamics::MotionVector V = body.V_WB(sample);

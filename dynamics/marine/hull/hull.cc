@@ -141,7 +141,7 @@ class VertexGrid {
       : vertices_(vertices), tolerance_(tolerance) {}
 
   int find_or_add(int vertex) {
-    const Vector3& p = vertices_[static_cast<std::size_t>(vertex)];
+    const Vector3& p = vertices_[vertex];
     const std::array<long, 3> cell = cell_of(p);
     for (long i = cell[0] - 1; i <= cell[0] + 1; ++i) {
       for (long j = cell[1] - 1; j <= cell[1] + 1; ++j) {
@@ -149,7 +149,7 @@ class VertexGrid {
           const auto found = cells_.find({i, j, k});
           if (found == cells_.end()) continue;
           for (const int other : found->second) {
-            if ((vertices_[static_cast<std::size_t>(other)] - p).norm() <= tolerance_) return other;
+            if ((vertices_[other] - p).norm() <= tolerance_) return other;
           }
         }
       }
@@ -177,14 +177,14 @@ Hull merge_vertices(const Hull& hull, double tolerance) {
   std::vector<int> number(hull.vertices().size(), -1);
   for (std::size_t i = 0; i < number.size(); ++i) {
     const int first = grid.find_or_add(static_cast<int>(i));
-    number[i] = first == static_cast<int>(i) ? merged.add_vertex(hull.vertices()[i])
-                                             : number[static_cast<std::size_t>(first)];
+    number[i] =
+        first == static_cast<int>(i) ? merged.add_vertex(hull.vertices()[i]) : number[first];
   }
   std::vector<int> corners;
   for (int panel = 0; panel < hull.panel_count(); ++panel) {
     corners.clear();
     for (const int corner : hull.panel(panel)) {
-      const int vertex = number[static_cast<std::size_t>(corner)];
+      const int vertex = number[corner];
       if (corners.empty() || corners.back() != vertex) corners.push_back(vertex);
     }
     while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
@@ -251,8 +251,8 @@ Hull turned_outwards(const Hull& hull) {
   for (const auto& [edge, sides] : find_edge_sides(hull)) {
     if (sides.size() != 2) continue;
     const bool opposed = sides[0].forward == sides[1].forward;
-    neighbours[static_cast<std::size_t>(sides[0].panel)].push_back({sides[1].panel, opposed});
-    neighbours[static_cast<std::size_t>(sides[1].panel)].push_back({sides[0].panel, opposed});
+    neighbours[sides[0].panel].push_back({sides[1].panel, opposed});
+    neighbours[sides[1].panel].push_back({sides[0].panel, opposed});
   }
   std::vector<int> sense(count, 0);  // 1: as it is, -1: turned, 0: not yet seen
   for (std::size_t first = 0; first < count; ++first) {
@@ -264,20 +264,20 @@ Hull turned_outwards(const Hull& hull) {
       const auto panel = static_cast<std::size_t>(part[i]);
       volume += sense[panel] * six_volumes(hull, part[i]);
       for (const Neighbour& n : neighbours[panel]) {
-        int& other = sense[static_cast<std::size_t>(n.panel)];
+        int& other = sense[n.panel];
         if (other != 0) continue;
         other = n.opposed ? -sense[panel] : sense[panel];
         part.push_back(n.panel);
       }
     }
     if (volume >= 0.0) continue;
-    for (const int panel : part) sense[static_cast<std::size_t>(panel)] *= -1;
+    for (const int panel : part) sense[panel] *= -1;
   }
   Hull turned(hull.name());
   for (const Vector3& p : hull.vertices()) turned.add_vertex(p);
   for (int panel = 0; panel < hull.panel_count(); ++panel) {
     std::vector<int> corners(hull.panel(panel).begin(), hull.panel(panel).end());
-    if (sense[static_cast<std::size_t>(panel)] < 0) std::reverse(corners.begin(), corners.end());
+    if (sense[panel] < 0) std::reverse(corners.begin(), corners.end());
     turned.add_panel(corners);
   }
   return turned;

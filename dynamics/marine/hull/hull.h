@@ -30,7 +30,7 @@ class Hull {
   }
 
   const std::vector<Vector3>& vertices() const { return vertices_; }
-  const Vector3& vertex(int index) const { return vertices_[static_cast<std::size_t>(index)]; }
+  const Vector3& vertex(int index) const { return vertices_[index]; }
   int panel_count() const { return static_cast<int>(start_.size()) - 1; }
   /// Indices of the vertices of a panel, in their order.
   std::span<const int> panel(int index) const {

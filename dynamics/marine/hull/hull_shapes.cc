@@ -59,7 +59,7 @@ class BoxSkin {
   }
   int number(const Place& p) const {
     const int place = (p[0] * (n_[1] + 1) + p[1]) * (n_[2] + 1) + p[2];
-    return number_[static_cast<std::size_t>(place)];
+    return number_[place];
   }
   void add(const Place& a, const Place& b, const Place& c, const Place& d) {
     hull_.add_panel({number(a), number(b), number(c), number(d)});
@@ -176,7 +176,7 @@ Hull make_barge(const BargeShape& s, const PanelDivision& division, std::string 
                        s.length / division.along);
   const int bilge = s.bilge_radius > 0.0 ? division.bilge : 0;
   const auto row = [&](int station, int k) -> Vector3 {
-    const double x = stations[static_cast<std::size_t>(station)];
+    const double x = stations[station];
     const double bottom = bottom_height(s, x);
     const double breadth = half_breadth(s, x);
     const double r = s.bilge_radius;
@@ -252,8 +252,8 @@ Hull make_ship(const ShipShape& s, const PanelDivision& division, std::string na
       {-half, -half + s.stern_length, half - s.bow_length, half}, s.length / division.along);
   const std::vector<double> rows = ship_rows(s.depth, s.draught, division);
   const auto row = [&](int station, int k) -> Vector3 {
-    const double x = stations[static_cast<std::size_t>(station)];
-    const double z = rows[static_cast<std::size_t>(k)];
+    const double x = stations[station];
+    const double z = rows[k];
     return {x, half_breadth(s, x, z / s.draught), z};
   };
   return BoxSkin(std::move(name), static_cast<int>(stations.size()) - 1, division.across,

@@ -21,7 +21,7 @@ Hull moved_onto_plane(const Hull& hull, int axis) {
   for (int k = 0; k < hull.panel_count(); ++k) {
     const double diameter = hull.panel_diameter(k);
     for (const int vertex : hull.panel(k)) {
-      double& smallest = size[static_cast<std::size_t>(vertex)];
+      double& smallest = size[vertex];
       smallest = std::min(smallest, diameter);
     }
   }
@@ -92,7 +92,7 @@ class PositiveHalf {
 
   /// Those that no panel keeps are left out.
   int take_vertex(int vertex) {
-    int& taken = number_[static_cast<std::size_t>(vertex)];
+    int& taken = number_[vertex];
     if (taken < 0) taken = half_.add_vertex(whole_.vertex(vertex));
     return taken;
   }

@@ -103,8 +103,8 @@ int TriangleTree::build(std::span<Item> items, std::size_t leaf_size) {
     moments += this->moments(node.left);
     moments += this->moments(node.right);
   }
-  nodes_[static_cast<std::size_t>(index)] = node;
-  moments_[static_cast<std::size_t>(index)] = moments;
+  nodes_[index] = node;
+  moments_[index] = moments;
   return index;
 }
 

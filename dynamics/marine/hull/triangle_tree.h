@@ -40,8 +40,8 @@ class TriangleTree {
 
   int triangle_count() const { return static_cast<int>(triangles_.size()); }
   int node_count() const { return static_cast<int>(nodes_.size()); }
-  const Node& node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
-  const SurfaceMoments& moments(int node) const { return moments_[static_cast<std::size_t>(node)]; }
+  const Node& node(int index) const { return nodes_[index]; }
+  const SurfaceMoments& moments(int node) const { return moments_[node]; }
   static constexpr int root = 0;
   std::span<const Triangle> triangles(const Node& leaf) const {
     return {triangles_.data() + leaf.first_triangle, static_cast<std::size_t>(leaf.triangle_count)};
@@ -59,15 +59,15 @@ class TriangleTree {
     int size = 1;
     stack[0] = start;
     while (size > 0) {
-      const int index = stack[static_cast<std::size_t>(--size)];
+      const int index = stack[--size];
       const Node& node = this->node(index);
       if (!open(node, index)) continue;
       if (node.is_leaf()) {
         leaf(node);
         continue;
       }
-      stack[static_cast<std::size_t>(size++)] = node.right;
-      stack[static_cast<std::size_t>(size++)] = node.left;
+      stack[size++] = node.right;
+      stack[size++] = node.left;
     }
   }
 

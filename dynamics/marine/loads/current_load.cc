@@ -26,7 +26,7 @@ CurrentLoad::CurrentLoad(Definition definition)
 
 CurrentLoad::Flow CurrentLoad::find_flow(const MotionState& state) const {
   const Definition& d = definition_;
-  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(d.reference.body)];
+  const Pose& X_WB = state.kinematics.X_WB[d.reference.body];
   Flow flow;
   flow.p_BoP_W = X_WB.R * d.reference.p_BoQ_B;
   flow.u_W = d.sea->current.calc_velocity(X_WB.p.z() + flow.p_BoP_W.z()) -
@@ -41,7 +41,7 @@ CurrentLoad::Flow CurrentLoad::find_flow(const MotionState& state) const {
 
 ForceVector CurrentLoad::calc_force(const MotionState& state) const {
   const Flow flow = find_flow(state);
-  const Matrix3& R = state.kinematics.X_WB[static_cast<std::size_t>(definition_.reference.body)].R;
+  const Matrix3& R = state.kinematics.X_WB[definition_.reference.body].R;
   return {flow.wet * (R * flow.load.F_B.head<3>()), flow.wet * (R * flow.load.F_B.tail<3>())};
 }
 
@@ -54,7 +54,7 @@ void CurrentLoad::add_forces(const MotionState& state, Loads& loads) const {
 void CurrentLoad::add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const {
   const Definition& d = definition_;
   const Flow flow = find_flow(state);
-  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(d.reference.body)];
+  const Pose& X_WB = state.kinematics.X_WB[d.reference.body];
   const FlowLoad whole(flow.load, X_WB.R, flow.u_W);
   Eigen::Matrix<double, 6, 6> dF_dX = flow.wet * whole.dF_dX;
   if (d.hull && flow.wet > 0.0 && flow.wet < 1.0) {

@@ -94,7 +94,7 @@ DiffractionForce::Amplitude DiffractionForce::amplitude_at(const HydrodynamicDat
 ForceVector DiffractionForce::calc_force(const MotionState& state) const {
   if (waves_.empty()) return ForceVector::zero();
   const BodyFrame& frame = definition_.frame;
-  const Pose X_WH = state.kinematics.X_WB[static_cast<std::size_t>(frame.body)] * frame.X_BH;
+  const Pose X_WH = state.kinematics.X_WB[frame.body] * frame.X_BH;
   const double yaw = std::atan2(X_WH.R(1, 0), X_WH.R(0, 0));
   const std::size_t count = headings_.size(), states = state_count();
   DraughtShares shares;
@@ -110,7 +110,7 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
                                             std::sin(wave.heading) * X_WH.p.y());
     const Complex at_now = std::polar(1.0, phase);
     for (std::size_t k = 0; k < states; ++k) {
-      const double weight = shares.weight[static_cast<Eigen::Index>(k)];
+      const double weight = shares.weight[k];
       if (weight == 0.0) continue;
       const Amplitude& before = amplitudes_[(c * states + k) * count + j - 1];
       const Amplitude& after = amplitudes_[(c * states + k) * count + j];

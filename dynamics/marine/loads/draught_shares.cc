@@ -14,7 +14,7 @@ constexpr double rounding = 0.1;  // of the lesser step beside a corner
 }  // namespace
 
 double DraughtMark::calc_draught(const Kinematics& kinematics) const {
-  return calc_draught(kinematics.X_WB[static_cast<std::size_t>(body)]);
+  return calc_draught(kinematics.X_WB[body]);
 }
 
 double DraughtMark::calc_rate(const Kinematics& kinematics) const {
@@ -32,7 +32,7 @@ DraughtInterpolation::DraughtInterpolation(const std::vector<double>& draughts) 
   corner_.resize(count);
   half_width_.resize(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    corner_[k] = draughts[static_cast<std::size_t>(k)];
+    corner_[k] = draughts[k];
     if (k == 0 ? corner_[k] != 0.0 : !(corner_[k] > corner_[k - 1])) {
       throw ModelError("draughts must ascend from zero, where the body is dry; draught " +
                        std::to_string(k + 1) + " is " + std::to_string(corner_[k]) + " m");

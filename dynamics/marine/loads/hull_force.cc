@@ -138,13 +138,13 @@ ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const 
 }
 
 ForceVector HullForce::calc_force(const MotionState& state) const {
-  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(definition_.body)];
+  const Pose& X_WB = state.kinematics.X_WB[definition_.body];
   if (in_waves()) return calc_force_in_waves(state.time, X_WB);
   return rho_g_ * calc_buoyancy(*definition_.hull, X_WB).F_Bo_W_over_rho_g;
 }
 
 void HullForce::add_forces(const MotionState& state, Loads& loads) const {
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.body)] += calc_force(state);
+  loads.F_Bo_W[definition_.body] += calc_force(state);
 }
 
 void HullForce::add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const {
@@ -166,13 +166,12 @@ EnergyAccount HullForce::calc_energy(const MotionState& state) const {
 }
 
 double HullForce::calc_stored_energy(const MotionState& state) const {
-  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(definition_.body)];
+  const Pose& X_WB = state.kinematics.X_WB[definition_.body];
   return rho_g_ * calc_buoyancy(*definition_.hull, X_WB).energy_over_rho_g;
 }
 
 Hydrostatics HullForce::calc_calm_hydrostatics(const MotionState& state) const {
-  return calc_hydrostatics(*definition_.hull,
-                           state.kinematics.X_WB[static_cast<std::size_t>(definition_.body)]);
+  return calc_hydrostatics(*definition_.hull, state.kinematics.X_WB[definition_.body]);
 }
 
 }  // namespace blocklift::dynamics

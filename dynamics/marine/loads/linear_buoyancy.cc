@@ -36,7 +36,7 @@ LinearBuoyancy::LinearBuoyancy(Definition definition) : definition_(std::move(de
 
 LinearBuoyancy::Shift LinearBuoyancy::calc_shift(const MotionState& state) const {
   const Definition& d = definition_;
-  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(d.frame.body)];
+  const Pose& X_WB = state.kinematics.X_WB[d.frame.body];
   Shift shifted;
   shifted.p_BoR_W = X_WB.R * d.frame.X_BH.p;
   shifted.R_WH = X_WB.R * d.frame.X_BH.R;
@@ -52,7 +52,7 @@ LinearBuoyancy::Shift LinearBuoyancy::calc_shift(const MotionState& state) const
 void LinearBuoyancy::add_forces(const MotionState& state, Loads& loads) const {
   const Shift shifted = calc_shift(state);
   const Vector3 moment = shifted.R_WH * shifted.u.cross(shifted.gradient);
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.frame.body)] +=
+  loads.F_Bo_W[definition_.frame.body] +=
       shift_to(ForceVector{moment, {0.0, 0.0, shifted.lift}}, shifted.p_BoR_W);
 }
 

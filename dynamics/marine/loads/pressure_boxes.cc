@@ -129,7 +129,7 @@ void PressureBoxes::add_level(const TriangleTree& tree, const WaveField& waves, 
     const Grid grid{{needed(0), needed(1), needed(2)}};
     std::size_t& least = cost[i];
     if (!box.is_leaf()) {
-      least = cost[static_cast<std::size_t>(box.left)] + cost[static_cast<std::size_t>(box.right)];
+      least = cost[box.left] + cost[box.right];
     } else if (per_triangle > 0) {
       least = per_triangle * static_cast<std::size_t>(box.triangle_count);
     } else {

@@ -157,7 +157,7 @@ DraughtShares RadiatedWater::find_shares(const Kinematics& kinematics) const {
 void RadiatedWater::calc_added_mass(const DraughtShares& shares, MatrixXd& matrix) const {
   matrix = dry_;
   for (std::size_t k = 0; k < steps_.size(); ++k) {
-    const double passed = shares.passed[static_cast<Eigen::Index>(k)];
+    const double passed = shares.passed[k];
     if (passed != 0.0) matrix += passed * steps_[k].change;
   }
 }
@@ -165,7 +165,7 @@ void RadiatedWater::calc_added_mass(const DraughtShares& shares, MatrixXd& matri
 void RadiatedWater::add_entry_force(const DraughtShares& shares, ConstVectorRef u,
                                     VectorRef force) const {
   for (std::size_t k = 0; k < steps_.size(); ++k) {
-    const double rate = shares.slope[static_cast<Eigen::Index>(k)] * shares.rate;
+    const double rate = shares.slope[k] * shares.rate;
     if (rate > 0.0) force.noalias() -= rate * (steps_[k].gained * u);
     if (rate < 0.0) force.noalias() += rate * (steps_[k].lost * u);
   }
@@ -174,7 +174,7 @@ void RadiatedWater::add_entry_force(const DraughtShares& shares, ConstVectorRef 
 double RadiatedWater::calc_entry_loss(const DraughtShares& shares, ConstVectorRef u) const {
   double loss = 0.0;
   for (std::size_t k = 0; k < steps_.size(); ++k) {
-    const double rate = std::abs(shares.slope[static_cast<Eigen::Index>(k)] * shares.rate);
+    const double rate = std::abs(shares.slope[k] * shares.rate);
     if (rate == 0.0) continue;
     loss += 0.5 * rate * (u.dot(steps_[k].gained * u) + u.dot(steps_[k].lost * u));
   }

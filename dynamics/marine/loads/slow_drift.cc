@@ -59,7 +59,7 @@ SlowDrift::SlowDrift(Definition definition) : definition_(std::move(definition))
       if (place.share < 1.0) {
         values += (1.0 - place.share) * database.mean_drift[place.upper - 1].row(row);
       }
-      wave.drift.row(static_cast<Eigen::Index>(i)).head(columns - 1) =
+      wave.drift.row(i).head(columns - 1) =
           component.amplitude * component.amplitude * values.head(columns - 1);
     }
     wave.drift.col(columns - 1) = wave.drift.col(0);
@@ -70,7 +70,7 @@ SlowDrift::SlowDrift(Definition definition) : definition_(std::move(definition))
 ForceVector SlowDrift::calc_force(const MotionState& state) const {
   if (waves_.empty()) return ForceVector::zero();
   const BodyFrame& frame = definition_.frame;
-  const Pose X_WH = state.kinematics.X_WB[static_cast<std::size_t>(frame.body)] * frame.X_BH;
+  const Pose X_WH = state.kinematics.X_WB[frame.body] * frame.X_BH;
   const double yaw_angle = std::atan2(X_WH.R(1, 0), X_WH.R(0, 0));
   std::array<Complex, 3> pushing{}, pulling{};
   for (const Wave& wave : waves_) {
@@ -81,13 +81,13 @@ ForceVector SlowDrift::calc_force(const MotionState& state) const {
     const Complex signal = std::polar(
         1.0, wave.frequency * state.time - wave.phase - wave.wave_vector.dot(X_WH.p.head<2>()));
     for (std::size_t i = 0; i < drifting.size(); ++i) {
-      const double size = drift[static_cast<Eigen::Index>(i)];
+      const double size = drift[i];
       (size > 0.0 ? pushing : pulling)[i] += std::sqrt(std::abs(size)) * signal;
     }
   }
   Vector3 force;
   for (std::size_t i = 0; i < drifting.size(); ++i) {
-    force[static_cast<Eigen::Index>(i)] = std::norm(pushing[i]) - std::norm(pulling[i]);
+    force[i] = std::norm(pushing[i]) - std::norm(pulling[i]);
   }
   const double factor = definition_.sea->waves.ramp().factor(state.time);
   force *= factor * factor;

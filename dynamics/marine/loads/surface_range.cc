@@ -13,8 +13,7 @@ using Counts = std::array<std::size_t, 3>;
 Counts count_points(const Vector3& half_extent, double spacing) {
   Counts counts;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    counts[static_cast<std::size_t>(axis)] =
-        1 + static_cast<std::size_t>(std::ceil(2.0 * half_extent[axis] / spacing));
+    counts[axis] = 1 + static_cast<std::size_t>(std::ceil(2.0 * half_extent[axis] / spacing));
   }
   return counts;
 }

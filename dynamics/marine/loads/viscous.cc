@@ -63,7 +63,7 @@ void MorisonMember::for_each_wet_point(const MotionState& state, Function&& at) 
 
 ForceVector MorisonMember::calc_force(const MotionState& state) const {
   const Definition& d = definition_;
-  const Matrix3& R = state.kinematics.X_WB[static_cast<std::size_t>(d.body)].R;
+  const Matrix3& R = state.kinematics.X_WB[d.body].R;
   const Vector3 axis = R * (d.p_BoQ_B - d.p_BoP_B).normalized();
   const double scale = 0.5 * d.sea->water().density * d.drag_coefficient * d.diameter;
   ForceVector F = ForceVector::zero();
@@ -107,11 +107,11 @@ void MorisonMember::add_derivatives(const MotionState& state, ForceDerivatives& 
 }
 
 void MorisonMember::add_forces(const MotionState& state, Loads& loads) const {
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.body)] += calc_force(state);
+  loads.F_Bo_W[definition_.body] += calc_force(state);
 }
 
 EnergyAccount MorisonMember::calc_energy(const MotionState& state) const {
-  const MotionVector& V = state.kinematics.V_WB[static_cast<std::size_t>(definition_.body)];
+  const MotionVector& V = state.kinematics.V_WB[definition_.body];
   return {.supplied_power = dot(calc_force(state), V)};
 }
 
@@ -159,8 +159,7 @@ QuadraticDamping::Drag QuadraticDamping::calc_drag(const MotionState& state) con
 
 void QuadraticDamping::add_forces(const MotionState& state, Loads& loads) const {
   const Drag drag = calc_drag(state);
-  loads.F_Bo_W[static_cast<std::size_t>(definition_.point.body)] +=
-      shift_to(drag.F_P_W, drag.p_BoP_W);
+  loads.F_Bo_W[definition_.point.body] += shift_to(drag.F_P_W, drag.p_BoP_W);
 }
 
 void QuadraticDamping::add_derivatives(const MotionState& state,
@@ -168,7 +167,7 @@ void QuadraticDamping::add_derivatives(const MotionState& state,
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const Definition& d = definition_;
   const Drag drag = calc_drag(state);
-  const Pose& X_WB = state.kinematics.X_WB[static_cast<std::size_t>(d.point.body)];
+  const Pose& X_WB = state.kinematics.X_WB[d.point.body];
   Matrix6 R = Matrix6::Zero();
   R.topLeftCorner<3, 3>() = X_WB.R;
   R.bottomRightCorner<3, 3>() = X_WB.R;

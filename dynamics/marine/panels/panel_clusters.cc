@@ -30,10 +30,10 @@ std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh) {
   std::map<Pair, Pair> first_at;  // panel and side
   std::vector<SharedEdge> shared;
   for (int k = 0; k < mesh.size(); ++k) {
-    const Panel& panel = mesh.panels[static_cast<std::size_t>(k)];
+    const Panel& panel = mesh.panels[k];
     for (int v = 0; v < panel.vertex_count; ++v) {
-      const Vector3& a = panel.vertices[static_cast<std::size_t>(v)];
-      const Vector3& b = panel.vertices[static_cast<std::size_t>((v + 1) % panel.vertex_count)];
+      const Vector3& a = panel.vertices[v];
+      const Vector3& b = panel.vertices[(v + 1) % panel.vertex_count];
       const int from = number_of(a), to = number_of(b);
       const auto [known, is_new] =
           first_at.try_emplace({std::min(from, to), std::max(from, to)}, Pair(k, v));
@@ -56,7 +56,7 @@ struct Cover {
 std::vector<Cover> find_covers(const PanelMesh& mesh, const PanelClusters& clusters) {
   std::vector<Cover> covers(static_cast<std::size_t>(clusters.count));
   for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
-    Cover& cover = covers[static_cast<std::size_t>(clusters.of_panel[k])];
+    Cover& cover = covers[clusters.of_panel[k]];
     cover.area += mesh.panels[k].area * mesh.panels[k].normal;
     for (const Vector3& vertex : mesh.panels[k].vertices) cover.box.extend(vertex);
   }
@@ -74,8 +74,8 @@ void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, dou
   const std::vector<Cover> covers = find_covers(mesh, clusters);
   std::map<Pair, double> common;
   for (const SharedEdge& edge : edges) {
-    const int a = clusters.of_panel[static_cast<std::size_t>(edge.panels.first)];
-    const int b = clusters.of_panel[static_cast<std::size_t>(edge.panels.second)];
+    const int a = clusters.of_panel[edge.panels.first];
+    const int b = clusters.of_panel[edge.panels.second];
     if (a != b) common[{std::min(a, b), std::max(a, b)}] += edge.length;
   }
   std::vector<std::pair<Pair, double>> ordered(common.begin(), common.end());
@@ -91,7 +91,7 @@ void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, dou
   for (int& name : renamed) {
     if (name < 0) name = count++;
   }
-  for (int& cluster : clusters.of_panel) cluster = renamed[static_cast<std::size_t>(cluster)];
+  for (int& cluster : clusters.of_panel) cluster = renamed[cluster];
   clusters.count = count;
 }
 
@@ -103,7 +103,7 @@ Eigen::MatrixXd PanelClusters::average(const Eigen::VectorXd& areas,
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, values.cols());
   for (Eigen::Index column = 0; column < values.cols(); ++column) {
     for (Eigen::Index k = 0; k < values.rows(); ++k) {
-      const int cluster = of_panel[static_cast<std::size_t>(k)];
+      const int cluster = of_panel[k];
       result(cluster, column) += areas[k] / whole[cluster] * values(k, column);
     }
   }
@@ -113,7 +113,7 @@ Eigen::MatrixXd PanelClusters::average(const Eigen::VectorXd& areas,
 Eigen::VectorXd PanelClusters::sum(const Eigen::VectorXd& values) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
   for (Eigen::Index k = 0; k < values.size(); ++k) {
-    result[of_panel[static_cast<std::size_t>(k)]] += values[k];
+    result[of_panel[k]] += values[k];
   }
   return result;
 }
@@ -125,9 +125,9 @@ Eigen::MatrixXd PanelClusters::coarsen(const Eigen::MatrixXd& matrix, const Pane
   const Eigen::VectorXd whole = rows.sum(row_areas);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.count, columns.count);
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
-    const int to = columns.of_panel[static_cast<std::size_t>(column)];
+    const int to = columns.of_panel[column];
     for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-      const int cluster = rows.of_panel[static_cast<std::size_t>(k)];
+      const int cluster = rows.of_panel[k];
       result(cluster, to) += row_areas[k] / whole[cluster] * matrix(k, column);
     }
   }

@@ -64,8 +64,8 @@ std::vector<Edge> edges_at_surface(const PanelMesh& whole) {
     const double tolerance = 1e-6 * panel.diameter();
     if (std::abs(panel.normal.z()) > 1.0 - 1e-9) continue;  // a lid or a bottom at z = 0
     for (int k = 0; k < panel.vertex_count; ++k) {
-      const Vector3& from = panel.vertices[static_cast<std::size_t>(k)];
-      const Vector3& to = panel.vertices[static_cast<std::size_t>((k + 1) % panel.vertex_count)];
+      const Vector3& from = panel.vertices[k];
+      const Vector3& to = panel.vertices[(k + 1) % panel.vertex_count];
       if (std::abs(from.z()) > tolerance || std::abs(to.z()) > tolerance) continue;
       edges.push_back({Vector3(from.x(), from.y(), 0.0), Vector3(to.x(), to.y(), 0.0)});
     }

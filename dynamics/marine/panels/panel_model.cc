@@ -77,7 +77,7 @@ void require_apart(const std::vector<WettedBody>& bodies) {
 
 Eigen::VectorXd areas_of(const PanelMesh& mesh) {
   Eigen::VectorXd areas(mesh.size());
-  for (int k = 0; k < mesh.size(); ++k) areas[k] = mesh.panels[static_cast<std::size_t>(k)].area;
+  for (int k = 0; k < mesh.size(); ++k) areas[k] = mesh.panels[k].area;
   return areas;
 }
 
@@ -104,7 +104,7 @@ PanelModel::PanelModel(std::vector<WettedBody> bodies, const SurfaceMesh& surfac
   }
   body_mesh_.symmetry = symmetry;
   for (int b = 0; b < body_count(); ++b) {
-    for (const Panel& panel : bodies_[static_cast<std::size_t>(b)].hull.panels) {
+    for (const Panel& panel : bodies_[b].hull.panels) {
       if ((symmetry.x && panel.centroid.x() < 0.0) || (symmetry.y && panel.centroid.y() < 0.0)) {
         continue;
       }
@@ -172,7 +172,7 @@ void PanelModel::find_images() {
       int nearest = 0;
       double best = std::numeric_limits<double>::infinity();
       for (int b = 0; b < body_count(); ++b) {
-        const double distance = (middle(bodies_[static_cast<std::size_t>(b)].hull) - target).norm();
+        const double distance = (middle(bodies_[b].hull) - target).norm();
         if (distance < best) {
           best = distance;
           nearest = b;
@@ -205,13 +205,12 @@ Eigen::MatrixXd PanelModel::normal_velocities(const Parity& parity) const {
   const int images = symmetry_.image_count();
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(body_mesh_.size(), mode_count());
   for (int k = 0; k < body_mesh_.size(); ++k) {
-    const Panel& panel = body_mesh_.panels[static_cast<std::size_t>(k)];
-    const int own = body_of_panel_[static_cast<std::size_t>(k)];
+    const Panel& panel = body_mesh_.panels[k];
+    const int own = body_of_panel_[k];
     for (int g = 0; g < images; ++g) {
-      const int body = image_body_[static_cast<std::size_t>(g)][static_cast<std::size_t>(own)];
+      const int body = image_body_[g][own];
       const Vector3 n = symmetry_.reflect(g, panel.normal);
-      const Vector3 arm = symmetry_.reflect(g, panel.centroid) -
-                          bodies_[static_cast<std::size_t>(body)].reference_point;
+      const Vector3 arm = symmetry_.reflect(g, panel.centroid) - bodies_[body].reference_point;
       Eigen::Matrix<double, 1, modes_per_body> row;
       row << n.transpose(), arm.cross(n).transpose();
       result.block<1, modes_per_body>(k, modes_per_body * body) +=

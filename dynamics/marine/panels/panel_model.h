@@ -78,7 +78,7 @@ class PanelModel {
     const int images = symmetry_.image_count();
     Eigen::VectorXcd part = Eigen::VectorXcd::Zero(body_mesh_.size());
     for (int k = 0; k < body_mesh_.size(); ++k) {
-      const Panel& panel = body_mesh_.panels[static_cast<std::size_t>(k)];
+      const Panel& panel = body_mesh_.panels[k];
       for (int g = 0; g < images; ++g) {
         part[k] += static_cast<double>(sign(parity, g)) / images *
                    std::complex<double>(field(symmetry_.reflect(g, panel.centroid),

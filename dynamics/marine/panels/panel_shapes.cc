@@ -43,7 +43,7 @@ std::vector<double> graded_to_both_ends(int intervals, double ratio) {
   for (int k = 0; k < intervals; ++k) {
     const double from_end = std::min(k, intervals - 1 - k);
     const double reach = std::max(1.0, 0.5 * (intervals - 1));
-    sum += sizes[static_cast<std::size_t>(k)] = std::pow(ratio, from_end / reach);
+    sum += sizes[k] = std::pow(ratio, from_end / reach);
   }
   std::vector<double> points{-0.5};
   for (double size : sizes) points.push_back(points.back() + size / sum);
@@ -102,7 +102,7 @@ std::vector<Panel> unit_sphere(const RoundDivision& division, const Vector3& sca
   const auto fractions = graded_to_end(division.parallels, whole ? 1.0 : division.grading);
   std::vector<Panel> panels;
   const auto point = [&](int i, int j, double upwards) -> Vector3 {
-    const double polar = fractions[static_cast<std::size_t>(i)] * std::numbers::pi / 2;
+    const double polar = fractions[i] * std::numbers::pi / 2;
     const auto [c, s] = around(j, division.meridians);
     const bool at_equator = i == division.parallels;
     const double radius = i == 0 ? 0.0 : (at_equator ? 1.0 : std::sin(polar));
@@ -125,7 +125,7 @@ std::vector<Panel> unit_sphere(const RoundDivision& division, const Vector3& sca
     for (std::size_t k = 0; k < lower; ++k) {
       std::vector<Vector3> points;
       for (int v = panels[k].vertex_count; v-- > 0;) {
-        const Vector3& p = panels[k].vertices[static_cast<std::size_t>(v)];
+        const Vector3& p = panels[k].vertices[v];
         points.emplace_back(p.x(), p.y(), -p.z());
       }
       panels.push_back(make_panel(points));
@@ -139,7 +139,7 @@ PanelMesh scaled(const PanelMesh& mesh, double factor) {
   for (const Panel& panel : mesh.panels) {
     std::vector<Vector3> points;
     for (int k = 0; k < panel.vertex_count; ++k) {
-      points.push_back(factor * panel.vertices[static_cast<std::size_t>(k)]);
+      points.push_back(factor * panel.vertices[k]);
     }
     result.panels.push_back(make_panel(points));
   }
@@ -186,7 +186,7 @@ PanelMesh make_vertical_cylinder(double radius, double draught, bool closed,
   std::vector<Panel> panels;
   const auto side = [&](int i, int j) -> Vector3 {
     const auto [c, s] = around(j, n);
-    return {r * c, r * s, draught * (depth[static_cast<std::size_t>(i)] - 1.0)};
+    return {r * c, r * s, draught * (depth[i] - 1.0)};
   };
   add_grid(division.parallels, n, side, panels);
   if (closed) {
@@ -194,7 +194,7 @@ PanelMesh make_vertical_cylinder(double radius, double draught, bool closed,
     const auto radii = graded_to_end(rings, graded_edge ? division.grading : 1.0);
     const auto bottom = [&](int i, int j) -> Vector3 {
       const auto [c, s] = around(n - j, n);
-      const double fraction = i == 0 ? 0.0 : radii[static_cast<std::size_t>(i)];
+      const double fraction = i == 0 ? 0.0 : radii[i];
       return {r * fraction * c, r * fraction * s, -draught};
     };
     std::vector<Panel> lid;
@@ -232,14 +232,14 @@ PanelMesh make_ring(double outer_radius, double inner_radius, double draught,
     const auto [c, s] = around(((j % n) + n) % n, n);
     return {radius * c, radius * s, z};
   };
-  const auto height = [&](int i) { return draught * (depth[static_cast<std::size_t>(i)] - 0.5); };
+  const auto height = [&](int i) { return draught * (depth[i] - 0.5); };
   std::vector<Panel> panels;
   add_grid(
       parallels, n, [&](int i, int j) { return at(outer, height(i), j); }, panels);
   add_grid(
       parallels, n, [&](int i, int j) { return at(inner, height(i), n - j); }, panels);
   const auto bottom = [&](int i, int j) {
-    const double share = breadth[static_cast<std::size_t>(i)] + 0.5;
+    const double share = breadth[i] + 0.5;
     return at(inner + share * (outer - inner), -draught, j);
   };
   add_grid(rings, n, bottom, panels);
@@ -258,9 +258,7 @@ PanelMesh make_box_hull(double length, double breadth, double draught,
   const auto x = graded_to_both_ends(division.length, division.grading);
   const auto y = graded_to_both_ends(division.breadth, division.grading);
   const auto z = graded_to_both_ends(division.draught, division.grading);
-  const auto at = [](const std::vector<double>& points, int k) {
-    return points[static_cast<std::size_t>(k)];
-  };
+  const auto at = [](const std::vector<double>& points, int k) { return points[k]; };
   const auto depth = [&](int k) { return draught * (at(z, k) - 0.5); };
   std::vector<Panel> panels;
   const int nx = division.length, ny = division.breadth, nz = division.draught;

@@ -57,7 +57,7 @@ void add_influence(const PanelMesh& panels, const std::vector<ImagePoints>& imag
   parallel_for(panels.size(), threads, [&](int j) {
     double* const source_column = source.size() > 0 ? source.col(j).data() : nullptr;
     double* const dipole_column = dipole.size() > 0 ? dipole.col(j).data() : nullptr;
-    const Panel& panel = panels.panels[static_cast<std::size_t>(j)];
+    const Panel& panel = panels.panels[j];
     for (const ImagePoints& image : images) {
       const bool with_source = source_column != nullptr && image.source_sign != 0.0;
       const bool with_dipole =

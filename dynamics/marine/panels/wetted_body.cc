@@ -45,7 +45,7 @@ Polygon vertices_in_world(const Hull& hull, const Pose& X_WB) {
   for (int k = 0; k < hull.panel_count(); ++k) {
     const double diameter = hull.panel_diameter(k);
     for (const int vertex : hull.panel(k)) {
-      double& smallest = size[static_cast<std::size_t>(vertex)];
+      double& smallest = size[vertex];
       smallest = std::min(smallest, diameter);
     }
   }
@@ -151,7 +151,7 @@ WettedBody make_wetted_body(const Hull& hull, const Pose& X_WB, const Vector3& p
   for (int k = 0; k < hull.panel_count(); ++k) {
     Polygon polygon;
     for (const int vertex : hull.panel(k)) {
-      polygon.push_back(vertices[static_cast<std::size_t>(vertex)]);
+      polygon.push_back(vertices[vertex]);
     }
     if (is_flat(polygon, 0.01)) {
       add(polygon);

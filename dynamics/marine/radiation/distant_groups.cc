@@ -22,7 +22,7 @@ BodyGroup make_group(const PanelModel& model, std::vector<int> bodies) {
   Eigen::Vector2d high = -low;
   std::vector<PanelMesh> hulls;
   for (const int body : group.bodies) {
-    hulls.push_back(expand_symmetry(model.bodies()[static_cast<std::size_t>(body)].hull));
+    hulls.push_back(expand_symmetry(model.bodies()[body].hull));
     for (const Panel& panel : hulls.back().panels) {
       for (const Vector3& vertex : panel.vertices) {
         low = low.cwiseMin(vertex.head<2>());
@@ -45,7 +45,7 @@ std::vector<BodyGroup> make_groups(const PanelModel& model, const std::vector<in
   for (int first = 0; first < model.body_count(); ++first) {
     std::vector<int> bodies;
     for (int body = 0; body < model.body_count(); ++body) {
-      if (label[static_cast<std::size_t>(body)] == first) bodies.push_back(body);
+      if (label[body] == first) bodies.push_back(body);
     }
     if (!bodies.empty()) groups.push_back(make_group(model, std::move(bodies)));
   }
@@ -54,7 +54,7 @@ std::vector<BodyGroup> make_groups(const PanelModel& model, const std::vector<in
 
 /// Bodies a and b, and all that go with them, under the lesser label.
 void join(std::vector<int>& label, int a, int b) {
-  const int la = label[static_cast<std::size_t>(a)], lb = label[static_cast<std::size_t>(b)];
+  const int la = label[a], lb = label[b];
   std::replace(label.begin(), label.end(), std::max(la, lb), std::min(la, lb));
 }
 
@@ -75,7 +75,7 @@ PanelModel make_group_model(const PanelModel& model, const BodyGroup& group,
   const Vector3 back(-group.centre.x(), -group.centre.y(), 0.0);
   std::vector<WettedBody> bodies;
   for (const int index : group.bodies) {
-    const WettedBody& body = model.bodies()[static_cast<std::size_t>(index)];
+    const WettedBody& body = model.bodies()[index];
     bodies.push_back(
         {body.name, translate(expand_symmetry(body.hull), back), body.reference_point + back});
   }
@@ -138,7 +138,7 @@ std::vector<BodyGroup> find_distant_groups(const PanelModel& model, double highe
   }
   for (int b = 1; b < model.body_count(); ++b) {
     for (int a = 0; a < b; ++a) {
-      if (!far[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)]) join(label, a, b);
+      if (!far[a][b]) join(label, a, b);
     }
   }
   std::vector<BodyGroup> groups = make_groups(model, label);

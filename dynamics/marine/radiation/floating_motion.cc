@@ -17,7 +17,7 @@ Eigen::VectorXcd find_excitation(const HydrodynamicDatabase& database, const Reg
     if (std::abs(database.frequencies[k] - wave.frequency) > 1e-9 * wave.frequency) continue;
     for (std::size_t h = 0; h < database.headings.size(); ++h) {
       if (std::abs(database.headings[h] - wave.heading) > 1e-9) continue;
-      return database.excitation(k).col(static_cast<Eigen::Index>(h));
+      return database.excitation(k).col(h);
     }
   }
   throw ModelError("the database does not hold the wave of " + std::to_string(wave.frequency) +

@@ -31,7 +31,7 @@ Symmetry keep_symmetry(const Symmetry& symmetry, const std::vector<DampingLid>& 
 Eigen::VectorXd DampingZone::rates(const SurfaceMesh& surface) const {
   Eigen::VectorXd rates(surface.mesh.size());
   for (int k = 0; k < surface.mesh.size(); ++k) {
-    const Vector3& p = surface.mesh.panels[static_cast<std::size_t>(k)].centroid;
+    const Vector3& p = surface.mesh.panels[k].centroid;
     const double distance = (p - surface.centre).norm() - surface.inner_radius;
     const double fraction =
         std::clamp(distance / (surface.outer_radius - surface.inner_radius), 0.0, 1.0);

@@ -137,7 +137,7 @@ void PartComputation::run(double step, long steps, std::vector<MatrixXd>& retard
   retardation.resize(static_cast<std::size_t>(steps) + 1,
                      MatrixXd::Zero(model_.mode_count(), model_.mode_count()));
   run_.run(step, steps, [&](long k, const MatrixXd& share) {
-    retardation[static_cast<std::size_t>(k)](modes, modes) += share;
+    retardation[k](modes, modes) += share;
     if (k % 16 == 0) progress.march(static_cast<double>(k) / static_cast<double>(steps));
   });
   // The coarser surface's waves are longer: what the finer one's step suits suits it too. Where not,
@@ -194,7 +194,7 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
         const double w = database.frequencies[k];
         const MatrixXcd weighted_potentials = model_.body_areas().asDiagonal() * mode_potentials(k);
         for (Eigen::Index h = 0; h < headings; ++h) {
-          const IncidentWave wave(water, w, database.headings[static_cast<std::size_t>(h)]);
+          const IncidentWave wave(water, w, database.headings[h]);
           const Eigen::VectorXcd potential = model_.part_of(
               part_.parity(), [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
           const Eigen::VectorXcd opposed =
@@ -205,10 +205,8 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
           const Eigen::VectorXcd incident = factor * (weighted_normals.transpose() * potential);
           const Eigen::VectorXcd diffracted = factor * (weighted_potentials.transpose() * opposed);
           for (std::size_t m = 0; m < part_.modes().size(); ++m) {
-            database.froude_krylov[k](part_.modes()[m], h) +=
-                incident[static_cast<Eigen::Index>(m)];
-            database.diffraction[k](part_.modes()[m], h) +=
-                diffracted[static_cast<Eigen::Index>(m)];
+            database.froude_krylov[k](part_.modes()[m], h) += incident[m];
+            database.diffraction[k](part_.modes()[m], h) += diffracted[m];
           }
         }
       });
@@ -228,7 +226,7 @@ void PartComputation::add_far_field(HydrodynamicDatabase& database) const {
     potentials.resize(model_.body_areas().size(), count);
     velocities.resize(model_.body_areas().size(), count);
     for (Eigen::Index j = 0; j < count; ++j) {
-      const IncidentWave wave(water, w, angles[static_cast<std::size_t>(j)] + turn);
+      const IncidentWave wave(water, w, angles[j] + turn);
       potentials.col(j) = model_.part_of(
           parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
       velocities.col(j) =
@@ -275,7 +273,7 @@ FarField make_empty_far_field(const PanelModel& model, const DatabaseSettings& s
   for (int j = 0; j < count; ++j) far.directions.push_back(2.0 * std::numbers::pi * j / count);
   far.radiated.assign(settings.frequencies.size(), MatrixXcd::Zero(count, model.mode_count()));
   far.scattered.assign(settings.frequencies.size(),
-                       MatrixXcd::Zero(count, static_cast<Eigen::Index>(settings.headings.size())));
+                       MatrixXcd::Zero(count, settings.headings.size()));
   return far;
 }
 

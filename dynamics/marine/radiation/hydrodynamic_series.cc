@@ -64,7 +64,7 @@ class Reduction {
 
 HydrodynamicDatabase lessen(HydrodynamicDatabase database, int body, double share) {
   const Reduction reduction(body, share);
-  database.displaced_volumes[static_cast<std::size_t>(body)] *= share;
+  database.displaced_volumes[body] *= share;
   database.mean_drift.clear();
   database.far_field = {};
   reduction.square(database.hydrostatic_stiffness);
@@ -141,12 +141,12 @@ HydrodynamicDatabase with_dry_body(const HydrodynamicDatabase& wet, int body,
   dry.change_from_coarser = {};
   dry.mean_drift.clear();
   dry.far_field = {};
-  dry.displaced_volumes[static_cast<std::size_t>(body)] = 0.0;
+  dry.displaced_volumes[body] = 0.0;
   if (!others) return dry;
   std::vector<std::string> names = wet.body_names;
   names.erase(names.begin() + body);
   if (others->body_names != names) {
-    throw ModelError("the database for " + wet.body_names[static_cast<std::size_t>(body)] +
+    throw ModelError("the database for " + wet.body_names[body] +
                      " out of the water holds other bodies than that in the water");
   }
   const Eigen::Index modes = wet.mode_count();

@@ -68,10 +68,9 @@ std::vector<MatrixXd> calc_mean_drift(const HydrodynamicDatabase& database,
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
     const Going going(database.water, database.frequencies[k]);
     const double momentum = going.pressure * going.group_velocity / going.phase_velocity;
-    drift.emplace_back(
-        MatrixXd::Zero(modes_per_body, static_cast<Eigen::Index>(database.headings.size())));
+    drift.emplace_back(MatrixXd::Zero(modes_per_body, database.headings.size()));
     for (Eigen::Index h = 0; h < drift.back().cols(); ++h) {
-      const double heading = database.headings[static_cast<std::size_t>(h)];
+      const double heading = database.headings[h];
       const DirectionalWaves waves = sent_out(database, motions, k, h);
       const DirectionalWaves::Moments sent = waves.integrate();
       double lost = 0.0;
@@ -103,8 +102,7 @@ std::vector<Eigen::VectorXd> calc_absorbed_power(const HydrodynamicDatabase& dat
     for (Eigen::Index h = 0; h < lost.size(); ++h) {
       const DirectionalWaves waves = sent_out(database, motions, k, h);
       lost[h] = -going.pressure * going.group_velocity *
-                (waves.integrate().whole +
-                 going.meet(waves.at(database.headings[static_cast<std::size_t>(h)])));
+                (waves.integrate().whole + going.meet(waves.at(database.headings[h])));
     }
   }
   return power;

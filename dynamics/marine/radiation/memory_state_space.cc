@@ -164,12 +164,12 @@ std::vector<MatrixXd> find_groups(const std::vector<MatrixXd>& K) {
   std::vector<Eigen::Index> group(static_cast<std::size_t>(modes), -1);
   std::vector<MatrixXd> groups;
   for (Eigen::Index first = 0; first < modes; ++first) {
-    if (group[static_cast<std::size_t>(first)] >= 0) continue;
+    if (group[first] >= 0) continue;
     std::vector<Eigen::Index> members = {first};
-    group[static_cast<std::size_t>(first)] = first;
+    group[first] = first;
     for (std::size_t next = 0; next < members.size(); ++next) {
       for (Eigen::Index other = 0; other < modes; ++other) {
-        Eigen::Index& of_other = group[static_cast<std::size_t>(other)];
+        Eigen::Index& of_other = group[other];
         if (of_other >= 0 || coupling(members[next], other) < no_coupling) continue;
         of_other = first;
         members.push_back(other);
@@ -204,7 +204,7 @@ Realisation realise(const std::vector<MatrixXd>& K, double time_step, int most_s
   const Eigen::Index rows = (count + stride - 1) / stride;
   const MatrixXd nothing = MatrixXd::Zero(modes, modes);
   const auto sample = [&](Eigen::Index k) -> const MatrixXd& {
-    return k * stride < count ? K[static_cast<std::size_t>(k * stride)] : nothing;
+    return k * stride < count ? K[k * stride] : nothing;
   };
   MatrixXd hankel(rows * modes, rows * modes), shifted = hankel;
   for (Eigen::Index i = 0; i < rows; ++i) {

@@ -44,7 +44,7 @@ void MemoryConvolution::interpolate_kernel(double lag) const {
   const double s = position - static_cast<double>(cell);
   // Lagrange's cubic through the four samples about the cell; K is even about zero.
   const auto sample = [&](long k) -> const MatrixXd& {
-    return samples_[static_cast<std::size_t>(k < 0 ? -k : std::min(k, last))];
+    return samples_[k < 0 ? -k : std::min(k, last)];
   };
   kernel_ = (-s * (s - 1.0) * (s - 2.0) / 6.0) * sample(cell - 1) +
             ((s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0) * sample(cell) +
@@ -189,7 +189,7 @@ DirectRadiation::WaveColumns DirectRadiation::make_columns(const RankinePart& pa
   Eigen::MatrixXcd potential(panels, count);
   MatrixXd velocities(panels, 2 * count), bodies, supply;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const RegularWave& regular = waves_[static_cast<std::size_t>(k)];
+    const RegularWave& regular = waves_[k];
     const IncidentWave wave(model.water(), regular.frequency,
                             regular.heading - whole_turn * turn / turn_count_);
     potential.col(k) =
@@ -277,7 +277,7 @@ Eigen::VectorXcd DirectRadiation::amplitudes(double time) const {
   const double factor = ramp_.factor(time);
   for (std::size_t k = 0; k < waves_.size(); ++k) {
     const double phase = waves_[k].frequency * time - wave_vector_[k].dot(way_);
-    values[static_cast<Eigen::Index>(k)] = factor * std::polar(1.0, phase) * waves_[k].amplitude;
+    values[k] = factor * std::polar(1.0, phase) * waves_[k].amplitude;
   }
   return values;
 }
@@ -290,8 +290,8 @@ Eigen::VectorXcd DirectRadiation::amplitude_rates(double time) const {
   Eigen::VectorXcd rates(static_cast<Eigen::Index>(waves_.size()));
   for (std::size_t k = 0; k < waves_.size(); ++k) {
     const double phase = waves_[k].frequency * time - wave_vector_[k].dot(way_);
-    rates[static_cast<Eigen::Index>(k)] = Complex(growth, factor * waves_[k].frequency) *
-                                          std::polar(1.0, phase) * waves_[k].amplitude;
+    rates[k] = Complex(growth, factor * waves_[k].frequency) * std::polar(1.0, phase) *
+               waves_[k].amplitude;
   }
   return rates;
 }

@@ -26,7 +26,7 @@ MatrixXd interpolate(const std::vector<MatrixXd>& samples, double step, double t
       if (j == i) continue;
       weight *= (place - static_cast<double>(first + j)) / static_cast<double>(i - j);
     }
-    sum += weight * samples[static_cast<std::size_t>(first + i)];
+    sum += weight * samples[first + i];
   }
   return sum;
 }

@@ -21,12 +21,10 @@ struct RingNeighbours {
 
 std::vector<RingNeighbours> find_ring_neighbours(const PanelMesh& mesh) {
   std::vector<RingNeighbours> neighbours(mesh.panels.size());
-  const auto is_quadrangle = [&](int panel) {
-    return mesh.panels[static_cast<std::size_t>(panel)].vertex_count == 4;
-  };
+  const auto is_quadrangle = [&](int panel) { return mesh.panels[panel].vertex_count == 4; };
   const auto join = [&](int inner, int outer) {
-    neighbours[static_cast<std::size_t>(inner)].outer = outer;
-    neighbours[static_cast<std::size_t>(outer)].inner = inner;
+    neighbours[inner].outer = outer;
+    neighbours[outer].inner = inner;
   };
   for (const SharedEdge& edge : find_shared_edges(mesh)) {
     const auto [first, second] = edge.panels;
@@ -43,10 +41,10 @@ std::vector<int> find_columns(const SurfaceMesh& surface, const PanelClusters* c
   std::iota(columns.begin(), columns.end(), 0);
   if (clusters == nullptr) return columns;
   std::vector<int> sizes(static_cast<std::size_t>(clusters->count));
-  for (const int cluster : clusters->of_panel) ++sizes[static_cast<std::size_t>(cluster)];
+  for (const int cluster : clusters->of_panel) ++sizes[cluster];
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const int cluster = clusters->of_panel[k];
-    columns[k] = sizes[static_cast<std::size_t>(cluster)] > 1 ? -1 : cluster;
+    columns[k] = sizes[cluster] > 1 ? -1 : cluster;
   }
   return columns;
 }

@@ -137,8 +137,7 @@ std::string ModelLibrary::hint_of_name(const std::string& name, const std::strin
   const std::string near = nearest_name(last_part(name), last_parts);
   const auto found = std::find(last_parts.begin(), last_parts.end(), near);
   if (near.empty() || found == last_parts.end()) return hint;
-  return fmt::format("{}; did you mean \"{}\"?", hint,
-                     known[static_cast<std::size_t>(found - last_parts.begin())]);
+  return fmt::format("{}; did you mean \"{}\"?", hint, known[found - last_parts.begin()]);
 }
 
 fs::path ModelLibrary::find(const Located<std::string>& name, const std::string& kind,

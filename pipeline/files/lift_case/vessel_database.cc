@@ -104,7 +104,7 @@ void check_together(const std::vector<const VesselInCase*>& vessels, Diagnostics
       return;
     }
     if (!vessel->hydrodynamics) return;
-    const VesselInCase*& taken = of_body[static_cast<std::size_t>(vessel->hydrodynamic_body)];
+    const VesselInCase*& taken = of_body[vessel->hydrodynamic_body];
     if (taken != nullptr) {
       diagnostics.error(vessel->database->mark,
                         fmt::format("vessels {} and {} are the same body of {}", taken->name.value,

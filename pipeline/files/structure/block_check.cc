@@ -422,7 +422,7 @@ void check_lug(const BlockModel& block, const LugModel& lug, Reading& reading) {
   const Vector3& pin = lug.is_in_plate_frame ? lug.pin_in_plate : lug.pin.value;
   if (!pin.allFinite()) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double place = pin[static_cast<Eigen::Index>(axis)];
+    const double place = pin[axis];
     std::array<double, 2> range = {lug.at - lug.thickness / 2, lug.at + lug.thickness / 2};
     if (axis != lug.normal) {
       if (!lug.extent[axis]) continue;

@@ -232,7 +232,7 @@ class MeshReader {
   static std::vector<char> vertices_that_carry(const Mesh& mesh) {
     std::vector<std::array<bool, 3>> held(mesh.vertices.size());
     const auto hold = [&](int vertex, const bool* bound) {
-      for (std::size_t c = 0; c < 3; ++c) held[static_cast<std::size_t>(vertex)][c] |= bound[c];
+      for (std::size_t c = 0; c < 3; ++c) held[vertex][c] |= bound[c];
     };
     constexpr std::array<bool, 3> all{true, true, true};
     for (const structure::Shell& shell : mesh.shells)
@@ -289,7 +289,7 @@ class MeshReader {
     auto& masses = deck.mesh.masses;
     const auto kept = masses.size();
     std::erase_if(masses, [&](const structure::PointMass& mass) {
-      const bool is_loose = carries[static_cast<std::size_t>(mass.vertex)] == 0;
+      const bool is_loose = carries[mass.vertex] == 0;
       if (is_loose) loose += mass.mass;
       return is_loose;
     });
@@ -403,7 +403,7 @@ class MeshReader {
       names.push_back(mesh.groups[g].name);
       if (lower_case(mesh.groups[g].name) != wanted) continue;
       const auto belongs = [&](int region) {
-        return mesh.regions[static_cast<std::size_t>(region)].group == static_cast<int>(g);
+        return mesh.regions[region].group == static_cast<int>(g);
       };
       for (std::size_t s = 0; s < mesh.shells.size(); ++s)
         if (belongs(mesh.shells[s].region)) placed.shells.push_back(static_cast<int>(s));

@@ -27,7 +27,7 @@ class Placing {
   }
 
   bool is_mirror() const { return sign_.prod() < 0; }
-  bool turns(std::size_t axis) const { return sign_[static_cast<Eigen::Index>(axis)] < 0; }
+  bool turns(std::size_t axis) const { return sign_[axis] < 0; }
 
   double coordinate(std::size_t axis, double value) const {
     const auto i = static_cast<Eigen::Index>(axis);
@@ -130,7 +130,7 @@ void place_part(const Placing& placing, LoadEdge& edge) {
 using Reach = std::vector<double>;
 
 void add_points(const std::vector<Vector3>& points, std::size_t axis, Reach& reach) {
-  for (const Vector3& point : points) reach.push_back(point[static_cast<Eigen::Index>(axis)]);
+  for (const Vector3& point : points) reach.push_back(point[axis]);
 }
 
 Reach reach_of(const std::array<std::optional<Located<std::array<double, 2>>>, 3>& extents,

@@ -9,14 +9,12 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/mesh.h"
 
 namespace blocklift::pipeline {
 
 namespace {
 
-using structure::at;
 using structure::Deck;
 using structure::Mesh;
 using structure::Support;
@@ -24,7 +22,7 @@ using structure::SupportSet;
 using structure::Vector3;
 
 long label_of(const Mesh& mesh, int vertex) {
-  return mesh.vertex_labels.empty() ? vertex + 1 : mesh.vertex_labels[at(vertex)];
+  return mesh.vertex_labels.empty() ? vertex + 1 : mesh.vertex_labels[vertex];
 }
 
 bool holds_anything(const Support& support) {
@@ -82,7 +80,7 @@ std::vector<std::string> supports_of_what_is_loose(const Deck& deck,
   if (deck.support_sets.empty() || kinds.count(finding.kind) == 0) return {};
   const std::vector<char> is_loose = vertices_of(deck.mesh, finding);
   return describe_holding(deck, [&](const Support& support) {
-    return is_loose[at(support.vertex)] != 0 && holds_anything(support);
+    return is_loose[support.vertex] != 0 && holds_anything(support);
   });
 }
 
@@ -95,8 +93,7 @@ std::vector<std::string> supports_of_mechanism(
   return describe_holding(deck, [&](const Support& support) {
     for (std::size_t i = 0; i < 6; ++i) {
       const auto part = motion.col(support.vertex).segment<3>(i < 3 ? 0 : 3);
-      if (support.held[i] &&
-          std::abs(support.axes.col(static_cast<Eigen::Index>(i % 3)).dot(part)) > least[i / 3])
+      if (support.held[i] && std::abs(support.axes.col(i % 3).dot(part)) > least[i / 3])
         return true;
     }
     return false;

@@ -194,8 +194,8 @@ std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const Block
   placed.R_BP.col(1) = out.sign * axis_of(out.axis);
   placed.R_BP.col(2) = axis_of(lug.normal);
   placed.R_BP.col(0) = placed.R_BP.col(1).cross(placed.R_BP.col(2));
-  const double pin_out = pin[static_cast<Eigen::Index>(out.axis)];
-  const double pin_side = pin[static_cast<Eigen::Index>(side)];
+  const double pin_out = pin[out.axis];
+  const double pin_side = pin[side];
   const auto& width = lug.extent[side]->value;
   const bool along_axis = placed.R_BP.col(0).dot(axis_of(side)) > 0;
   const double lower = pin_side - width[0], upper = width[1] - pin_side;
@@ -222,7 +222,7 @@ std::optional<PlacedPadeye> place_padeye(const PadeyeDesign& design, const Block
         fmt::format("the main plate is {:.6g} mm thick, the lug in the block {:.6g} "
                     "mm",
                     1000 * design.thickness, 1000 * lug.thickness));
-  if (std::abs(pin[static_cast<Eigen::Index>(lug.normal)] - lug.at) > same_place)
+  if (std::abs(pin[lug.normal] - lug.at) > same_place)
     faults.emplace_back("its pin lies beside the middle of its plate");
   if (frame) placed.R_BP = frame->axes * placed.R_BP;
   return placed;

@@ -54,7 +54,7 @@ std::vector<VerificationRow> integral_rows() {
     if (panel_of_bottom.normal.z() > -0.5) continue;
     std::vector<Vector3> lid;
     for (int v = panel_of_bottom.vertex_count; v-- > 0;) {
-      const Vector3& p = panel_of_bottom.vertices[static_cast<std::size_t>(v)];
+      const Vector3& p = panel_of_bottom.vertices[v];
       lid.emplace_back(p.x(), p.y(), 0.0);
     }
     box.panels.push_back(make_panel(lid));

@@ -113,7 +113,7 @@ WaterBeside make_water(const RectangularSection& section, DegreeOfFreedom mode, 
   const auto count = static_cast<Eigen::Index>(roots.size());
   WaterBeside water{MatrixXcd(count, count), VectorXcd(count), VectorXcd(count), VectorXcd(count)};
   for (Eigen::Index m = 0; m < count; ++m) {
-    const Complex alpha = roots[static_cast<std::size_t>(m)];
+    const Complex alpha = roots[m];
     const Complex scale = m == 0 ? std::cos(alpha * h) : 1.0;
     const Complex above = mode == sway
                               ? (std::sin(alpha * h) - std::sin(alpha * d)) / alpha

@@ -48,7 +48,7 @@ Eigen::VectorXd solve(const Space& space, const std::vector<int>& clamped,
                       const std::vector<Pull>& pulls) {
   std::vector<FixedUnknown> fixed;
   for (const int vertex : clamped) {
-    const Vector3 place = space.mesh().vertices[static_cast<std::size_t>(vertex)];
+    const Vector3 place = space.mesh().vertices[vertex];
     testing::hold(
         space, [&](const Vector3& p) { return (p - place).norm() < 1e-9; }, {0, 1, 2, 3, 4, 5},
         fixed);
@@ -155,7 +155,7 @@ VerificationCase bolt_pattern() {
             const double i_x = 4 * 0.04, i_y = 4 * 0.09, i_z = i_x + i_y;
             std::vector<VerificationRow> rows;
             for (int v = 1; v <= 4; ++v) {
-              const Vector3 x = mesh.vertices[static_cast<std::size_t>(v)];
+              const Vector3 x = mesh.vertices[v];
               const Vector3 theory(1000.0 / 4 - m_z * x.y() / i_z, m_z * x.x() / i_z,
                                    -2000.0 / 4 + m_x * x.y() / i_x - m_y * x.x() / i_y);
               const Vector3 found = stiffness * motion.segment<3>(6 * space.node_of_vertex(v));

@@ -38,12 +38,11 @@ SparseLower stiffness_with_drilling(const Space& space, double factor) {
       own.result = own.whole(element);
       own.strains.reinit(element);
       const Mesh& mesh = own.space.mesh();
-      const Shell& shell = mesh.shells[static_cast<std::size_t>(
-          own.space.shells()[static_cast<std::size_t>(element)].shell)];
+      const Shell& shell = mesh.shells[own.space.shells()[element].shell];
       const double stiffness = shell_stiffness_law(
           mesh.material_of(shell), mesh.section_of(shell).thickness)(drilling, drilling);
       for (Eigen::Index q = 0; q < own.rule.cols(); ++q) {
-        const ShellPoint& point = own.strains.points()[static_cast<std::size_t>(q)];
+        const ShellPoint& point = own.strains.points()[q];
         const Eigen::RowVectorXd row = point.strain.row(drilling);
         own.result +=
             (factor - 1) * own.rule(2, q) * point.area * stiffness * row.transpose() * row;

@@ -82,7 +82,7 @@ VerificationCase nafems_plates() {
                             modes.squared_frequencies[6]),
                   5e-3));
             for (int i = 0; i < 6; ++i) {
-              const double reference = plate.frequencies[static_cast<std::size_t>(i)];
+              const double reference = plate.frequencies[i];
               rows.push_back(compare(fmt::format("{}, mode {}, {} x {} cells of degree {}",
                                                  plate.name, rigid + i + 1, cells, cells, degree),
                                      "Hz", reference, modes.frequencies[rigid + i],
@@ -143,7 +143,7 @@ VerificationCase stiffened_box() {
                  {std::tuple{false, 2, 4}, {false, 3, 2}, {false, 3, 4}, {true, 3, 2}}) {
               const NaturalModes modes = box_modes(as_beams, degree, refinement);
               for (int i = 0; i < 6; ++i) {
-                const double f = reference[static_cast<std::size_t>(i)];
+                const double f = reference[i];
                 rows.push_back(compare(
                     fmt::format("mode {}, stiffeners as {}, {} cells of degree {} along", 7 + i,
                                 as_beams ? "beams" : "sheets", 4 * refinement, degree),

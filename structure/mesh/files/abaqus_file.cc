@@ -394,7 +394,7 @@ std::vector<std::size_t> face_nodes(const AbaqusElement& element, int face) {
   const std::vector<int>& corners =
       abaqus_faces(element.nodes.size())[static_cast<std::size_t>(face) - 1];
   std::vector<std::size_t> nodes;
-  for (const int corner : corners) nodes.push_back(element.nodes[static_cast<std::size_t>(corner)]);
+  for (const int corner : corners) nodes.push_back(element.nodes[corner]);
   const int corner_count = abaqus_corners(element.nodes.size());
   if (static_cast<int>(element.nodes.size()) == corner_count) return nodes;
   const auto all = edges(corner_count);

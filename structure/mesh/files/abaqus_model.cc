@@ -134,7 +134,7 @@ class Faces {
     Tags tags;
     for (const int corner :
          abaqus_faces(element.nodes.size())[static_cast<std::size_t>(face.face) - 1])
-      tags.push_back(element.nodes[static_cast<std::size_t>(corner)]);
+      tags.push_back(element.nodes[corner]);
     std::sort(tags.begin(), tags.end());
     return tags;
   }

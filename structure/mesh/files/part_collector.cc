@@ -8,7 +8,6 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/element_tables.h"
 
 namespace blocklift::structure {
@@ -69,12 +68,12 @@ void PartCollector::read_entity(int dimension, int entity) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> tags, nodes;
   gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
-  PartGroup group{fmt::format("{} {}", entity_nouns[at(dimension)], entity), dimension, {}};
+  PartGroup group{fmt::format("{} {}", entity_nouns[dimension], entity), dimension, {}};
   for (std::size_t t = 0; t < types.size(); ++t) {
     const int kind = kind_of(types[t]);
-    const std::size_t count = static_cast<std::size_t>(mesh_.kinds[at(kind)].nodes);
+    const std::size_t count = static_cast<std::size_t>(mesh_.kinds[kind].nodes);
     if (dimension == 3 && !is_known_solid(types[t]))
-      throw ModelError("it holds elements of kind " + mesh_.kinds[at(kind)].name +
+      throw ModelError("it holds elements of kind " + mesh_.kinds[kind].name +
                        "; hexahedra, tetrahedra and wedges of order 1 and 2 are known");
     for (std::size_t e = 0; e < tags[t].size(); ++e) {
       const int element = static_cast<int>(mesh_.elements.size());
@@ -119,7 +118,7 @@ void PartCollector::read_physical_groups() {
     PartGroup group{{}, dimension, {}};
     gmsh::model::getPhysicalName(dimension, number, group.name);
     if (group.name.empty())
-      group.name = fmt::format("{} group {}", entity_nouns[at(dimension)], number);
+      group.name = fmt::format("{} group {}", entity_nouns[dimension], number);
     std::vector<int> entities;
     gmsh::model::getEntitiesForPhysicalGroup(dimension, number, entities);
     for (const int entity : entities) {
@@ -153,7 +152,7 @@ void PartCollector::add_faces(const FaceChoice& choice) {
   std::map<std::vector<int>, Face> found;  // by corners
   std::map<int, std::vector<ElementFace>> faces_of_kind;
   for (const int solid : mesh_.solids) {
-    auto& faces = faces_of_kind[mesh_.elements[at(solid)].kind];
+    auto& faces = faces_of_kind[mesh_.elements[solid].kind];
     if (faces.empty()) faces = element_faces(mesh_.kind(solid));
     for (const ElementFace& face : faces) {
       std::vector<int> nodes;

@@ -15,7 +15,6 @@
 
 #include "structure/child_process.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/files/abaqus_model.h"
 #include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"

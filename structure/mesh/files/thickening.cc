@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -81,9 +80,9 @@ class Thickening {
     throw ModelError(text);
   }
 
-  const PlateMesh::Quadrangle& quadrangle(int q) const { return mesh_.quadrangles[at(q)]; }
-  const Vector3& node(int n) const { return mesh_.nodes[at(n)]; }
-  double half_thickness(int q) const { return mesh_.plates[at(quadrangle(q).plate)].thickness / 2; }
+  const PlateMesh::Quadrangle& quadrangle(int q) const { return mesh_.quadrangles[q]; }
+  const Vector3& node(int n) const { return mesh_.nodes[n]; }
+  double half_thickness(int q) const { return mesh_.plates[quadrangle(q).plate].thickness / 2; }
   Vector3 middle(const Edge& edge) const { return (node(edge.first) + node(edge.second)) / 2; }
 
   void find_normals() {
@@ -108,7 +107,7 @@ class Thickening {
         leaf.inward = inward.normalized();
         const Vector3& first = joint.leaves.front().inward;
         leaf.angle = std::atan2(along.dot(first.cross(leaf.inward)), first.dot(leaf.inward));
-        leaf.ahead = normals_[at(leaf.quadrangle)].dot(along.cross(leaf.inward)) > 0 ? 1 : -1;
+        leaf.ahead = normals_[leaf.quadrangle].dot(along.cross(leaf.inward)) > 0 ? 1 : -1;
       }
       std::sort(joint.leaves.begin(), joint.leaves.end(),
                 [](const Leaf& a, const Leaf& b) { return a.angle < b.angle; });
@@ -170,7 +169,7 @@ class Thickening {
     const Leaf& left = joint.leaves[leaf];
     const Vector3 onward =
         (node(end) - node(edge.first == end ? edge.second : edge.first)).normalized();
-    const Vector3 normal = left.ahead * normals_[at(left.quadrangle)];
+    const Vector3 normal = left.ahead * normals_[left.quadrangle];
     std::vector<Edge> further;
     int in_plate = 0;
     bool runs_on = false;
@@ -198,7 +197,7 @@ class Thickening {
     if (further.leaves.size() != 2 || further.is_cut()) return false;  // a joint is cut as it needs
     if (std::abs(gap(further, 0) - M_PI) > flat) return false;
     for (const Leaf& one : further.leaves)
-      if (std::abs(normals_[at(one.quadrangle)].dot(normal)) < std::cos(2 * flat)) return false;
+      if (std::abs(normals_[one.quadrangle].dot(normal)) < std::cos(2 * flat)) return false;
     further.open.assign(2, 1);
     for (const Leaf& one : further.leaves)
       further.distance[one.quadrangle] =
@@ -213,7 +212,7 @@ class Thickening {
     return 8 * q + 2 * static_cast<int>(corner) + (which > 0 ? 1 : 0);
   }
   int root(int i) {
-    while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
 
@@ -226,7 +225,7 @@ class Thickening {
         if (joint.open[i]) continue;
         const Leaf &a = joint.leaves[i], &b = joint.leaves[joint.next(i)];
         for (const int n : {edge.first, edge.second})
-          parent_[at(root(side(a.quadrangle, n, a.ahead)))] = root(side(b.quadrangle, n, -b.ahead));
+          parent_[root(side(a.quadrangle, n, a.ahead))] = root(side(b.quadrangle, n, -b.ahead));
       }
     }
   }
@@ -249,7 +248,7 @@ class Thickening {
         for (const int which : {-1, 1}) {
           Planes& own = planes[root(side(q, n, which))];
           own.origin = n;
-          own.add(which * normals_[at(q)], half_thickness(q));
+          own.add(which * normals_[q], half_thickness(q));
         }
     for (const auto& [edge, joint] : joints_)
       for (std::size_t i = 0; i < joint.leaves.size(); ++i) {
@@ -266,8 +265,8 @@ class Thickening {
       Eigen::MatrixX3d rows(own.normals.size(), 3);
       Eigen::VectorXd distances(own.normals.size());
       for (std::size_t i = 0; i < own.normals.size(); ++i) {
-        rows.row(static_cast<Eigen::Index>(i)) = own.normals[i].transpose();
-        distances[static_cast<Eigen::Index>(i)] = own.distances[i];
+        rows.row(i) = own.normals[i].transpose();
+        distances[i] = own.distances[i];
       }
       Eigen::JacobiSVD<Eigen::MatrixXd> solver(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
       solver.setThreshold(0.1);  // faces that are nearly parallel meet at no corner: their mean
@@ -287,7 +286,7 @@ class Thickening {
       return;
     }
     const std::size_t number = solid_.elements.size() + 1;
-    solid_.element_sets[mesh_.plates[at(plate)].name].push_back(number);
+    solid_.element_sets[mesh_.plates[plate].name].push_back(number);
     solid_.elements.push_back({number, std::move(nodes)});
   }
 
@@ -296,7 +295,7 @@ class Thickening {
       std::vector<std::size_t> nodes;
       for (const int which : {-1, 1})
         for (const int n : quadrangle(q).nodes) nodes.push_back(tag(q, n, which));
-      const std::string& name = mesh_.plates[at(quadrangle(q).plate)].name;
+      const std::string& name = mesh_.plates[quadrangle(q).plate].name;
       const std::size_t before = solid_.elements.size();
       add_element(nodes, quadrangle(q).plate, node(quadrangle(q).nodes[0]));
       if (solid_.elements.size() == before) continue;

@@ -104,18 +104,17 @@ std::vector<Ray> make_rays(const Outline& outline, int divisions, int& base_elem
   const std::array<double, 5> corners = outline.corners();
   std::vector<Ray> rays;
   for (int side = 0; side < 4; ++side) {
-    const double from = corners[at(side)], to = corners[at(side) + 1];
+    const double from = corners[side], to = corners[at(side) + 1];
     const int count =
         std::max(2, static_cast<int>(std::lround((to - from) / (2 * pi) * divisions)));
     if (side == 0) base_elements = count;
     const std::vector<Vector2d> ends = side_ends(outline, side, from, to, count);
     for (int half = 0; half < 2 * count; ++half) {
       const double angle = from + (to - from) * half / (2 * count);
-      const Vector2d& end = ends[at(half / 2)];
+      const Vector2d& end = ends[half / 2];
       const bool middle = half % 2 == 1;
-      const Vector2d between = Outline::is_straight(side)
-                                   ? Vector2d((end + ends[at(half / 2 + 1)]) / 2)
-                                   : outline.place(side, angle);
+      const Vector2d between = Outline::is_straight(side) ? Vector2d((end + ends[half / 2 + 1]) / 2)
+                                                          : outline.place(side, angle);
       rays.push_back({angle, middle ? between : end});
     }
   }
@@ -205,16 +204,16 @@ class Mesher {
 
   /// Places by half steps: ring in 0 .. 2 rings, ray in 0 .. 2 around - 1.
   Vector2d plane_place(int half_ring, int half_ray) const {
-    const Ray& ray = rays_[at(half_ray % static_cast<int>(rays_.size()))];
+    const Ray& ray = rays_[half_ray % static_cast<int>(rays_.size())];
     const auto on_ring = [&](const Ring& ring) -> Vector2d {
       const Vector2d direction(std::cos(ray.angle), std::sin(ray.angle));
       const double circle = padeye_.has_cheeks() ? padeye_.cheek_radius : hole();
       if (ring.within_inner) return (hole() + ring.share * (circle - hole())) * direction;
       return circle * direction + ring.share * (ray.end - circle * direction);
     };
-    Vector2d lower = on_ring(rings_[at(half_ring / 2)]);
+    Vector2d lower = on_ring(rings_[half_ring / 2]);
     if (half_ring % 2 == 0) return lower;
-    return (lower + on_ring(rings_[at(half_ring / 2 + 1)])) / 2;
+    return (lower + on_ring(rings_[half_ring / 2 + 1])) / 2;
   }
 
   std::size_t node(int half_ring, int half_ray, int half_level) {
@@ -223,7 +222,7 @@ class Mesher {
         nodes_.try_emplace({half_ring, ray, half_level}, nodes_.size() + 1);
     if (is_new) {
       const Vector2d p = plane_place(half_ring, ray);
-      result_.mesh.nodes[found->second] = {p.x(), p.y(), levels_[at(half_level)]};
+      result_.mesh.nodes[found->second] = {p.x(), p.y(), levels_[half_level]};
     }
     return found->second;
   }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/files/surfaces/given_properties.h"
 #include "structure/mesh/plates/sheets.h"
 
@@ -33,7 +32,7 @@ void hinge(BeamRelease& release) { release[4] = release[5] = true; }
 
 void hinge_ends(const Bar& bar, int region, Mesh& mesh) {
   const auto is_at = [&](int vertex, const Vector3& end) {
-    return (mesh.vertices[at(vertex)] - end).norm() < at_end;
+    return (mesh.vertices[vertex] - end).norm() < at_end;
   };
   for (Beam& beam : mesh.beams) {
     if (beam.region != region) continue;

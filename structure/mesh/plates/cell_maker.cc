@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 
@@ -20,7 +19,7 @@ constexpr int fewest_on_side = 2;  // elements on each side of a frame: eighths 
 /// The axis along which two points of a grid lie.
 int axis_between(const std::array<int, 3>& a, const std::array<int, 3>& b) {
   for (int axis = 0; axis < 2; ++axis)
-    if (a[at(axis)] != b[at(axis)]) return axis;
+    if (a[axis] != b[axis]) return axis;
   return 2;
 }
 
@@ -31,12 +30,12 @@ Divisions::Divisions(const SheetGrid& grid, double largest_element)
   if (!(largest_element > 0))
     throw ModelError(
         fmt::format("the largest element is {:g} m; it must be positive", largest_element));
-  for (int axis = 0; axis < 3; ++axis) coordinates_[at(axis)] = grid.planes(axis);
+  for (int axis = 0; axis < 3; ++axis) coordinates_[axis] = grid.planes(axis);
 }
 
 double Divisions::parts(int axis, int lower, int upper) const {
-  const std::vector<double>& planes = coordinates_[at(axis)];
-  const double asked = std::ceil((planes[at(upper)] - planes[at(lower)]) / largest_element_ - 1e-9);
+  const std::vector<double>& planes = coordinates_[axis];
+  const double asked = std::ceil((planes[upper] - planes[lower]) / largest_element_ - 1e-9);
   const auto required = required_.find({axis, lower, upper});
   return std::max(asked, required == required_.end() ? 1.0 : required->second);
 }
@@ -50,12 +49,12 @@ int Divisions::number(int axis, int lower, int upper, int part) {
   const auto count = static_cast<int>(parts(axis, lower, upper));
   if (part == 0) return lower;
   if (part == count) return upper;
-  std::vector<double>& coordinates = coordinates_[at(axis)];
+  std::vector<double>& coordinates = coordinates_[axis];
   const auto [entry, is_new] =
       numbers_.try_emplace({axis, lower, upper, part}, static_cast<int>(coordinates.size()));
   if (is_new)
-    coordinates.push_back(coordinates[at(lower)] +
-                          (coordinates[at(upper)] - coordinates[at(lower)]) * part / count);
+    coordinates.push_back(coordinates[lower] +
+                          (coordinates[upper] - coordinates[lower]) * part / count);
   return entry->second;
 }
 
@@ -76,7 +75,7 @@ void CellMaker::check_size(const std::vector<SheetPanel>& panels, double largest
     double here = 1;
     for (int axis = 0; axis < 3; ++axis)
       if (axis != panel.normal)
-        here *= divisions_.parts(axis, panel.lower[at(axis)], panel.upper[at(axis)]);
+        here *= divisions_.parts(axis, panel.lower[axis], panel.upper[axis]);
     shells += here;
   }
   if (shells > most_shells)
@@ -99,8 +98,8 @@ void CellMaker::divide_frame(const HoleFrame& frame) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Place &a = points[i], &b = points[(i + 1) % points.size()];
     const int axis = axis_between(a, b);
-    const auto [lower, upper] = std::minmax(a[at(axis)], b[at(axis)]);
-    sides[{axis, a[at(axis)] < b[at(axis)]}].push_back({axis, lower, upper});
+    const auto [lower, upper] = std::minmax(a[axis], b[axis]);
+    sides[{axis, a[axis] < b[axis]}].push_back({axis, lower, upper});
   }
   for (const auto& towards : sides) {
     const std::vector<Side>& side = towards.second;
@@ -125,7 +124,7 @@ void CellMaker::divide_frame(const HoleFrame& frame) {
 }
 
 int CellMaker::parts(const Place& lower, const Place& upper, int axis) const {
-  return static_cast<int>(divisions_.parts(axis, lower[at(axis)], upper[at(axis)]));
+  return static_cast<int>(divisions_.parts(axis, lower[axis], upper[axis]));
 }
 
 int CellMaker::vertex_at(const Vector3& place) {
@@ -156,9 +155,8 @@ void CellMaker::add(const SheetPanel& panel, int section) {
       for (int corner = 0; corner < 4; ++corner) {
         Place place = panel.lower;
         for (const auto& [axis, part] : {std::pair{u, i + corner % 2}, {v, j + corner / 2}})
-          place[at(axis)] =
-              divisions_.number(axis, panel.lower[at(axis)], panel.upper[at(axis)], part);
-        shell.vertices[at(corner)] = vertex(place);
+          place[axis] = divisions_.number(axis, panel.lower[axis], panel.upper[axis], part);
+        shell.vertices[corner] = vertex(place);
       }
       shell.section = section;
       shell.region = panel.owner;
@@ -172,13 +170,13 @@ std::vector<int> CellMaker::vertices_around(const HoleFrame& frame) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Place &a = points[i], &b = points[(i + 1) % points.size()];
     const int axis = axis_between(a, b);
-    const bool is_forward = a[at(axis)] < b[at(axis)];
+    const bool is_forward = a[axis] < b[axis];
     const Place &lower = is_forward ? a : b, &upper = is_forward ? b : a;
     const int count = parts(lower, upper, axis);
     for (int part = 0; part < count; ++part) {
       Place place = a;
-      place[at(axis)] = divisions_.number(axis, lower[at(axis)], upper[at(axis)],
-                                          is_forward ? part : count - part);
+      place[axis] =
+          divisions_.number(axis, lower[axis], upper[axis], is_forward ? part : count - part);
       vertices.push_back(vertex(place));
     }
   }
@@ -217,12 +215,12 @@ struct CellMaker::Ring {
 };
 
 CellMaker::Ring CellMaker::ring_of(const HoleFrame& frame) {
-  const Sheet& sheet = grid_.sheets()[at(frame.sheet)];
+  const Sheet& sheet = grid_.sheets()[frame.sheet];
   Ring ring{frame.cutout.outline, sheet.normal, 0, vertices_around(frame), {}, 1};
-  ring.position = mesh_.vertices[at(ring.outer.front())][ring.normal];
+  ring.position = mesh_.vertices[ring.outer.front()][ring.normal];
   std::vector<Eigen::Vector2d> around;
   for (const int v : ring.outer) {
-    const Vector3& place = mesh_.vertices[at(v)];
+    const Vector3& place = mesh_.vertices[v];
     around.emplace_back(place[(ring.normal + 1) % 3], place[(ring.normal + 2) % 3]);
   }
   const std::vector<int> corners = match_corners(ring.outline, around);
@@ -235,13 +233,13 @@ CellMaker::Ring CellMaker::ring_of(const HoleFrame& frame) {
     for (int i = 0; i < sectors; ++i) {
       const int start = (corners[piece] + i) % count;
       const Ring::Sector sector{static_cast<int>(piece), static_cast<double>(i) / sectors,
-                                static_cast<double>(i + 1) / sectors, around[at(start)],
-                                around[at((start + 1) % count)]};
+                                static_cast<double>(i + 1) / sectors, around[start],
+                                around[(start + 1) % count]};
       const double width = (ring.place(sector, 0, 1) - ring.place(sector, 0, 0)).norm();
       widest = std::max(widest, width);
       widths += width;
       lengths += (ring.place(sector, 1, 0.5) - ring.place(sector, 0, 0.5)).norm();
-      ring.sectors[at(start)] = sector;
+      ring.sectors[start] = sector;
     }
   }
   ring.layers = static_cast<int>(
@@ -288,9 +286,8 @@ void CellMaker::add(const StiffenerSpan& span, const Beam& pattern) {
     Beam beam = pattern;
     for (int end = 0; end < 2; ++end) {
       Place place = span.lower;
-      place[at(axis)] =
-          divisions_.number(axis, span.lower[at(axis)], span.upper[at(axis)], i + end);
-      beam.vertices[at(end)] = vertex(place);
+      place[axis] = divisions_.number(axis, span.lower[axis], span.upper[axis], i + end);
+      beam.vertices[end] = vertex(place);
     }
     beam.label = static_cast<long>(mesh_.shells.size() + mesh_.beams.size()) + 1;
     mesh_.beams.push_back(beam);

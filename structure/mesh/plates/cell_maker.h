@@ -22,9 +22,7 @@ class Divisions {
   void require(int axis, int lower, int upper, int parts);
   /// Number of the coordinate after some of the parts.
   int number(int axis, int lower, int upper, int part);
-  double coordinate(int axis, int number) const {
-    return coordinates_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(number)];
-  }
+  double coordinate(int axis, int number) const { return coordinates_[axis][number]; }
 
  private:
   double largest_element_;

@@ -45,7 +45,7 @@ class Drawing {
  public:
   int point(const Vector3& place) {
     std::array<long, 3> key{};
-    for (int i = 0; i < 3; ++i) key[at(i)] = std::lround(place[i] / joint_tolerance);
+    for (int i = 0; i < 3; ++i) key[i] = std::lround(place[i] / joint_tolerance);
     const auto [known, is_new] = points_.try_emplace(key, 0);
     if (is_new) known->second = occ::addPoint(place.x(), place.y(), place.z());
     return known->second;
@@ -135,13 +135,12 @@ class BlockDrawing {
   int first_free() const { return static_cast<int>(grid_.sheets().size()); }
 
   std::string name_of_owner(int owner) const {
-    return owner < first_free() ? grid_.sheets()[at(owner)].name
-                                : free_sheets_[at(owner - first_free())].name;
+    return owner < first_free() ? grid_.sheets()[owner].name
+                                : free_sheets_[owner - first_free()].name;
   }
 
   Vector3 place(const std::array<int, 3>& planes) const {
-    return {grid_.planes(0)[at(planes[0])], grid_.planes(1)[at(planes[1])],
-            grid_.planes(2)[at(planes[2])]};
+    return {grid_.planes(0)[planes[0]], grid_.planes(1)[planes[1]], grid_.planes(2)[planes[2]]};
   }
 
   int draw(const SheetPanel& panel) {
@@ -154,7 +153,7 @@ class BlockDrawing {
   }
 
   int draw(const HoleFrame& frame) {
-    const Sheet& sheet = grid_.sheets()[at(frame.sheet)];
+    const Sheet& sheet = grid_.sheets()[frame.sheet];
     std::vector<Vector3> around;
     for (const auto& planes : grid_.points_around(frame)) around.push_back(place(planes));
     const HoleOutline& outline = frame.cutout.outline;
@@ -230,7 +229,7 @@ class BlockDrawing {
   /// Where two bars, or a bar and a stiffener, lie upon one another, one of them would be lost.
   void refuse_two(const std::vector<int>& lines) const {
     std::set<std::string> names;
-    for (const int line : lines) names.insert(beams_[at(line)].bar);
+    for (const int line : lines) names.insert(beams_[line].bar);
     if (lines.size() < 2 || (names.size() == 1 && names.begin()->empty())) return;
     const std::string bar = *names.rbegin(), other = *names.begin();
     throw ModelError(fmt::format("bar \"{}\" lies upon {}", bar,
@@ -240,8 +239,8 @@ class BlockDrawing {
   }
 
   SheetRank rank(int owner) const {
-    if (owner >= first_free()) return free_sheets_[at(owner - first_free())].rank;
-    return std::min(grid_.sheets()[at(owner)].rank, SheetRank::plate);
+    if (owner >= first_free()) return free_sheets_[owner - first_free()].rank;
+    return std::min(grid_.sheets()[owner].rank, SheetRank::plate);
   }
 
   /// Of a free lug, its pad and its plate, the first that is there; nothing else lies upon another
@@ -265,7 +264,7 @@ class BlockDrawing {
   /// What a free sheet lies on; -1: nothing.
   int base_of(int owner) const {
     if (owner < first_free()) return -1;
-    const int base = free_sheets_[at(owner - first_free())].base;
+    const int base = free_sheets_[owner - first_free()].base;
     return base < 0 ? -1 : first_free() + base;
   }
 
@@ -283,7 +282,7 @@ void turn_over(Shell& shell, Mesh& mesh) {
   std::swap(shell.vertices[0], shell.vertices[1]);
   if (shell.vertices[2] != shell.vertices[3]) std::swap(shell.vertices[2], shell.vertices[3]);
   if (shell.curvature < 0) return;
-  Eigen::Matrix3Xd& points = mesh.curved_shells[at(shell.curvature)];
+  Eigen::Matrix3Xd& points = mesh.curved_shells[shell.curvature];
   for (Eigen::Index row = 0; row < 3; ++row) points.col(3 * row).swap(points.col(3 * row + 2));
 }
 
@@ -291,9 +290,9 @@ void order_normals(const SheetGrid& grid, Mesh& mesh) {
   const auto sheets = static_cast<int>(grid.sheets().size());
   for (Shell& shell : mesh.shells) {
     if (shell.region >= sheets) continue;
-    const auto corner = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
+    const auto corner = [&](std::size_t i) { return mesh.vertices[shell.vertices[i]]; };
     const Vector3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-    if (normal[grid.sheets()[at(shell.region)].normal] < 0) turn_over(shell, mesh);
+    if (normal[grid.sheets()[shell.region].normal] < 0) turn_over(shell, mesh);
   }
 }
 
@@ -328,8 +327,8 @@ Mesh mesh_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
     Mesh mesh = take_surfaces(packet).mesh;
     for (Beam& beam : mesh.beams) {
       std::array<int, 2> vertices = beam.vertices;
-      const BeamLine& line = beams[at(beam.region)];
-      const auto place = [&](std::size_t end) { return mesh.vertices[at(vertices[end])]; };
+      const BeamLine& line = beams[beam.region];
+      const auto place = [&](std::size_t end) { return mesh.vertices[vertices[end]]; };
       // Which way a curve runs once it was cut is OpenCASCADE's; the profile's axis 3 follows it.
       if ((place(1) - place(0)).dot(line.to - line.from) < 0) std::swap(vertices[0], vertices[1]);
       beam = line.pattern;
@@ -349,14 +348,14 @@ void require_one_part(const Mesh& mesh) {
   std::map<int, double> areas;
   std::map<int, std::set<std::string>> names;
   for (const Shell& shell : mesh.shells) {
-    const int of_shell = part[at(shell.vertices[0])];
+    const int of_shell = part[shell.vertices[0]];
     areas[of_shell] += std::pow(longest_edge(mesh, shell), 2);
-    names[of_shell].insert(mesh.regions[at(shell.region)].name);
+    names[of_shell].insert(mesh.regions[shell.region].name);
   }
   for (const Beam& beam : mesh.beams) {
-    const int of_beam = part[at(beam.vertices[0])];
+    const int of_beam = part[beam.vertices[0]];
     areas.try_emplace(of_beam, 0);
-    names[of_beam].insert(mesh.regions[at(beam.region)].name);
+    names[of_beam].insert(mesh.regions[beam.region].name);
   }
   if (areas.size() < 2) return;
   const auto largest = std::max_element(

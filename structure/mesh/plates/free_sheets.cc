@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/plane_frame.h"
 #include "structure/mesh/plates/line_pieces.h"
 
@@ -50,7 +49,7 @@ const FreePlate& plane_plate(const BlockDescription& block, const std::string& w
   if (place < 0)
     throw ModelError(
         fmt::format("{} lies on plate \"{}\", which is none given by its corners", what, name));
-  const FreePlate& plate = block.free_plates[at(place)];
+  const FreePlate& plate = block.free_plates[place];
   if (plate.corners.empty())
     throw ModelError(fmt::format(
         "{} lies on plate \"{}\", which is ruled between two edges and has no plane", what, name));
@@ -61,7 +60,7 @@ const FreePlate& plane_plate(const BlockDescription& block, const std::string& w
 std::vector<Vector3> corners_of(const std::string& what, const PlaneFrame& frame, int normal,
                                 double position, const std::array<Interval, 3>& extent) {
   const int first = (normal + 1) % 3, second = (normal + 2) % 3;
-  const Interval &a = extent[at(first)], &b = extent[at(second)];
+  const Interval &a = extent[first], &b = extent[second];
   if (!(a.upper - a.lower > out_of_plane && b.upper - b.lower > out_of_plane))
     throw ModelError(what + " has an extent that ends less than 1 mm beyond its start");
   std::vector<Vector3> corners;
@@ -208,7 +207,7 @@ class Row {
     LinePieces on_plate = line;
     for (const FreePad& pad : block_.free_pads) {
       if (pad.plate != plate_.name) continue;
-      const Interval &reach = pad.extent[at(along())], &width = pad.extent[at(1 - along())];
+      const Interval &reach = pad.extent[along()], &width = pad.extent[1 - along()];
       if (across < width.lower - same_line || across > width.upper + same_line) continue;
       LinePieces on_pad = line;
       leave_out(-1e9, reach.lower, on_pad);
@@ -308,9 +307,9 @@ std::vector<FreeSheet> spread_free_sheets(const BlockDescription& block) {
           "{} stands on pad \"{}\", which no plate given by its corners has", what, lug.pad));
     require_thickness(what, lug.thickness);
     if (!lug.p_BPin.allFinite()) throw ModelError(what + " has a pin centre that is not a number");
-    const FreePlate& plate = plane_plate(block, what, block.free_pads[at(place)].plate);
+    const FreePlate& plate = plane_plate(block, what, block.free_pads[place].plate);
     sheets.push_back({lug.name, SheetRank::lug, lug.thickness,
-                      lug.material.empty() ? sheets[at(first_pad + place)].material : lug.material,
+                      lug.material.empty() ? sheets[first_pad + place].material : lug.material,
                       corners_of(what, frame_of_polygon(plate.corners),
                                  static_cast<int>(lug.normal), lug.position, lug.extent),
                       first_pad + place});

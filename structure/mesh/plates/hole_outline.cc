@@ -86,7 +86,7 @@ HoleOutline HoleOutline::polygon(std::vector<Vector2d> corners) {
 }
 
 Vector2d HoleOutline::point(int piece, double share) const {
-  const Piece& here = pieces_[at(piece)];
+  const Piece& here = pieces_[piece];
   if (is_straight(piece)) return here.start + share * (here.end - here.start);
   return here.centre + here.radius * direction(here.first_angle + share * here.angle);
 }
@@ -101,7 +101,7 @@ std::vector<int> match_corners(const HoleOutline& outline, const std::vector<Vec
   for (const Vector2d& point : around) there.push_back(angle_of(point));
   for (int c = 0; c < corners; ++c) here.push_back(angle_of(outline.point(c, 0)));
   const auto cost = [&](int corner, int point) {
-    const double miss = angle_between(here[at(corner)], there[at(point % count)]);
+    const double miss = angle_between(here[corner], there[point % count]);
     return miss * miss;
   };
   // For each point that the first corner may have: the least sum of squares of the misses of those
@@ -116,20 +116,20 @@ std::vector<int> match_corners(const HoleOutline& outline, const std::vector<Vec
     for (int c = 1; c < corners; ++c) {
       int nearest = 0;
       for (int p = 1; p < count; ++p) {
-        if (sum[at(c - 1)][at(p - 1)] < sum[at(c - 1)][at(nearest)]) nearest = p - 1;
-        sum[at(c)][at(p)] = sum[at(c - 1)][at(nearest)] + cost(c, first + p);
-        before[at(c)][at(p)] = nearest;
+        if (sum[c - 1][p - 1] < sum[c - 1][nearest]) nearest = p - 1;
+        sum[c][p] = sum[c - 1][nearest] + cost(c, first + p);
+        before[c][p] = nearest;
       }
     }
     const std::vector<double>& last = sum.back();
     const auto end = std::min_element(last.begin(), last.end());
     if (!(*end < least)) continue;
     least = *end;
-    best.assign(at(corners), 0);
+    best.assign(corners, 0);
     int point = static_cast<int>(end - last.begin());
     for (int c = corners - 1; c >= 0; --c) {
-      best[at(c)] = (first + point) % count;
-      point = before[at(c)][at(point)];
+      best[c] = (first + point) % count;
+      point = before[c][point];
     }
   }
   return best;

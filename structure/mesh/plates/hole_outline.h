@@ -22,9 +22,7 @@ class HoleOutline {
   int pieces() const { return static_cast<int>(pieces_.size()); }
   /// Point at a share (0 to 1) of a piece's length.
   Eigen::Vector2d point(int piece, double share) const;
-  bool is_straight(int piece) const {
-    return !(pieces_[static_cast<std::size_t>(piece)].radius > 0);
-  }
+  bool is_straight(int piece) const { return !(pieces_[piece].radius > 0); }
   const Eigen::Vector2d& lower() const { return lower_; }
   const Eigen::Vector2d& upper() const { return upper_; }
   /// Of the rectangle or of the polygon's area: all points can be seen from here.

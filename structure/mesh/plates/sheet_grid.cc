@@ -35,7 +35,7 @@ SheetGrid::SheetGrid(std::vector<Sheet> sheets) : sheets_(std::move(sheets)) {
   set_frames_apart();
   mark_stiffeners();
   for (int axis = 0; axis < 3; ++axis) {
-    is_kept_[at(axis)].assign(faces_[0].size(), 1);
+    is_kept_[axis].assign(faces_[0].size(), 1);
     for (int plane = 1; plane + 1 < count(axis); ++plane) find_cuts(axis, plane);
   }
 }
@@ -69,9 +69,9 @@ bool SheetGrid::reaches(const Sheet& sheet, const Sheet& end, int axis) const {
   const double margin = end.thickness / 2 + same_place;
   for (int other = 0; other < 3; ++other) {
     if (other == axis) continue;
-    const Interval& here = sheet.extent[at(other)];
+    const Interval& here = sheet.extent[other];
     const Interval there =
-        other == end.normal ? Interval{end.position, end.position} : end.extent[at(other)];
+        other == end.normal ? Interval{end.position, end.position} : end.extent[other];
     if (there.upper < here.lower - margin || there.lower > here.upper + margin) return false;
   }
   return true;
@@ -91,7 +91,7 @@ double SheetGrid::snapped(int axis, double coordinate, const Sheet* end) const {
 }
 
 void SheetGrid::add_plane(int axis, double coordinate) {
-  std::vector<double>& planes = planes_[at(axis)];
+  std::vector<double>& planes = planes_[axis];
   if (std::none_of(planes.begin(), planes.end(),
                    [&](double plane) { return std::abs(plane - coordinate) < same_place; }))
     planes.push_back(coordinate);
@@ -103,19 +103,19 @@ void SheetGrid::collect_planes(int axis) {
     if (sheet.normal == axis) add(sheet.position);
   for (const Sheet& sheet : sheets_) {
     if (sheet.normal == axis) continue;
-    for (const double edge : {sheet.extent[at(axis)].lower, sheet.extent[at(axis)].upper})
+    for (const double edge : {sheet.extent[axis].lower, sheet.extent[axis].upper})
       add(snapped(axis, edge, &sheet));
     for (const auto& hole : sheet.holes)
-      for (const double edge : {hole[at(axis)].lower, hole[at(axis)].upper})
+      for (const double edge : {hole[axis].lower, hole[axis].upper})
         add(snapped(axis, edge, nullptr));
     for (const StiffenerLine& line : sheet.stiffeners)
       if (line.along != axis) add(snapped(axis, line.position, nullptr));
   }
-  std::sort(planes_[at(axis)].begin(), planes_[at(axis)].end());
+  std::sort(planes_[axis].begin(), planes_[axis].end());
 }
 
 int SheetGrid::plane_at(int axis, double coordinate) const {
-  const std::vector<double>& planes = planes_[at(axis)];
+  const std::vector<double>& planes = planes_[axis];
   const auto nearest = std::min_element(planes.begin(), planes.end(), [&](double a, double b) {
     return std::abs(a - coordinate) < std::abs(b - coordinate);
   });
@@ -126,12 +126,12 @@ SheetPanel SheetGrid::box_of(const Sheet& sheet) const {
   SheetPanel box;
   box.normal = sheet.normal;
   for (int axis = 0; axis < 3; ++axis) {
-    int &lower = box.lower[at(axis)], &upper = box.upper[at(axis)];
+    int &lower = box.lower[axis], &upper = box.upper[axis];
     if (axis == sheet.normal) {
       lower = upper = plane_at(axis, sheet.position);
       continue;
     }
-    const Interval& extent = sheet.extent[at(axis)];
+    const Interval& extent = sheet.extent[axis];
     lower = plane_at(axis, snapped(axis, extent.lower, &sheet));
     upper = plane_at(axis, snapped(axis, extent.upper, &sheet));
     if (lower == upper)
@@ -148,8 +148,8 @@ SheetPanel SheetGrid::box_of_hole(const Sheet& sheet, const std::array<Interval,
   box.normal = sheet.normal;
   for (int axis = 0; axis < 3; ++axis) {
     if (axis == sheet.normal) continue;
-    box.lower[at(axis)] = plane_at(axis, snapped(axis, hole[at(axis)].lower, nullptr));
-    box.upper[at(axis)] = plane_at(axis, snapped(axis, hole[at(axis)].upper, nullptr));
+    box.lower[axis] = plane_at(axis, snapped(axis, hole[axis].lower, nullptr));
+    box.upper[axis] = plane_at(axis, snapped(axis, hole[axis].upper, nullptr));
   }
   return box;
 }
@@ -168,17 +168,17 @@ void SheetGrid::fill() {
     for (const auto& hole : sheet.holes) holes.push_back(box_of_hole(sheet, hole));
     Place place = box.lower;
     const auto is_in = [&](const SheetPanel& hole) {
-      return place[at(u)] >= hole.lower[at(u)] && place[at(u)] < hole.upper[at(u)] &&
-             place[at(v)] >= hole.lower[at(v)] && place[at(v)] < hole.upper[at(v)];
+      return place[u] >= hole.lower[u] && place[u] < hole.upper[u] && place[v] >= hole.lower[v] &&
+             place[v] < hole.upper[v];
     };
-    for (place[at(v)] = box.lower[at(v)]; place[at(v)] < box.upper[at(v)]; ++place[at(v)])
-      for (place[at(u)] = box.lower[at(u)]; place[at(u)] < box.upper[at(u)]; ++place[at(u)]) {
+    for (place[v] = box.lower[v]; place[v] < box.upper[v]; ++place[v])
+      for (place[u] = box.lower[u]; place[u] < box.upper[u]; ++place[u]) {
         if (std::any_of(holes.begin(), holes.end(), is_in)) continue;
-        int& face = faces_[at(sheet.normal)][index(place)];
+        int& face = faces_[sheet.normal][index(place)];
         const auto [entry, is_new] = joined.try_emplace(std::pair{face, static_cast<int>(s)},
                                                         static_cast<int>(signatures_.size()));
         if (is_new) {
-          signatures_.push_back(signatures_[at(face)]);
+          signatures_.push_back(signatures_[face]);
           signatures_.back().push_back(static_cast<int>(s));
           owners_.push_back(owner(sheets_, signatures_.back()));
         }
@@ -189,7 +189,7 @@ void SheetGrid::fill() {
 
 bool SheetGrid::has_sheet(int normal, const Place& place, int sheet) const {
   if (*std::min_element(place.begin(), place.end()) < 0) return false;
-  const std::vector<int>& here = signatures_[at(face(normal, place))];
+  const std::vector<int>& here = signatures_[face(normal, place)];
   return std::find(here.begin(), here.end(), sheet) != here.end();
 }
 
@@ -197,24 +197,24 @@ bool SheetGrid::has_sheet(int normal, const Place& place, int sheet) const {
 // it, and no other plate on its side.
 bool SheetGrid::bears(int sheet, const StiffenerLine& line, const Place& place) const {
   if (!(thickness_under(sheet, line, place) > 0)) return false;
-  const int normal = sheets_[at(sheet)].normal, across = 3 - line.along - normal;
+  const int normal = sheets_[sheet].normal, across = 3 - line.along - normal;
   Place other = place;
-  if (line.side < 0) --other[at(normal)];
-  return other[at(normal)] < 0 || face(across, other) == 0;
+  if (line.side < 0) --other[normal];
+  return other[normal] < 0 || face(across, other) == 0;
 }
 
 // Thickness beside a stiffener: the plate's own, or that of what covers it on both sides; 0 where
 // there is neither plate nor pad. Stiffeners end at the frames of openings.
 double SheetGrid::thickness_under(int sheet, const StiffenerLine& line, const Place& place) const {
-  const int normal = sheets_[at(sheet)].normal, across = 3 - line.along - normal;
+  const int normal = sheets_[sheet].normal, across = 3 - line.along - normal;
   double thinnest = 0;
   for (int step = 0; step < 2; ++step) {
     Place beside = place;
-    beside[at(across)] -= step;
+    beside[across] -= step;
     if (!has_sheet(normal, beside, sheet)) continue;
-    const int top_sheet = owners_[at(face(normal, beside))];
+    const int top_sheet = owners_[face(normal, beside)];
     if (top_sheet >= static_cast<int>(sheets_.size())) continue;
-    const Sheet& top = sheets_[at(top_sheet)];
+    const Sheet& top = sheets_[top_sheet];
     if (top.rank == SheetRank::lug) continue;
     if (thinnest == 0 || top.thickness < thinnest) thinnest = top.thickness;
   }
@@ -224,7 +224,7 @@ double SheetGrid::thickness_under(int sheet, const StiffenerLine& line, const Pl
 SheetGrid::Place SheetGrid::start_of(const SheetPanel& box, const StiffenerLine& line) const {
   Place start = box.lower;
   const int across = 3 - line.along - box.normal;
-  start[at(across)] = plane_at(across, snapped(across, line.position, nullptr));
+  start[across] = plane_at(across, snapped(across, line.position, nullptr));
   return start;
 }
 
@@ -239,7 +239,7 @@ void SheetGrid::mark_stiffeners() {
       for (Place place = start_of(box, line); place[along] <= box.upper[along]; ++place[along]) {
         const bool is_borne =
             place[along] < box.upper[along] && bears(static_cast<int>(s), line, place);
-        if (bore || is_borne) is_asked_[at(across)][index(place)] = 1;
+        if (bore || is_borne) is_asked_[across][index(place)] = 1;
         if (bore != is_borne) is_asked_[along][index(place)] = 1;
         bore = is_borne;
       }
@@ -275,9 +275,9 @@ bool SheetGrid::is_cut_at(int axis, const Place& point) const {
   for (int db = 0; db < 2; ++db)
     for (int dc = 0; dc < 2; ++dc) {
       Place corner = point;
-      corner[at(b)] -= db;
-      corner[at(c)] -= dc;
-      if (corner[at(b)] >= 0 && corner[at(c)] >= 0 && face(axis, corner) != 0) return true;
+      corner[b] -= db;
+      corner[c] -= dc;
+      if (corner[b] >= 0 && corner[c] >= 0 && face(axis, corner) != 0) return true;
     }
   return false;
 }
@@ -290,41 +290,41 @@ void SheetGrid::find_cuts(int axis, int plane) {
   std::vector<char> is_seen(at(count(b)) * at(count(c)), 0);
   std::vector<Place> piece;
   const auto visit = [&](const Place& point) {
-    char& mark = is_seen[at(point[at(c)]) * at(count(b)) + at(point[at(b)])];
+    char& mark = is_seen[at(point[c]) * at(count(b)) + at(point[b])];
     if (mark == 0) piece.push_back(point);
     mark = 1;
   };
   for (int pc = 0; pc < count(c); ++pc)
     for (int pb = 0; pb < count(b); ++pb) {
       Place start{};
-      start[at(axis)] = plane;
-      start[at(b)] = pb;
-      start[at(c)] = pc;
+      start[axis] = plane;
+      start[b] = pb;
+      start[c] = pc;
       piece.clear();
       visit(start);
       bool is_needed = false;
       for (std::size_t n = 0; n < piece.size(); ++n) {
         const Place point = piece[n];
-        is_needed = is_needed || is_asked_[at(axis)][index(point)] != 0 || is_cut_at(axis, point);
+        is_needed = is_needed || is_asked_[axis][index(point)] != 0 || is_cut_at(axis, point);
         for (const int along : {b, c})
           for (int step = -1; step < 2; step += 2) {
             Place end = point, above = point;
-            end[at(along)] += step;
-            if (end[at(along)] < 0 || end[at(along)] >= count(along)) continue;
+            end[along] += step;
+            if (end[along] < 0 || end[along] >= count(along)) continue;
             if (step < 0) above = end;
             Place below = above;
-            below[at(axis)] -= 1;
+            below[axis] -= 1;
             // The section's line from here along b belongs to a sheet across c, and the other way
             // round.
             const int normal = b + c - along;
             const int upper = face(normal, above), lower = face(normal, below);
             if (upper == 0 && lower == 0) continue;
-            is_needed = is_needed || owners_[at(upper)] != owners_[at(lower)];
+            is_needed = is_needed || owners_[upper] != owners_[lower];
             visit(end);
           }
       }
       if (!is_needed)
-        for (const Place& point : piece) is_kept_[at(axis)][index(point)] = 0;
+        for (const Place& point : piece) is_kept_[axis][index(point)] = 0;
     }
 }
 
@@ -333,30 +333,30 @@ std::vector<SheetPanel> SheetGrid::panels() const {
   for (int normal = 0; normal < 3; ++normal) {
     const int u = (normal + 1) % 3, v = (normal + 2) % 3;
     const auto is_kept = [&](int axis, const Place& point) {
-      return is_kept_[at(axis)][index(point)] != 0;
+      return is_kept_[axis][index(point)] != 0;
     };
     Place place{};
-    for (place[at(normal)] = 0; place[at(normal)] < count(normal); ++place[at(normal)])
-      for (place[at(v)] = 0; place[at(v)] < count(v); ++place[at(v)])
-        for (place[at(u)] = 0; place[at(u)] < count(u); ++place[at(u)]) {
+    for (place[normal] = 0; place[normal] < count(normal); ++place[normal])
+      for (place[v] = 0; place[v] < count(v); ++place[v])
+        for (place[u] = 0; place[u] < count(u); ++place[u]) {
           const int signature = face(normal, place);
           if (signature == 0 || !is_kept(u, place) || !is_kept(v, place)) continue;
-          SheetPanel panel{normal, place, place, {}, owners_[at(signature)], -1};
+          SheetPanel panel{normal, place, place, {}, owners_[signature], -1};
           if (panel.owner >= static_cast<int>(sheets_.size())) {
             panel.frame = panel.owner - static_cast<int>(sheets_.size());
-            panel.owner = frames_[at(panel.frame)].sheet;
+            panel.owner = frames_[panel.frame].sheet;
           }
           for (const int axis : {u, v}) {
             Place end = place;
-            do ++end[at(axis)];
+            do ++end[axis];
             while (!is_kept(axis, end));
-            panel.upper[at(axis)] = end[at(axis)];
+            panel.upper[axis] = end[axis];
           }
           std::set<int> found;
           Place part = place;
-          for (part[at(v)] = place[at(v)]; part[at(v)] < panel.upper[at(v)]; ++part[at(v)])
-            for (part[at(u)] = place[at(u)]; part[at(u)] < panel.upper[at(u)]; ++part[at(u)]) {
-              const std::vector<int>& here = signatures_[at(face(normal, part))];
+          for (part[v] = place[v]; part[v] < panel.upper[v]; ++part[v])
+            for (part[u] = place[u]; part[u] < panel.upper[u]; ++part[u]) {
+              const std::vector<int>& here = signatures_[face(normal, part)];
               found.insert(here.begin(), here.end());
             }
           panel.sheets.assign(found.begin(), found.end());

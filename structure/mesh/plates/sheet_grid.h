@@ -52,9 +52,7 @@ class SheetGrid {
 
   const std::vector<Sheet>& sheets() const { return sheets_; }
   /// Places of the planes along an axis, ascending, m.
-  const std::vector<double>& planes(int axis) const {
-    return planes_[static_cast<std::size_t>(axis)];
-  }
+  const std::vector<double>& planes(int axis) const { return planes_[axis]; }
   /// Conforming: two of them share a whole edge, a corner or nothing.
   std::vector<SheetPanel> panels() const;
   const std::vector<HoleFrame>& frames() const { return frames_; }
@@ -77,9 +75,7 @@ class SheetGrid {
     return row * planes_[0].size() + static_cast<std::size_t>(place[0]);
   }
   /// Signature of the rectangle normal to an axis from a point of the grid upwards; 0: no steel.
-  int face(int normal, const Place& place) const {
-    return faces_[static_cast<std::size_t>(normal)][index(place)];
-  }
+  int face(int normal, const Place& place) const { return faces_[normal][index(place)]; }
   void check_stations(int axis) const;
   bool reaches(const Sheet& sheet, const Sheet& end, int axis) const;
   double snapped(int axis, double coordinate, const Sheet* end) const;

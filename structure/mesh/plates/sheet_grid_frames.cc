@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/plates/sheet_grid.h"
 
 namespace blocklift::structure {
@@ -34,22 +33,22 @@ std::vector<SheetGrid::Area> SheetGrid::obstacles_of(const Sheet& sheet,
   std::vector<Area> obstacles;
   const auto add_edges = [&](const std::array<Interval, 3>& extent, const Sheet* end) {
     const auto edge = [&](int axis, double place) { return snapped(axis, place, end); };
-    const Interval along_u{edge(u, extent[at(u)].lower), edge(u, extent[at(u)].upper)};
-    const Interval along_v{edge(v, extent[at(v)].lower), edge(v, extent[at(v)].upper)};
+    const Interval along_u{edge(u, extent[u].lower), edge(u, extent[u].upper)};
+    const Interval along_v{edge(v, extent[v].lower), edge(v, extent[v].upper)};
     for (const double place : {along_u.lower, along_u.upper})
       obstacles.push_back({{{place, place}, along_v}});
     for (const double place : {along_v.lower, along_v.upper})
       obstacles.push_back({{along_u, {place, place}}});
   };
   for (const Sheet& other : sheets_) {
-    const Interval& reach = other.extent[at(sheet.normal)];
+    const Interval& reach = other.extent[sheet.normal];
     if (other.normal != sheet.normal) {
       if (reach.lower > sheet.position + margin || reach.upper < sheet.position - margin) continue;
       const Interval line{other.position, other.position};
       if (other.normal == u)
-        obstacles.push_back({{line, other.extent[at(v)]}});
+        obstacles.push_back({{line, other.extent[v]}});
       else
-        obstacles.push_back({{other.extent[at(u)], line}});
+        obstacles.push_back({{other.extent[u], line}});
     } else if (std::abs(other.position - sheet.position) < 1e-6) {
       add_edges(other.extent, &other);
     }
@@ -97,7 +96,7 @@ Interval SheetGrid::frame_side(int axis, const Interval& hole, const Interval& r
   const auto distance_to = [&](double edge, int outward, double limit) {
     double found = limit;
     bool is_found = false;
-    for (const double plane : planes_[at(axis)]) {
+    for (const double plane : planes_[axis]) {
       const double distance = outward * (plane - edge);
       if (distance < size / 8 || distance > found + same_place) continue;
       found = std::min(found, distance);
@@ -118,8 +117,8 @@ void SheetGrid::collect_frames() {
       const std::array<Interval, 2> room = room_about(sheets_[s], cutout, 5 * size / 8);
       for (int i = 0; i < 2; ++i) {
         const int axis = (sheets_[s].normal + 1 + i) % 3;
-        const Interval extent = frame_side(axis, hole[at(i)], room[at(i)], size);
-        frame.extent[at(axis)] = extent;
+        const Interval extent = frame_side(axis, hole[i], room[i], size);
+        frame.extent[axis] = extent;
         add_plane(axis, extent.lower);
         add_plane(axis, extent.upper);
       }
@@ -132,21 +131,21 @@ void SheetGrid::collect_frames() {
 void SheetGrid::set_frames_apart() {
   for (std::size_t f = 0; f < frames_.size(); ++f) {
     const HoleFrame& frame = frames_[f];
-    const Sheet& sheet = sheets_[at(frame.sheet)];
+    const Sheet& sheet = sheets_[frame.sheet];
     const int u = (sheet.normal + 1) % 3, v = (sheet.normal + 2) % 3;
     const SheetPanel box = box_of_hole(sheet, frame.extent);
     std::map<int, int> framed;  // signatures, without and with the frame
     Place place = box.lower;
-    place[at(sheet.normal)] = plane_at(sheet.normal, sheet.position);
-    for (place[at(v)] = box.lower[at(v)]; place[at(v)] < box.upper[at(v)]; ++place[at(v)])
-      for (place[at(u)] = box.lower[at(u)]; place[at(u)] < box.upper[at(u)]; ++place[at(u)]) {
-        int& face = faces_[at(sheet.normal)][index(place)];
-        if (owners_[at(face)] != frame.sheet)
+    place[sheet.normal] = plane_at(sheet.normal, sheet.position);
+    for (place[v] = box.lower[v]; place[v] < box.upper[v]; ++place[v])
+      for (place[u] = box.lower[u]; place[u] < box.upper[u]; ++place[u]) {
+        int& face = faces_[sheet.normal][index(place)];
+        if (owners_[face] != frame.sheet)
           throw ModelError(fmt::format("{} of {} lies in a pad, a lug or another opening",
                                        frame.cutout.name, sheet.name));
         const auto [entry, is_new] = framed.try_emplace(face, static_cast<int>(signatures_.size()));
         if (is_new) {
-          signatures_.push_back(std::vector<int>(signatures_[at(face)]));
+          signatures_.push_back(std::vector<int>(signatures_[face]));
           owners_.push_back(static_cast<int>(sheets_.size() + f));
         }
         face = entry->second;
@@ -155,23 +154,23 @@ void SheetGrid::set_frames_apart() {
 }
 
 std::vector<SheetGrid::Place> SheetGrid::points_around(const HoleFrame& frame) const {
-  const Sheet& sheet = sheets_[at(frame.sheet)];
+  const Sheet& sheet = sheets_[frame.sheet];
   const int u = (sheet.normal + 1) % 3, v = (sheet.normal + 2) % 3;
   SheetPanel box = box_of_hole(sheet, frame.extent);
-  box.lower[at(sheet.normal)] = plane_at(sheet.normal, sheet.position);
+  box.lower[sheet.normal] = plane_at(sheet.normal, sheet.position);
   std::vector<Place> points;
   Place place = box.lower;
   const auto walk = [&](int axis, int end) {
-    const int step = end > place[at(axis)] ? 1 : -1;
-    while (place[at(axis)] != end) {
-      if (is_kept_[at(axis)][index(place)] != 0) points.push_back(place);
-      place[at(axis)] += step;
+    const int step = end > place[axis] ? 1 : -1;
+    while (place[axis] != end) {
+      if (is_kept_[axis][index(place)] != 0) points.push_back(place);
+      place[axis] += step;
     }
   };
-  walk(u, box.upper[at(u)]);
-  walk(v, box.upper[at(v)]);
-  walk(u, box.lower[at(u)]);
-  walk(v, box.lower[at(v)]);
+  walk(u, box.upper[u]);
+  walk(v, box.upper[v]);
+  walk(u, box.lower[u]);
+  walk(v, box.lower[v]);
   return points;
 }
 

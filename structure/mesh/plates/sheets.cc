@@ -23,9 +23,7 @@ bool overlap(const Interval& a, const Interval& b, double tolerance) {
 
 bool overlap_in_plane(const Sheet& a, const Sheet& b) {
   for (int axis = 0; axis < 3; ++axis)
-    if (axis != a.normal && !overlap(a.extent[static_cast<std::size_t>(axis)],
-                                     b.extent[static_cast<std::size_t>(axis)]))
-      return false;
+    if (axis != a.normal && !overlap(a.extent[axis], b.extent[axis])) return false;
   return true;
 }
 
@@ -63,7 +61,7 @@ void check_names(const BlockDescription& block) {
 void check_rectangle(const std::string& what, Axis normal, const std::array<Interval, 3>& extent) {
   for (int axis = 0; axis < 3; ++axis) {
     if (axis == static_cast<int>(normal)) continue;
-    const Interval& range = extent[static_cast<std::size_t>(axis)];
+    const Interval& range = extent[axis];
     if (!(std::isfinite(range.lower) && std::isfinite(range.upper) &&
           range.upper - range.lower > 1e-3))
       throw ModelError(
@@ -139,8 +137,7 @@ std::vector<Sheet*> sheets_of(const BlockDescription& block, const std::string& 
                      "\", which the block does not have; its plates are " + names_of(block.plates));
   std::vector<Sheet*> selected;
   for (Sheet& sheet : sheets)
-    if (block.plates[static_cast<std::size_t>(sheet.group)].name == plate &&
-        is_selected(positions, sheet))
+    if (block.plates[sheet.group].name == plate && is_selected(positions, sheet))
       selected.push_back(&sheet);
   return selected;
 }
@@ -157,9 +154,7 @@ HoleOutline outline_of(const Opening& opening, const std::string& what, int norm
     }
     if (opening.corner_radius != 0) throw ModelError("a polygon's corners are not rounded");
     std::vector<Eigen::Vector2d> corners;
-    for (const Vector3& corner : opening.corners)
-      corners.emplace_back(corner[static_cast<Eigen::Index>(u)],
-                           corner[static_cast<Eigen::Index>(v)]);
+    for (const Vector3& corner : opening.corners) corners.emplace_back(corner[u], corner[v]);
     return HoleOutline::polygon(std::move(corners));
   } catch (const ModelError& error) {
     const std::string said = error.what();
@@ -195,7 +190,7 @@ void add_stiffeners(const BlockDescription& block, std::vector<Sheet>& sheets) {
             fmt::format("{} runs along the normal of {}; it runs along one of the two "
                         "other axes",
                         what, sheet->name));
-      const Interval& across = sheet->extent[static_cast<std::size_t>(3 - along - sheet->normal)];
+      const Interval& across = sheet->extent[3 - along - sheet->normal];
       const double first = row.first.value_or(across.lower);
       // None on the plate's own edges.
       const double start = std::floor((across.lower - first) / row.spacing + 1e-6) + 1;
@@ -227,8 +222,7 @@ int check_pad(const BlockDescription& block, const Pad& pad, const Sheet& sheet,
     if (plate.rank != SheetRank::plate || !coplanar(plate, sheet) ||
         !overlap_in_plane(plate, sheet))
       continue;
-    if (!pad.plate.empty() && block.plates[static_cast<std::size_t>(plate.group)].name != pad.plate)
-      continue;
+    if (!pad.plate.empty() && block.plates[plate.group].name != pad.plate) continue;
     if (material < 0) material = plate.material;
     if (pad.thickness < plate.thickness - 1e-9)
       throw ModelError(
@@ -307,8 +301,7 @@ int place_of_material(const BlockDescription& block, const std::string& what,
 
 int owner(const std::vector<Sheet>& sheets, const std::vector<int>& candidates) {
   return *std::max_element(candidates.begin(), candidates.end(), [&](int a, int b) {
-    const Sheet &sa = sheets[static_cast<std::size_t>(a)],
-                &sb = sheets[static_cast<std::size_t>(b)];
+    const Sheet &sa = sheets[a], &sb = sheets[b];
     if (sa.rank != sb.rank) return sa.rank < sb.rank;
     if (sa.thickness != sb.thickness) return sa.thickness < sb.thickness;
     return a > b;

@@ -47,7 +47,7 @@ void add_groups_and_regions(const BlockDescription& block, const std::vector<She
   for (const auto& row : block.stiffeners)
     mesh.groups.push_back({row.name, 0, row.tripping_brackets});
   for (const Sheet& sheet : sheets) {
-    mesh.groups[at(sheet.group)].material = sheet.material;
+    mesh.groups[sheet.group].material = sheet.material;
     mesh.regions.push_back({sheet.name, sheet.group, sheet.rank == SheetRank::lug});
   }
   const auto first_row =
@@ -96,8 +96,8 @@ std::vector<PatternedSpan> beams_of(const BlockDescription& block, const SheetGr
   std::map<std::pair<int, int>, int> regions;   // (row, sheet)
   std::map<std::pair<int, int>, int> sections;  // (row, material)
   for (const StiffenerSpan& span : grid.stiffener_spans()) {
-    const Stiffeners& row = block.stiffeners[at(span.row)];
-    const Sheet& sheet = grid.sheets()[at(span.sheet)];
+    const Stiffeners& row = block.stiffeners[span.row];
+    const Sheet& sheet = grid.sheets()[span.sheet];
     const int material =
         row.material.empty() ? sheet.material : place_of_material(block, row.name, row.material);
     const auto [section, is_new_section] =
@@ -110,7 +110,7 @@ std::vector<PatternedSpan> beams_of(const BlockDescription& block, const SheetGr
         regions.try_emplace({span.row, span.sheet}, static_cast<int>(mesh.regions.size()));
     if (is_new_region) {
       const int group = first_group + span.row;
-      mesh.groups[at(group)].material = material;
+      mesh.groups[group].material = material;
       mesh.regions.push_back(
           {fmt::format("{} at {} = {:g} m", row.name, "xyz"[sheet.normal], sheet.position), group,
            false});
@@ -141,11 +141,11 @@ std::vector<int> joined_parts(const std::vector<SheetPanel>& panels) {
     front.assign(1, static_cast<int>(start));
     part[start] = parts;
     while (!front.empty()) {
-      const SheetPanel& panel = panels[at(front.back())];
+      const SheetPanel& panel = panels[front.back()];
       front.pop_back();
       for (const PanelEdge& edge : edges_of(panel))
         for (const int next : meeting[edge])
-          if (std::exchange(part[at(next)], parts) < 0) front.push_back(next);
+          if (std::exchange(part[next], parts) < 0) front.push_back(next);
     }
     ++parts;
   }
@@ -156,8 +156,7 @@ double area_of(const SheetGrid& grid, const SheetPanel& panel) {
   double area = 1;
   for (int axis = 0; axis < 3; ++axis)
     if (axis != panel.normal)
-      area *= grid.planes(axis)[at(panel.upper[at(axis)])] -
-              grid.planes(axis)[at(panel.lower[at(axis)])];
+      area *= grid.planes(axis)[panel.upper[axis]] - grid.planes(axis)[panel.lower[axis]];
   return area;
 }
 
@@ -168,15 +167,15 @@ void check_joined(const SheetGrid& grid, const std::vector<SheetPanel>& panels) 
   std::vector<double> area(at(parts), 0);
   std::vector<std::set<std::string>> names(at(parts));
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    area[at(part[p])] += area_of(grid, panels[p]);
-    for (const int s : panels[p].sheets) names[at(part[p])].insert(grid.sheets()[at(s)].name);
+    area[part[p]] += area_of(grid, panels[p]);
+    for (const int s : panels[p].sheets) names[part[p]].insert(grid.sheets()[s].name);
   }
   const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
   std::string list;
   int named = 0;
   for (int p = 0; p < parts; ++p) {
     if (p == largest) continue;
-    for (const std::string& name : names[at(p)])
+    for (const std::string& name : names[p])
       if (named++ < 8) list += (list.empty() ? "" : ", ") + name;
   }
   if (named > 8) list += fmt::format(" and {} more", named - 8);
@@ -214,13 +213,13 @@ void add_lifting_point(const std::string& name, const Vector3& p_BPin, int lug_s
   double size = 0, reach = 1e300;
   for (const Shell& shell : mesh.shells) {
     if (shell.region != lug_sheet && shell.region != pad_sheet) continue;
-    const Vector3& first = mesh.vertices[at(shell.vertices[0])];
+    const Vector3& first = mesh.vertices[shell.vertices[0]];
     for (const int v : shell.vertices) {
-      const double distance = (mesh.vertices[at(v)] - p_BPin).norm();
+      const double distance = (mesh.vertices[v] - p_BPin).norm();
       point.radius = std::max(point.radius, distance);
       if (shell.region != lug_sheet) continue;
       reach = std::min(reach, distance);
-      size = std::max(size, (mesh.vertices[at(v)] - first).norm());
+      size = std::max(size, (mesh.vertices[v] - first).norm());
     }
   }
   if (reach > 2 * size + 0.5)
@@ -245,8 +244,7 @@ void add_lifting_points(const BlockDescription& block, const SheetGrid& grid,
 }
 
 Vector3 place_in(const SheetGrid& grid, const Place& planes) {
-  return {grid.planes(0)[at(planes[0])], grid.planes(1)[at(planes[1])],
-          grid.planes(2)[at(planes[2])]};
+  return {grid.planes(0)[planes[0]], grid.planes(1)[planes[1]], grid.planes(2)[planes[2]]};
 }
 
 /// The lugs on free pads, whose regions follow those of the grid's sheets.
@@ -257,7 +255,7 @@ void add_free_lifting_points(const BlockDescription& block,
   for (std::size_t i = 0; i < block.free_lugs.size(); ++i) {
     const FreeLug& lug = block.free_lugs[i];
     const int lug_region = first_lug + static_cast<int>(i);
-    const int pad_region = first_free + free_sheets[at(lug_region - first_free)].base;
+    const int pad_region = first_free + free_sheets[lug_region - first_free].base;
     std::set<int> of_lug, shared;
     for (const Shell& shell : mesh.shells)
       if (shell.region == lug_region) of_lug.insert(shell.vertices.begin(), shell.vertices.end());
@@ -283,18 +281,18 @@ void add_free_stiffeners(const BlockDescription& block, const std::vector<FreeSh
     const std::string& material =
         row.material.empty() && plate != free_sheets.end() ? plate->material : row.material;
     const auto group = static_cast<int>(first_group + i);
-    mesh.groups[at(group)].material = place_of_material(block, row.name, material);
+    mesh.groups[group].material = place_of_material(block, row.name, material);
     if (row.plates) continue;
     sections[i] = static_cast<int>(mesh.beam_sections.size());
     regions[i] = static_cast<int>(mesh.regions.size());
     mesh.beam_sections.push_back(row.section);
-    mesh.beam_sections.back().material = mesh.groups[at(group)].material;
+    mesh.beam_sections.back().material = mesh.groups[group].material;
     mesh.regions.push_back({row.name, group, false});
   }
   for (BeamLine& line : free_stiffener_lines(block)) {
     const int row = line.pattern.section;
-    line.pattern.section = sections[at(row)];
-    line.pattern.region = regions[at(row)];
+    line.pattern.section = sections[row];
+    line.pattern.region = regions[row];
     lines.push_back(line);
   }
 }
@@ -319,10 +317,10 @@ Mesh generate_with_free_plates(const BlockDescription& block, const SheetGrid& g
   const auto sheets = static_cast<int>(grid.sheets().size());
   for (Shell& shell : mesh.shells) {
     if (shell.region < sheets) {
-      shell.section = section_of(grid.sheets()[at(shell.region)], mesh);
+      shell.section = section_of(grid.sheets()[shell.region], mesh);
       continue;
     }
-    const FreeSheet& sheet = free_sheets[at(shell.region - sheets)];
+    const FreeSheet& sheet = free_sheets[shell.region - sheets];
     shell.section = section_of(sheet.thickness, mesh.group_of_region(shell.region).material, mesh);
   }
   finish_bars(block, mesh);
@@ -344,9 +342,9 @@ Mesh generate_shell_mesh(const BlockDescription& block) {
   add_groups_and_regions(block, grid.sheets(), {}, mesh);
   CellMaker maker(grid, panels, block.largest_element, mesh);
   for (const SheetPanel& panel : panels)
-    if (panel.frame < 0) maker.add(panel, section_of(grid.sheets()[at(panel.owner)], mesh));
+    if (panel.frame < 0) maker.add(panel, section_of(grid.sheets()[panel.owner], mesh));
   for (const HoleFrame& frame : grid.frames())
-    maker.add(frame, section_of(grid.sheets()[at(frame.sheet)], mesh));
+    maker.add(frame, section_of(grid.sheets()[frame.sheet], mesh));
   for (const PatternedSpan& beam : beams_of(block, grid, mesh)) maker.add(beam.span, beam.pattern);
   add_lifting_points(block, grid, panels, mesh);
   return mesh;

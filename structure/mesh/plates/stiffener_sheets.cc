@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/plates/line_pieces.h"
 
 namespace blocklift::structure {
@@ -30,7 +29,7 @@ class StiffenerMaker {
             static_cast<int>(block.plates.size() + block.pads.size() + block.lugs.size())) {}
 
   void add(const Sheet& base, const StiffenerLine& line) {
-    const Stiffeners& row = block_.stiffeners[at(line.row)];
+    const Stiffeners& row = block_.stiffeners[line.row];
     const StiffenerPlates& shape = row.plates.value();
     const int across = 3 - line.along - base.normal;
     const double place = aligned(across, line.position, shape.web_thickness);
@@ -43,7 +42,7 @@ class StiffenerMaker {
       sheet.rank = SheetRank::stiffener;
       sheet.material =
           row.material.empty() ? base.material : place_of_material(block_, row.name, row.material);
-      sheet.extent[at(line.along)] = piece;
+      sheet.extent[line.along] = piece;
       const std::string name =
           fmt::format("{} at {} = {:g} m, {} = {:g} m{}", row.name, "xyz"[base.normal],
                       base.position, "xyz"[across], place, piece_name(line, pieces, piece));
@@ -52,14 +51,14 @@ class StiffenerMaker {
       web.normal = across;
       web.position = place;
       web.thickness = shape.web_thickness;
-      web.extent[at(base.normal)] = {std::min(base.position, far), std::max(base.position, far)};
+      web.extent[base.normal] = {std::min(base.position, far), std::max(base.position, far)};
       made_.push_back(std::move(web));
       if (!(shape.flange_thickness > 0)) continue;
       sheet.name = name + ", flange";
       sheet.normal = base.normal;
       sheet.position = far;
       sheet.thickness = shape.flange_thickness;
-      sheet.extent[at(across)] = flange_of(base, line, place);
+      sheet.extent[across] = flange_of(base, line, place);
       made_.push_back(std::move(sheet));
     }
   }
@@ -83,7 +82,7 @@ class StiffenerMaker {
   }
 
   Interval flange_of(const Sheet& base, const StiffenerLine& line, double place) const {
-    const Stiffeners& row = block_.stiffeners[at(line.row)];
+    const Stiffeners& row = block_.stiffeners[line.row];
     auto [from, to] = row.plates.value().flange_reach;
     // Axis 3 is (along) x (away from the plate).
     const bool is_cyclic = (line.along + 1) % 3 == base.normal;
@@ -93,11 +92,11 @@ class StiffenerMaker {
 
   LinePieces pieces_of(const Sheet& base, const StiffenerLine& line, double place) const {
     const int across = 3 - line.along - base.normal;
-    LinePieces pieces{base.extent[at(line.along)]};
+    LinePieces pieces{base.extent[line.along]};
     for (const auto& hole : base.holes) {
-      const auto& [lower, upper] = hole[at(across)];
+      const auto& [lower, upper] = hole[across];
       if (lower < place - same_place && place + same_place < upper)
-        leave_out(hole[at(line.along)].lower, hole[at(line.along)].upper, pieces);
+        leave_out(hole[line.along].lower, hole[line.along].upper, pieces);
     }
     for (const Cutout& cutout : base.cutouts) {
       const Eigen::Vector2d lower = cutout.outline.lower(), upper = cutout.outline.upper();
@@ -110,7 +109,7 @@ class StiffenerMaker {
     }
     for (const Sheet& other : plates_)
       if (stands_there(other, base, line.side, across, place))
-        leave_out(other.extent[at(line.along)].lower, other.extent[at(line.along)].upper, pieces);
+        leave_out(other.extent[line.along].lower, other.extent[line.along].upper, pieces);
     std::erase_if(pieces, [](const Interval& p) { return p.upper - p.lower < same_place; });
     return pieces;
   }
@@ -120,8 +119,8 @@ class StiffenerMaker {
                            double place) {
     if (other.normal != across || std::abs(other.position - place) > same_plane) return false;
     const double face = base.thickness / 2 + same_place;
-    const double lower = other.extent[at(base.normal)].lower - base.position,
-                 upper = other.extent[at(base.normal)].upper - base.position;
+    const double lower = other.extent[base.normal].lower - base.position,
+                 upper = other.extent[base.normal].upper - base.position;
     return side > 0 ? lower < face && upper > face : upper > -face && lower < -face;
   }
 
@@ -158,7 +157,7 @@ void make_stiffener_sheets(const BlockDescription& block, std::vector<Sheet>& sh
   for (Sheet& sheet : sheets) {
     std::vector<StiffenerLine> beams;
     for (const StiffenerLine& line : sheet.stiffeners)
-      if (block.stiffeners[at(line.row)].plates)
+      if (block.stiffeners[line.row].plates)
         maker.add(sheet, line);
       else
         beams.push_back(line);

@@ -133,7 +133,7 @@ class MujocoTree : public TreeDynamics {
     mj_comVel(model_, data_);
     mj_rne(model_, data_, 0, data_->qfrc_bias);
     for (int i = 0; i < model_->nv; ++i) {
-      data_->qfrc_smooth[i] = state.tau[static_cast<std::size_t>(i)] - data_->qfrc_bias[i];
+      data_->qfrc_smooth[i] = state.tau[i] - data_->qfrc_bias[i];
     }
     mj_solveM(model_, data_, data_->qacc, data_->qfrc_smooth, 1);
   }

@@ -70,8 +70,8 @@ class SimbodyTree : public TreeDynamics {
       const MobilizedBody& base = matter_.getMobilizedBody(MobilizedBodyIndex(1));
       const SpatialVec A = base.getBodyAcceleration(state_);
       for (int i = 0; i < 3; ++i) {
-        result[static_cast<std::size_t>(i)] = A[0][i];
-        result[static_cast<std::size_t>(3 + i)] = A[1][i];
+        result[i] = A[0][i];
+        result[3 + i] = A[1][i];
       }
     }
     const Vector& vdot = state_.getUDot();
@@ -88,7 +88,7 @@ class SimbodyTree : public TreeDynamics {
     const int n = static_cast<int>(state.q.size());
     OwnState result{Vector(state_.getNQ()), Vector(state_.getNU()), Vector(state_.getNU(), 0.0)};
     if (floats_) {
-      for (int i = 0; i < 4; ++i) result.q[i] = state.quaternion[static_cast<std::size_t>(i)];
+      for (int i = 0; i < 4; ++i) result.q[i] = state.quaternion[i];
       for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
         result.q[4 + i] = state.p_WB[k];

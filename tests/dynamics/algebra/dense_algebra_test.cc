@@ -53,8 +53,7 @@ TEST(DenseAlgebra, GeneralEigenvaluesAreTheRootsOfACompanionMatrix) {
   });
   // Real parts of a conjugate pair are equal to the last bit.
   const std::vector<Complex> roots = {{-1.0, -2.0}, {-1.0, 2.0}, {1.0, 0.0}, {2.0, 0.0}};
-  for (Eigen::Index k = 0; k < 4; ++k)
-    EXPECT_LT(std::abs(values[k] - roots[static_cast<std::size_t>(k)]), 1e-12);
+  for (Eigen::Index k = 0; k < 4; ++k) EXPECT_LT(std::abs(values[k] - roots[k]), 1e-12);
 }
 
 TEST(DenseAlgebra, HermitianMatricesAreMadeOfTheirEigenvectors) {

@@ -50,7 +50,7 @@ void expect_balanced(OneBody& body, const Element& element, double tolerance = 1
   for (int side = 0; side < 2; ++side) {
     body.mechanism.integrate(q, body.v, side == 0 ? -h : h, body.q);
     body.update();
-    stored[static_cast<std::size_t>(side)] = element.calc_energy(body.state()).stored_energy;
+    stored[side] = element.calc_energy(body.state()).stored_energy;
   }
   body.q = q;
   body.update();

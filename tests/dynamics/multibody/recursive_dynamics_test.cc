@@ -107,7 +107,7 @@ TEST_P(RandomTree, JacobiansGiveTheVelocities) {
     point_jacobian(s.mechanism, s.kinematics, body, p_BoQ_B, J_point);
     EXPECT_LT((J_point * s.v - point_velocity(s.kinematics, body, p_BoQ_B)).norm(), 1e-12);
     body_jacobian(s.mechanism, s.kinematics, body, J_body);
-    const MotionVector& V = s.kinematics.V_WB[static_cast<std::size_t>(body)];
+    const MotionVector& V = s.kinematics.V_WB[body];
     EXPECT_LT((J_body.topRows<3>() * s.v - V.angular).norm(), 1e-12);
     EXPECT_LT((J_body.bottomRows<3>() * s.v - V.linear).norm(), 1e-12);
   }

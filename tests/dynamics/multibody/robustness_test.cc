@@ -20,7 +20,7 @@ Eigen::VectorXd accelerations(const Mechanism& mechanism, const Eigen::VectorXd&
                               const Eigen::VectorXd& v, std::vector<ForceVector> forces = {}) {
   Kinematics kinematics(mechanism);
   ForwardDynamicsWorkspace workspace(mechanism);
-  forces.resize(static_cast<std::size_t>(mechanism.body_count()), ForceVector::zero());
+  forces.resize(mechanism.body_count(), ForceVector::zero());
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(mechanism.nv()), vdot = tau;
   compute_kinematics(mechanism, q, v, kinematics);
   compute_forward_dynamics(mechanism, kinematics, v, forces, workspace, tau, vdot);

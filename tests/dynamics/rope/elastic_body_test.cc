@@ -58,7 +58,7 @@ LiftSystem hang(const Sample& sample) {
   const Mechanism mechanism = builder.build();
   ForceElements elements;
   for (std::size_t k = 0; k < modes.size(); ++k) {
-    const double omega = sample.frequencies[static_cast<Eigen::Index>(k)];
+    const double omega = sample.frequencies[k];
     std::get<std::vector<JointSpring>>(elements).emplace_back(
         mechanism, JointSpring::Definition{.name = "mode " + std::to_string(k + 1),
                                            .body = modes[k],
@@ -102,8 +102,7 @@ Eigen::VectorXd tensions_at_rest(const LiftSystem& system, Eigen::VectorXd* q_re
   calc_loads(system, 0, nullptr, w);
   if (q_rest) *q_rest = q;
   Eigen::VectorXd tension(static_cast<Eigen::Index>(w.rope_loads.size()));
-  for (Eigen::Index i = 0; i < tension.size(); ++i)
-    tension[i] = w.rope_loads[static_cast<std::size_t>(i)].tension;
+  for (Eigen::Index i = 0; i < tension.size(); ++i) tension[i] = w.rope_loads[i].tension;
   return tension;
 }
 

@@ -138,7 +138,7 @@ TEST(Rope, SpendsThePowerOfItsPointForces) {
       mechanism.integrate(q, v, side == 0 ? -h : h, moved);
       compute_kinematics(mechanism, moved, v, kinematics);
       ropes[0].calc_path(kinematics, path);
-      lengths[static_cast<std::size_t>(side)] = path.length;
+      lengths[side] = path.length;
     }
     EXPECT_NEAR((lengths[1] - lengths[0]) / (2 * h), rate, 1e-6 * (1.0 + std::abs(rate)));
   }

@@ -63,7 +63,7 @@ struct BeamOnRopes {
 Eigen::VectorXd tensions(const LiftWorkspace& w) {
   Eigen::VectorXd result(static_cast<Eigen::Index>(w.rope_loads.size()));
   for (std::size_t i = 0; i < w.rope_loads.size(); ++i) {
-    result[static_cast<Eigen::Index>(i)] = w.rope_loads[i].tension;
+    result[i] = w.rope_loads[i].tension;
   }
   return result;
 }

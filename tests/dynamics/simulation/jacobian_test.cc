@@ -171,7 +171,7 @@ class Jacobian : public ::testing::TestWithParam<unsigned> {
     y_.resize(system_.state_size());
     get_state(system_, system_.q_start() * 1.05, random_.values(system_.mechanism().nv(), 1), y_);
     for (const int k : system_.mechanism().driven_velocities()) w_.v[k] = random_.uniform(-1, 1);
-    contacts_.assign(static_cast<std::size_t>(system_.contact_count()), 1);
+    contacts_.assign(system_.contact_count(), 1);
   }
 
   Eigen::MatrixXd analytical() {
@@ -230,7 +230,7 @@ TEST(NewtonMatrixOfLoops, SolvesWithTheJacobianOfTheConstrainedMotion) {
     builder.set_gravity(random.vector(10));
     const auto add = [&](JointKind kind, const char* name, const char* parent) {
       BodyDefinition body = testing::random_body(random, kind, name, parent);
-      body.damping.assign(static_cast<std::size_t>(velocity_count(kind)), 0.4);
+      body.damping.assign(velocity_count(kind), 0.4);
       builder.add_body(body);
     };
     add(JointKind::free, "a1", "world");

@@ -274,7 +274,7 @@ TEST(Linearisation, BlockOnSixRopesAgainstDifferences) {
       0.5 * (K + K.transpose()), M);
   ASSERT_EQ(l.modes.size(), 6u);
   for (Eigen::Index i = 0; i < 6; ++i) {
-    const Mode& mode = l.modes[static_cast<std::size_t>(i)];
+    const Mode& mode = l.modes[i];
     EXPECT_NEAR(mode.natural_frequency() / std::sqrt(reference.eigenvalues()[i]), 1.0, 1e-6)
         << mode.name;
   }

@@ -65,7 +65,7 @@ TEST(LoopSimulation, AndrewsSqueezersForces) {
             .history;
     const Eigen::Index last = history.sample_count() - 1;
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const auto& force = history.loops[static_cast<std::size_t>(i)].force;
+      const auto& force = history.loops[i].force;
       EXPECT_NEAR(force(last, 3), wanted[2 * i], 1e-6 * 200);
       EXPECT_NEAR(force(last, 4), wanted[2 * i + 1], 1e-6 * 200);
       EXPECT_NEAR(force.row(last).head<3>().norm(), 0, 1e-10);

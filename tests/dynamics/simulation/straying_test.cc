@@ -49,7 +49,7 @@ class StrayingTest : public ::testing::Test {
   }
 
   void put(Eigen::Index sample, int body, double heading, const Vector3& p) {
-    auto row = history_.bodies[static_cast<std::size_t>(body - 1)].pose.row(sample);
+    auto row = history_.bodies[body - 1].pose.row(sample);
     row.head<3>() = p.transpose();
     row.tail<4>() = quaternion_from_rotation(turned(heading, p).R).transpose();
   }

@@ -63,8 +63,8 @@ TEST(BlockKeys, StiffenersWithAProfileAreBeams) {
   ASSERT_FALSE(mesh.beams.empty());
   double length = 0;
   for (const structure::Beam& beam : mesh.beams) {
-    const structure::Vector3 along = mesh.vertices[static_cast<std::size_t>(beam.vertices[1])] -
-                                     mesh.vertices[static_cast<std::size_t>(beam.vertices[0])];
+    const structure::Vector3 along =
+        mesh.vertices[beam.vertices[1]] - mesh.vertices[beam.vertices[0]];
     length += along.norm();
     // Below the deck, by half its thickness and the height of the centroid over the foot.
     EXPECT_NEAR(beam.offset[0].z(), -0.005 - bulb.centroid[0], 1e-12);

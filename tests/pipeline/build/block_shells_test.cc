@@ -5,7 +5,6 @@
 
 #include "pipeline/build/describe_block.h"
 #include "pipeline/files/library/model_library.h"
-#include "structure/index.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "tests/structure/formulation/gravity.h"
 #include "tests/structure/mesh/plates/mesh_measures.h"

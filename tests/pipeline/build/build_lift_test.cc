@@ -88,8 +88,7 @@ TEST(BuildLiftTest, EqualisedHoistsCarryAlike) {
   solver.solve(0, q);
   const double weight = 10e3 * 9.81;
   EXPECT_NEAR(tension(solver, lift, "C1.left and C1.right"), weight / 2 + 500 * 9.81, 20);
-  const dynamics::Pose& X_WB =
-      solver.workspace().kinematics.X_WB[static_cast<std::size_t>(lift.load)];
+  const dynamics::Pose& X_WB = solver.workspace().kinematics.X_WB[lift.load];
   EXPECT_NEAR(std::asin(-X_WB.R(2, 0)), std::atan(0.1 / 0.7), 0.01 * 0.1 / 0.7);
   // Both tackles together stretch by the rope's T (L1 + L2) / EA and by what the left one hangs
   // from, T / k; the hooks' mean is below the sheaves by the half of it.
@@ -116,7 +115,7 @@ TEST(BuildLiftTest, RopesStretchByTheirCurves) {
     EXPECT_NEAR(load.elongation(), 2 * law.find_strain(load.tension), 1e-12);
   }
   const dynamics::RopeLoad& tackle =
-      solver.workspace().rope_loads[static_cast<std::size_t>(lift.system.rope_index("C1.left"))];
+      solver.workspace().rope_loads[lift.system.rope_index("C1.left")];
   EXPECT_NEAR(tackle.elongation(), 5 * law.find_strain(tackle.tension) + tackle.tension / 10e6,
               1e-12);
 }
@@ -139,7 +138,7 @@ TEST(BuildLiftTest, HangsInEquilibrium) {
   // stretch, and 1.2 m from the pin down to the block's origin.
   const double tackle = 5 + 5500 * 9.81 * (5 / 200e6 + 1 / 10e6);
   const double sling = 2 + 5000 * 9.81 * (2 / 200e6);
-  const Vector3 p_WB = solver.workspace().kinematics.X_WB[static_cast<std::size_t>(lift.load)].p;
+  const Vector3 p_WB = solver.workspace().kinematics.X_WB[lift.load].p;
   EXPECT_NEAR(p_WB.x(), -2, 1e-2);
   EXPECT_NEAR(p_WB.y(), 5, 1e-6);
   EXPECT_NEAR(p_WB.z(), 10 - tackle - sling - 1.2, 1e-2);
@@ -195,8 +194,7 @@ TEST(BuildLiftTest, TakesWindSupportsSheavesAndRopesWithWinches) {
   ASSERT_EQ(built.system.supports().size(), 1U);
   const auto& pad = built.system.supports()[0].definition();
   EXPECT_TRUE(pad.p_WG.isApprox(Vector3(-2, 5, 0)));
-  const auto& tugger =
-      built.system.ropes()[static_cast<std::size_t>(built.system.rope_index("tugger"))];
+  const auto& tugger = built.system.ropes()[built.system.rope_index("tugger")];
   ASSERT_EQ(tugger.points().size(), 3U);
   EXPECT_EQ(tugger.points()[0].body, dynamics::world_index);
   EXPECT_EQ(tugger.points()[2].body, built.load);

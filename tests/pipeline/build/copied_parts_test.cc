@@ -11,7 +11,6 @@
 
 #include "pipeline/build/describe_block.h"
 #include "pipeline/files/library/model_library.h"
-#include "structure/index.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "tests/pipeline/lug_stresses.h"
@@ -20,7 +19,6 @@
 namespace blocklift::pipeline {
 namespace {
 
-using structure::at;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -320,7 +318,7 @@ TEST(CopiedParts, BulbsAreMirroredWithTheirPlates) {
   EXPECT_NEAR(whole.centre.z(), one_side.centre.z(), 1e-12);
   double product = 0, magnitude = 0;
   for (const structure::Beam& beam : mesh.beams) {
-    const structure::BeamSection& section = mesh.beam_sections[at(beam.section)];
+    const structure::BeamSection& section = mesh.beam_sections[beam.section];
     const Eigen::Vector3d axis_3 = Eigen::Vector3d::UnitX().cross(beam.axis_2);
     product += section.product_23 * (beam.axis_2.y() * axis_3.z() + beam.axis_2.z() * axis_3.y());
     magnitude = std::max(magnitude, std::abs(section.product_23));

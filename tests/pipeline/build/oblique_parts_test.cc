@@ -11,7 +11,6 @@
 #include "pipeline/build/describe_block.h"
 #include "pipeline/files/library/model_library.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/flexibility.h"
@@ -21,7 +20,6 @@
 namespace blocklift::pipeline {
 namespace {
 
-using structure::at;
 using ::testing::HasSubstr;
 
 struct ObliqueBlock {
@@ -130,7 +128,7 @@ TEST(ObliqueParts, WeighWhatTheyDoInAnAxisPlane) {
     EXPECT_LT((found.lifting_points[i].p_BPin - expected.lifting_points[i].p_BPin).norm(), 1e-12);
   // All of a row runs one way, so that flanges point one way.
   for (const structure::Beam& beam : found.beams)
-    EXPECT_GT((found.vertices[at(beam.vertices[1])] - found.vertices[at(beam.vertices[0])]).x(), 0);
+    EXPECT_GT((found.vertices[beam.vertices[1]] - found.vertices[beam.vertices[0]]).x(), 0);
 }
 
 // Stresses under the forces that are turned with the plate, on one mesh and on its turned image.

@@ -85,14 +85,14 @@ TEST(LiftChecks, SlingsMayLieSlackWhileTheLoadStands) {
   ASSERT_GT(hanging, 0);
   LiftRun run = lift.run;
   dynamics::History& history = run.dynamic_result.history;
-  history.ropes[static_cast<std::size_t>(run.model.ropes[0].rope)].tension[3] = 0;
+  history.ropes[run.model.ropes[0].rope].tension[3] = 0;
   EXPECT_EQ(slack(run), 0);
   history.supports.push_back({"pad", Eigen::VectorXd::Zero(history.sample_count())});
   EXPECT_EQ(slack(run), 0);
   history.supports.back().normal_force[3] = 1e3;
   EXPECT_EQ(slack(run), hanging);
   // A tackle may not, even then.
-  history.ropes[static_cast<std::size_t>(run.model.hoists[0].rope)].tension[3] = 0;
+  history.ropes[run.model.hoists[0].rope].tension[3] = 0;
   EXPECT_EQ(slack(run), 0);
 }
 

@@ -140,8 +140,7 @@ class SmallLiftPadeyes : public ::testing::Test {
   }
   static PadeyesAssessment assess() {
     const auto& lift = small_lift();
-    const BlockAttachment attachment =
-        attach_block(lift.system(), lift.run.model.load, lift.lugs());
+    const BlockAttachment attachment = attach_block(lift.run.model, lift.lugs());
     return assess_padeyes(lift.lift_case, responses(), attachment, lift.run.static_history,
                           lift.run.dynamic_history());
   }
@@ -192,7 +191,7 @@ TEST_F(SmallLiftPadeyes, FailTheLiftWhereTheyAreTooWeak) {
 TEST_F(SmallLiftPadeyes, PanelsAreTheWorstOfEverySample) {
   const auto& lift = small_lift();
   const structure::BlockPanels panels(*lift.model, responses().displacements(), {});
-  const BlockAttachment attachment = attach_block(lift.system(), lift.run.model.load, lift.lugs());
+  const BlockAttachment attachment = attach_block(lift.run.model, lift.lugs());
   const dynamics::History& history = lift.run.static_history;
   Eigen::MatrixXd factors(responses().count(), history.sample_count());
   std::vector<double> largest(panels.panels().size(), 0);

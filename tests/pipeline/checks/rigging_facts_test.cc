@@ -90,8 +90,7 @@ LiftRun run_below_spreader(LiftCase lift_case, double shift) {
 
 double tension_at_rest(const LiftRun& run, const std::string& name) {
   for (const LiftRope& rope : run.model.ropes)
-    if (rope.name == name)
-      return run.static_history.ropes[static_cast<std::size_t>(rope.rope)].tension[0];
+    if (rope.name == name) return run.static_history.ropes[rope.rope].tension[0];
   return 0;
 }
 

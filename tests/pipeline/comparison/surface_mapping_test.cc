@@ -139,7 +139,7 @@ TEST(TriangleTree, FindsWhatLookingAtEachTriangleFinds) {
     const Vector3d point = 12 * Vector3d::Random();
     std::array<double, 3> nearest{1e9, 1e9, 1e9};
     for (const TriangleTree::Triangle& triangle : triangles) {
-      double& least = nearest[static_cast<std::size_t>(triangle.plate)];
+      double& least = nearest[triangle.plate];
       least = std::min(least, nearest_on_triangle(point, triangle.corners).distance);
     }
     EXPECT_DOUBLE_EQ(tree.find_nearest(point).distance,

@@ -42,8 +42,7 @@ Eigen::VectorXd tensions(const BuiltLift& lift) {
   dynamics::calc_loads(lift.system, 0, nullptr, w);
   Eigen::VectorXd result(static_cast<Eigen::Index>(lift.ropes.size()));
   for (std::size_t i = 0; i < lift.ropes.size(); ++i)
-    result[static_cast<Eigen::Index>(i)] =
-        w.rope_loads[static_cast<std::size_t>(lift.ropes[i].rope)].tension;
+    result[i] = w.rope_loads[lift.ropes[i].rope].tension;
   return result;
 }
 
@@ -76,8 +75,7 @@ TEST(BlockFlexibility, ModesAtRestAreTheStaticCompliance) {
 TEST(BlockFlexibility, LoadsOnAFlexibleBlockBalance) {
   for (const Flexibility kind : {Flexibility::static_, Flexibility::modal}) {
     const LiftRun run = run_lift(lift_case(kind), build(kind), [](auto&&...) {});
-    const BlockAttachment attachment =
-        attach_block(run.model.system, run.model.load, test::small_lift().lugs());
+    const BlockAttachment attachment = attach_block(run.model, test::small_lift().lugs());
     const structure::StressRecovery recovery(responses());
     const BlockAssessment block =
         assess_block(responses(), recovery, attachment, run.static_history, run.dynamic_history());

@@ -60,7 +60,7 @@ dynamics::ForceVector sum_of(const structure::ShellRegions& shell, const Eigen::
                              const Pose& X_WB) {
   dynamics::ForceVector sum = dynamics::ForceVector::zero();
   for (std::size_t r = 0; r < shell.regions().size(); ++r) {
-    const auto w = wrenches.segment<6>(static_cast<Eigen::Index>(6 * r));
+    const auto w = wrenches.segment<6>(6 * r);
     sum.force += X_WB.R * Vector3(w.head<3>());
     sum.moment +=
         X_WB.R * (Vector3(w.tail<3>()) + shell.regions()[r].centre_B.cross(Vector3(w.head<3>())));
@@ -102,8 +102,8 @@ TEST(ShellPressure, OuterPlatesAloneMakeTheShell) {
   EXPECT_EQ(shell.regions().size(), 4u + 4u * 4u + 4u);  // bands begin at the planes through Bo
   for (const structure::ShellRegion& region : shell.regions())
     EXPECT_GT(region.centre_B.dot(region.outward_B), 1.99) << region.centre_B.transpose();
-  const auto& below = shell.regions()[static_cast<std::size_t>(
-      shell.nearest(Vector3(2, 2.9, -2.5), Vector3(0, 0.3, -0.95).normalized()))];
+  const auto& below =
+      shell.regions()[shell.nearest(Vector3(2, 2.9, -2.5), Vector3(0, 0.3, -0.95).normalized())];
   EXPECT_LT((below.outward_B - Vector3(0, 0, -1)).norm(), 1e-14);
   EXPECT_THROW(structure::ShellRegions(model, 0), structure::ModelError);
 }

@@ -213,8 +213,7 @@ TEST(HydrodynamicSeries, BringsRetardationFunctionsToOneStep) {
   coarse.time_step = 0.2;
   coarse.retardation.resize(20);
   for (int n = 0; n < 20; ++n) {
-    coarse.retardation[static_cast<std::size_t>(n)] =
-        fine.retardation[static_cast<std::size_t>(2 * n)];
+    coarse.retardation[n] = fine.retardation[2 * n];
   }
   const auto series = dynamics::make_series(0, {1.0, 2.0}, {fine, coarse});
   ASSERT_EQ(series.databases[1].retardation.size(), 40U);

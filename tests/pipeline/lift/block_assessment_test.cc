@@ -31,8 +31,7 @@ class SmallLiftBlock : public ::testing::Test {
   static BlockAssessment assess(const dynamics::History& static_history,
                                 const dynamics::History& dynamic_history) {
     const SmallLift& lift = small_lift();
-    return assess_block(*responses_, *recovery_,
-                        attach_block(lift.system(), lift.run.model.load, lift.lugs()),
+    return assess_block(*responses_, *recovery_, attach_block(lift.run.model, lift.lugs()),
                         static_history, dynamic_history);
   }
 

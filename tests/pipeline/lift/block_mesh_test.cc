@@ -11,7 +11,6 @@
 #include "pipeline/checks/padeye_assessment.h"
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/lift/block_preparation.h"
-#include "structure/index.h"
 #include "structure/mesh/files/nastran/writer.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "tests/pipeline/lug_stresses.h"
@@ -22,7 +21,6 @@ namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using structure::at;
 using testing::HasSubstr;
 using testing::Not;
 

@@ -21,8 +21,7 @@ class SmallLiftHistory : public ::testing::Test {
     const SmallLift& lift = small_lift();
     responses_ = new structure::UnitResponses(*lift.model);
     recovery_ = new structure::StressRecovery(*responses_);
-    attachment_ =
-        new BlockAttachment(attach_block(lift.system(), lift.run.model.load, lift.lugs()));
+    attachment_ = new BlockAttachment(attach_block(lift.run.model, lift.lugs()));
     block_ = new BlockAssessment(assess_block(*responses_, *recovery_, *attachment_,
                                               lift.run.static_history, lift.run.dynamic_history()));
   }

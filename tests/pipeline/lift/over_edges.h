@@ -24,7 +24,7 @@ struct OverEdges {
         nothing));
   }
   const dynamics::RopeHistory& rope(const dynamics::History& history, std::size_t place) const {
-    return history.ropes[static_cast<std::size_t>(run->model.ropes[place].rope)];
+    return history.ropes[run->model.ropes[place].rope];
   }
 
   static void nothing(const std::string&, double, const std::string&) {}

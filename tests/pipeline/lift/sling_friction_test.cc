@@ -68,8 +68,7 @@ TEST(SlingWithFriction, LoadsHaveTheForceOfTheDynamics) {
     const dynamics::History& history = lift.run->dynamic_history();
     const EdgeBasis basis =
         *find_edge_basis(*lift.model, lift.run->model, lift.run->static_history, history);
-    BlockAttachment attachment = attach_block(lift.run->model.system, lift.run->model.load,
-                                              lift.model->mesh().lifting_points);
+    BlockAttachment attachment = attach_block(lift.run->model, lift.model->mesh().lifting_points);
     attachment.added_resultants = basis.resultants;
     attachment.added_ropes = basis.ropes;
     const BlockHistory in_motion(history, basis.dynamic_factors);

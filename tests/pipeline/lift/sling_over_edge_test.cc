@@ -193,8 +193,7 @@ struct Loads {
   explicit Loads(const OverEdges& lift)
       : basis(*find_edge_basis(*lift.model, lift.run->model, lift.run->static_history,
                                lift.run->dynamic_history())),
-        attachment(attach_block(lift.run->model.system, lift.run->model.load,
-                                lift.model->mesh().lifting_points)),
+        attachment(attach_block(lift.run->model, lift.model->mesh().lifting_points)),
         in_motion(lift.run->dynamic_history(), basis.dynamic_factors) {
     attachment.added_resultants = basis.resultants;
     attachment.added_ropes = basis.ropes;

@@ -21,7 +21,7 @@ WeighingInstant hung(double angle, double error) {
   instant.R_WB = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
   Eigen::Matrix3d balance;
   for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector3d lug = instant.R_WB * lugs[static_cast<std::size_t>(k)];
+    const Eigen::Vector3d lug = instant.R_WB * lugs[k];
     balance.col(k) << 1, lug.y(), -lug.x();
   }
   const Eigen::Vector3d r = instant.R_WB * centre;
@@ -30,7 +30,7 @@ WeighingInstant hung(double angle, double error) {
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d force(0, 0, tension[k] + error);
     instant.force_W.push_back(force);
-    instant.moment_W.emplace_back((instant.R_WB * lugs[static_cast<std::size_t>(k)]).cross(force));
+    instant.moment_W.emplace_back((instant.R_WB * lugs[k]).cross(force));
   }
   return instant;
 }

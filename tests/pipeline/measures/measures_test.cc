@@ -169,7 +169,7 @@ TEST(SupportLoads, InMotionObeyNewton) {
   for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample) {
     double due = 0;
     for (dynamics::BodyIndex body = 1; body < mechanism.body_count(); ++body) {
-      const dynamics::BodyHistory& motion = history.bodies[static_cast<std::size_t>(body - 1)];
+      const dynamics::BodyHistory& motion = history.bodies[body - 1];
       const dynamics::RigidBodyInertia& inertia = mechanism.body(body).inertia;
       const Vector3 c = motion.X_WB(sample).R * inertia.p_BoBcm;
       const dynamics::MotionVector A = motion.A_WB(sample), V = motion.V_WB(sample);
@@ -192,8 +192,7 @@ TEST(HookMeasures, RadiusLeadsAndChart) {
   EXPECT_NEAR(radius.at_rest[last], std::hypot(2, 7), 2e-3);
   const LiftMeasure& share = lift.measure("C1.left: share of the chart");
   const LiftRun& run = lift.run;
-  const Eigen::VectorXd& tension =
-      run.static_history.ropes[static_cast<std::size_t>(run.model.hoists[0].rope)].tension;
+  const Eigen::VectorXd& tension = run.static_history.ropes[run.model.hoists[0].rope].tension;
   EXPECT_NEAR(share.at_rest[0], tension[0] / (8e3 * 9.80665), 1e-12);
   // The hook ends at 7.28 m, beyond the chart.
   EXPECT_TRUE(std::isinf(share.at_rest[last]));
@@ -241,7 +240,7 @@ TEST(RopeWeight, IsInWhatHooksAndCraneBear) {
       watch("{smallest_tension: 1 kN}", "", "rope_weight: true\n", "mass: 50 kg/m\n");
   const auto& ropes = lift.run.static_history.ropes;
   const auto& hoists = lift.run.model.hoists;
-  const auto tension = [&](int rope) { return ropes[static_cast<std::size_t>(rope)].tension[0]; };
+  const auto tension = [&](int rope) { return ropes[rope].tension[0]; };
   const double left = (5500 + 50 * (2 + 5)) * g, right = (5500 + 50 * 2) * g;
   // The load is tilted by a milliradian, which moves its centre by half a millimetre of 4 m.
   EXPECT_NEAR(tension(hoists[0].rope), left, 5e-4 * left);
@@ -250,8 +249,8 @@ TEST(RopeWeight, IsInWhatHooksAndCraneBear) {
               1e-5 * (left + right));
   double on_lugs = 0, on_hooks = 0;
   for (const LiftRope& sling : lift.run.model.ropes) {
-    on_lugs += ropes[static_cast<std::size_t>(sling.rope)].last_force(0, 2);
-    on_hooks -= ropes[static_cast<std::size_t>(sling.rope)].first_force(0, 2);
+    on_lugs += ropes[sling.rope].last_force(0, 2);
+    on_hooks -= ropes[sling.rope].first_force(0, 2);
   }
   EXPECT_NEAR(on_lugs, 10e3 * g, 1e-6 * 10e3 * g);
   EXPECT_NEAR(on_hooks, (10e3 + 2 * 2 * 50) * g, 1e-6 * 10e3 * g);
@@ -310,7 +309,7 @@ TEST(SlingEnds, OfASlingFromLugToLugBothCount) {
   EXPECT_TRUE(std::isfinite(lift.measure("load: righting height").at_rest[0]));
 
   const auto place = [&](dynamics::BodyIndex body, const Vector3& p_B) {
-    return history.bodies[static_cast<std::size_t>(body - 1)].X_WB(0).apply(p_B);
+    return history.bodies[body - 1].X_WB(0).apply(p_B);
   };
   const auto hook = lift.run.model.system.mechanism().body_index("C1.left");
   double least = 4;
@@ -354,8 +353,7 @@ TEST(StageLoads, HoldTheWholeLiftsMaxima) {
   EXPECT_EQ(stages[1].end, run.simulated_s());
   const dynamics::History& history = run.dynamic_history();
   for (std::size_t i = 0; i < run.model.ropes.size(); ++i) {
-    const double most =
-        history.ropes[static_cast<std::size_t>(run.model.ropes[i].rope)].tension.maxCoeff();
+    const double most = history.ropes[run.model.ropes[i].rope].tension.maxCoeff();
     EXPECT_EQ(std::max(stages[0].ropes[i].in_motion, stages[1].ropes[i].in_motion), most);
     for (const StageLoads& stage : stages) {
       EXPECT_GE(stage.ropes[i].time_in_motion, stage.start - 1e-6);
@@ -507,8 +505,7 @@ TEST(Derating, DividesTheShareOfTheChartAndIsNamedByTheCheck) {
       watch("{crane_capacity: true}", table, "wind: {speed: 8 m/s, towards: 60 deg}\n");
   const LiftMeasure& share = lift.measure("C1.left: share of the chart");
   const LiftRun& run = lift.run;
-  const Eigen::VectorXd& tension =
-      run.static_history.ropes[static_cast<std::size_t>(run.model.hoists[0].rope)].tension;
+  const Eigen::VectorXd& tension = run.static_history.ropes[run.model.hoists[0].rope].tension;
   EXPECT_NEAR(share.at_rest[0], tension[0] / (0.8 * 8e3 * 9.80665), 1e-12);
   EXPECT_THAT(share.meaning, HasSubstr("maker's table 4"));
   bool named = false;

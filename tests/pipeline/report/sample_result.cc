@@ -18,7 +18,7 @@ using layout::join;
 void write_history(ResultsWriter& writer, std::string_view history, double step) {
   const std::size_t count = static_cast<std::size_t>(std::lround(100.0 / step)) + 1;
   std::vector<double> time(count);
-  RowMajorMatrix pose = RowMajorMatrix::Zero(static_cast<Eigen::Index>(count), 7);
+  RowMajorMatrix pose = RowMajorMatrix::Zero(count, 7);
   for (std::size_t i = 0; i < count; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     time[i] = step * static_cast<double>(i);
@@ -31,7 +31,7 @@ void write_history(ResultsWriter& writer, std::string_view history, double step)
     for (std::size_t i = 0; i < count; ++i)
       tension[i] = 5e5 + (history == layout::dynamic_history ? 2e4 * std::sin(3.0 * time[i]) : 0.0);
     if (history == layout::dynamic_history && rope == "R1")
-      tension[static_cast<std::size_t>(std::lround(43.21 / step))] = 987654.0;
+      tension[std::lround(43.21 / step)] = 987654.0;
     writer.write(join(history, "ropes", rope, "tension"), tension, {"N", "tension of " + rope});
   }
   writer.write(join(history, "hoists", "H1", "tension"), std::vector<double>(count, 1e6),

@@ -111,11 +111,10 @@ TEST(RiggingBalance, HangsOnADiagonalWhereTheOtherIsSlack) {
 TEST(RiggingBalance, BearsAMomentByStatics) {
   std::vector<RiggingRope> ropes(2);
   for (const int i : {0, 1}) {
-    ropes[static_cast<std::size_t>(i)].lower = {
-        RiggingEnd::Kind::load, -1, {i == 0 ? -5.0 : 5.0, 0, 0}};
-    ropes[static_cast<std::size_t>(i)].tension = weight / 2;
-    ropes[static_cast<std::size_t>(i)].length = 20;
-    ropes[static_cast<std::size_t>(i)].compliance = 1e-7;
+    ropes[i].lower = {RiggingEnd::Kind::load, -1, {i == 0 ? -5.0 : 5.0, 0, 0}};
+    ropes[i].tension = weight / 2;
+    ropes[i].length = 20;
+    ropes[i].compliance = 1e-7;
   }
   const VectorXd tension = RiggingBalance(ropes, 0).with_moment({0, 1e5, 0});
   EXPECT_NEAR(tension[0], weight / 2 - 1e4, 1e-6);
@@ -167,7 +166,7 @@ TEST(RiggingBalance, SkewsFourSlingsBelowAFrameByThemselves) {
     if (rope.lower.kind == RiggingEnd::Kind::bar) rope.lower.index = 0;
   }
   for (int i = 0; i < 4; ++i) {
-    const Vector3d& r = above.ropes[static_cast<std::size_t>(i)].lower.r_W;
+    const Vector3d& r = above.ropes[i].lower.r_W;
     RiggingRope& rope =
         ropes.emplace_back(plumb({RiggingEnd::Kind::load, -1, {r.x(), r.y(), 1}},
                                  {RiggingEnd::Kind::bar, 0, {r.x(), r.y(), 0}}, weight / 4));

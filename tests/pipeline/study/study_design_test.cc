@@ -54,8 +54,7 @@ TEST(StudyDesign, LatinHypercubeHasOneMemberInEachStratum) {
     std::vector<double> values(design.col(v).begin(), design.col(v).end());
     std::sort(values.begin(), values.end());
     for (int stratum = 0; stratum < 50; ++stratum)
-      EXPECT_EQ(static_cast<int>(std::floor(values[static_cast<std::size_t>(stratum)])),
-                stratum + (v == 0 ? 0 : 100));
+      EXPECT_EQ(static_cast<int>(std::floor(values[stratum])), stratum + (v == 0 ? 0 : 100));
   }
 }
 
@@ -201,8 +200,7 @@ TEST(StudyDesign, KeepsTheStrataOfACorrelatedLatinHypercube) {
   std::vector<double> values(design.col(1).begin(), design.col(1).end());
   std::sort(values.begin(), values.end());
   for (int stratum = 0; stratum < 50; ++stratum)
-    EXPECT_EQ(static_cast<int>(std::floor(50 * values[static_cast<std::size_t>(stratum)])),
-              stratum);
+    EXPECT_EQ(static_cast<int>(std::floor(50 * values[stratum])), stratum);
 }
 
 constexpr StudyDesign joined_designs[] = {StudyDesign::random, StudyDesign::low_discrepancy,
@@ -317,8 +315,7 @@ TEST(StudyDesign, JoinsPairsBesideValuesThatNormalCopulasJoin) {
   std::vector<double> values(design.col(3).begin(), design.col(3).end());
   std::sort(values.begin(), values.end());
   for (int stratum = 0; stratum < 2000; ++stratum)
-    EXPECT_EQ(static_cast<int>(std::floor(2000 * values[static_cast<std::size_t>(stratum)])),
-              stratum);
+    EXPECT_EQ(static_cast<int>(std::floor(2000 * values[stratum])), stratum);
 }
 
 }  // namespace

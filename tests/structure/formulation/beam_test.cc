@@ -8,7 +8,6 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/response/beam_stress.h"
 
 namespace blocklift::structure {
@@ -82,8 +81,8 @@ TEST(Beam, TaperedBar) {
       mesh.beam_sections.push_back(section);
     }
     for (int b = 0; b < cells; ++b) {
-      mesh.beams[at(b)].section = b;
-      mesh.beams[at(b)].end_section = b + 1;
+      mesh.beams[b].section = b;
+      mesh.beams[b].end_section = b + 1;
     }
     const Space space(mesh, {3, {}});
     std::vector<FixedUnknown> fixed;

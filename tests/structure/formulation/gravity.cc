@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "pipeline/verification/models/shells/shell_models.h"
-#include "structure/index.h"
 #include "structure/system/assembly.h"
 #include "structure/system/linear_solver.h"
 #include "structure/system/matter.h"

@@ -7,7 +7,6 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/formulation/shell.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 namespace {

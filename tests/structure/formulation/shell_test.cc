@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
-#include "structure/index.h"
 
 namespace blocklift::structure {
 namespace {
@@ -105,7 +104,7 @@ Errors errors_of(const Space& space, const Eigen::VectorXd& motion,
   for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
     strains.reinit(cell);
     for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-      const ShellPoint& point = strains.points()[at(q)];
+      const ShellPoint& point = strains.points()[q];
       const Eigen::VectorXd values = space.shell_values(rule.col(q).head<2>());
       Vector3 u = Vector3::Zero();
       for (int i = 0; i < space.nodes_per_shell(); ++i)

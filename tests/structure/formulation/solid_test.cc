@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/solid_shape.h"
@@ -86,17 +85,17 @@ Mesh box(const std::array<SolidShape, 2>& shapes, const Vector3& size,
                                  vertex(i + 1, j, k + 1),
                                  vertex(i + 1, j + 1, k + 1),
                                  vertex(i, j + 1, k + 1)};
-        const SolidShape shape = shapes[at((i + j + k) % 2)];
+        const SolidShape shape = shapes[(i + j + k) % 2];
         if (shape == SolidShape::pyramid) {
           Vector3 middle = Vector3::Zero();
-          for (const int corner : corners) middle += mesh.vertices[at(corner)] / 8;
+          for (const int corner : corners) middle += mesh.vertices[corner] / 8;
           corners.push_back(static_cast<int>(mesh.vertices.size()));
           mesh.vertices.push_back(middle);
         }
         for (const std::vector<int>& part : parts_of(shape)) {
           Solid solid;
           solid.shape = shape;
-          for (const int corner : part) solid.vertices.push_back(corners[at(corner)]);
+          for (const int corner : part) solid.vertices.push_back(corners[corner]);
           complete_solid(mesh, solid, middles);
           mesh.solids.push_back(std::move(solid));
         }
@@ -252,7 +251,7 @@ TEST(Solids, TurnsWhatIsInsideOut) {
     for (Solid& solid : mesh.solids) {
       const std::vector<int> given = solid.vertices;
       for (std::size_t i = 0; i < given.size(); ++i)
-        solid.vertices[i] = given[at(topology_of(shape).mirrored[i])];
+        solid.vertices[i] = given[topology_of(shape).mirrored[i]];
       EXPECT_LT(least_jacobian_ratio(mesh, solid), 0);
     }
     EXPECT_THROW(check_mesh(mesh), ModelError);

@@ -14,7 +14,6 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/files/nastran/writer.h"
@@ -37,7 +36,7 @@ LoadCase pull(const ElasticModel& model) {
     const Vector3 force = 1e3 * Vector3(1 + lug, lug % 2 == 0 ? 4 : -5, 20 + lug);
     load.lug_forces_B.push_back(force);
     sum.force += force;
-    sum.moment += model.mesh().lifting_points[at(lug)].p_BPin.cross(force);
+    sum.moment += model.mesh().lifting_points[lug].p_BPin.cross(force);
   }
   load.field = balancing_field(model.mass_properties(), sum);
   return load;
@@ -121,7 +120,7 @@ TEST(LoadCaseDeck, SixComponentsAreHeld) {
       displacement_against(supports, model, responses.displacement(load));
   for (const Support& support : supports)
     for (int axis = 0; axis < 3; ++axis) {
-      EXPECT_NEAR(support.held[at(axis)] ? moved(axis, support.vertex) : 0, 0, 1e-12);
+      EXPECT_NEAR(support.held[axis] ? moved(axis, support.vertex) : 0, 0, 1e-12);
     }
 }
 
@@ -207,8 +206,7 @@ Difference compare(const UnitResponses& responses, const LoadCase& load) {
     for (const PointLoad& point : deck.load_sets.at(0).point_loads)
       if (point.vertex == support.vertex) reaction -= point.force;
     for (int axis = 0; axis < 3; ++axis)
-      if (support.held[at(axis)])
-        result.reaction = std::max(result.reaction, std::abs(reaction[axis]));
+      if (support.held[axis]) result.reaction = std::max(result.reaction, std::abs(reaction[axis]));
   }
   result.reaction /= sum_of_forces(deck.load_sets.at(0));
   return result;

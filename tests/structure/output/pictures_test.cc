@@ -92,10 +92,8 @@ TEST_F(SmallBlock, SurfaceCoversPlatesAndBeams) {
   ASSERT_EQ(surface.quad_groups().size(), surface.quads().size());
   std::map<std::string, double> area;
   for (std::size_t q = 0; q < surface.quads().size(); ++q) {
-    const auto x = [&](std::size_t i) {
-      return surface.points()[static_cast<std::size_t>(surface.quads()[q][i])];
-    };
-    area[surface.group_names()[static_cast<std::size_t>(surface.quad_groups()[q])]] +=
+    const auto x = [&](std::size_t i) { return surface.points()[surface.quads()[q][i]]; };
+    area[surface.group_names()[surface.quad_groups()[q]]] +=
         0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
   }
   EXPECT_NEAR(area["bottom"], 4 * 3, 1e-9);
@@ -105,9 +103,9 @@ TEST_F(SmallBlock, SurfaceCoversPlatesAndBeams) {
   EXPECT_NEAR(area["L1"], 0.8 * 0.4, 1e-9);
   double bars = 0;
   for (const Beam& beam : model_->mesh().beams)
-    bars += 0.1 * (model_->mesh().vertices[static_cast<std::size_t>(beam.vertices[1])] -
-                   model_->mesh().vertices[static_cast<std::size_t>(beam.vertices[0])])
-                      .norm();
+    bars += 0.1 *
+            (model_->mesh().vertices[beam.vertices[1]] - model_->mesh().vertices[beam.vertices[0]])
+                .norm();
   EXPECT_NEAR(area["bars"], bars, 1e-9);
   EXPECT_EQ(beam_quads(surface), 3 * static_cast<int>(model_->mesh().beams.size()));
   // Cubic cells in threes, where the points are not too many; points are shared within a plate.

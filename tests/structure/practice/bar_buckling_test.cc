@@ -46,7 +46,7 @@ Mesh bar_between_lugs(const Profile& profile, double length) {
     }
   for (const int vertex : {0, 4})
     mesh.lifting_points.push_back({.name = "L" + std::to_string(vertex),
-                                   .p_BPin = mesh.vertices[static_cast<std::size_t>(vertex)],
+                                   .p_BPin = mesh.vertices[vertex],
                                    .radius = 0.1,
                                    .vertex = vertex});
   return mesh;
@@ -275,8 +275,7 @@ TEST(BarBuckling, DeepBeamsHoldStiffeners) {
     for (const Shell& shell : mesh.shells)
       for (const int from : shell.vertices)
         for (const int to : shell.vertices) {
-          const Vector3 &a = mesh.vertices[static_cast<std::size_t>(from)],
-                        &b = mesh.vertices[static_cast<std::size_t>(to)];
+          const Vector3 &a = mesh.vertices[from], &b = mesh.vertices[to];
           if (std::abs(a.x() - 1) < 1e-9 && std::abs(b.x() - 1) < 1e-9 && a.y() < b.y() - 1e-9)
             edges.insert({from, to});
         }

@@ -175,7 +175,7 @@ TEST(BlockPanels, BeamsDivideAndHold) {
     for (const Shell& shell : mesh.shells)
       for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 1}, {2, 3}}) {
         const int from = shell.vertices[i], to = shell.vertices[j];
-        const Vector3& p = mesh.vertices[static_cast<std::size_t>(from)];
+        const Vector3& p = mesh.vertices[from];
         const bool is_there = std::any_of(mesh.beams.begin(), mesh.beams.end(), [&](const Beam& b) {
           return b.vertices == std::array<int, 2>{from, to};
         });
@@ -217,8 +217,7 @@ TEST(BlockPanels, AnArcHoldsTheSidesThatItFaces) {
     };
     std::array<std::array<int, rays + 1>, rings + 1> at{};
     for (int ring = 0; ring <= rings; ++ring)
-      for (int ray = 0; ray <= rays; ++ray)
-        at[static_cast<std::size_t>(ring)][static_cast<std::size_t>(ray)] = vertex(ring, ray, 0);
+      for (int ray = 0; ray <= rays; ++ray) at[ring][ray] = vertex(ring, ray, 0);
     for (std::size_t ring = 0; ring < rings; ++ring)
       for (std::size_t ray = 0; ray < rays; ++ray) {
         if (ring == 1 && ray == 3) continue;  // a hole

@@ -58,8 +58,7 @@ TEST(BeamStress, BendingAndStretchAreNaviers) {
   for (std::size_t p = 0; p < points.size(); ++p) {
     EXPECT_NEAR(std::abs(points[p].x()), height / 2, 1e-15);
     const double z = offset + points[p].x();
-    EXPECT_NEAR(found[static_cast<Eigen::Index>(p)], e * (stretch - curvature * z),
-                1e-8 * e * curvature);
+    EXPECT_NEAR(found[p], e * (stretch - curvature * z), 1e-8 * e * curvature);
   }
   EXPECT_NEAR(beam_stress_at_centroid(space, 0, 0.3, motion)[0], e * (stretch - curvature * offset),
               1e-8 * e * curvature);

@@ -105,7 +105,7 @@ Mesh deck_with_lug() {
   mesh.vertices.emplace_back(1, 0.5, 0.5);
   const auto vertex_at = [&](const Vector3& place) {
     for (int v = 0; v < first; ++v)
-      if ((mesh.vertices[static_cast<std::size_t>(v)] - place).norm() < 1e-9) return v;
+      if ((mesh.vertices[v] - place).norm() < 1e-9) return v;
     return -1;
   };
   mesh.shell_sections.push_back({0.05, 0, 0});
@@ -124,7 +124,7 @@ TEST(BlockField, WherePlatesMeetTheNormalTellsWhichIsMeant) {
   const int lug = static_cast<int>(model.mesh().shells.size()) - 1;
   const auto shell_at = [&](const Vector3& place, const Vector3& normal) {
     const SteelPlace found = finder.find(place, normal);
-    return found.cell < 0 ? -1 : model.space().shells()[static_cast<std::size_t>(found.cell)].shell;
+    return found.cell < 0 ? -1 : model.space().shells()[found.cell].shell;
   };
   const Vector3 foot(0.5, 0.52, 0);
   EXPECT_EQ(shell_at(foot, Vector3::UnitY()), lug);

@@ -106,7 +106,7 @@ TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
     int best = set;
     for (int point = set; point < 400; point += 3)
       if (each.von_mises.value[point] > each.von_mises.value[best]) best = point;
-    const LargestValue& found = sets.von_mises[static_cast<std::size_t>(set)];
+    const LargestValue& found = sets.von_mises[set];
     EXPECT_EQ(found.point, best);
     EXPECT_EQ(found.value, each.von_mises.value[best]);
     EXPECT_EQ(found.instant, each.von_mises.instant[best]);
@@ -155,8 +155,7 @@ TEST(Envelope, LargestOfRunsAreThoseOfTheirPoints) {
   largest[3] = 2 * each.value.maxCoeff();
   Eigen::VectorXd expected = largest;
   for (Eigen::Index run = 0; run < runs; ++run)
-    for (int point = begin[static_cast<std::size_t>(run)];
-         point < begin[static_cast<std::size_t>(run) + 1]; ++point)
+    for (int point = begin[run]; point < begin[static_cast<std::size_t>(run) + 1]; ++point)
       expected[run] = std::max(expected[run], each.value[point]);
   raise_von_mises(history, begin, responses, largest, 2);
   EXPECT_EQ(largest, expected);
@@ -206,14 +205,13 @@ TEST(BlockEnvelope, IsTheLargestOfAllInstants) {
                           19000 + 4000 * std::sin(0.9 * t + 2 * lug));
       load_case.lug_forces_B.push_back(force);
       pull.force += force;
-      pull.moment += model.mesh().lifting_points[static_cast<std::size_t>(lug)].p_BPin.cross(force);
+      pull.moment += model.mesh().lifting_points[lug].p_BPin.cross(force);
     }
     load_case.field = balancing_field(model.mass_properties(), pull);
     instants.push_back(load_case);
   }
   Eigen::MatrixXd factors(responses.count(), 40);
-  for (int t = 0; t < 40; ++t)
-    factors.col(t) = responses.coefficients(instants[static_cast<std::size_t>(t)]);
+  for (int t = 0; t < 40; ++t) factors.col(t) = responses.coefficients(instants[t]);
   const BlockEnvelope envelope = find_block_envelope(responses, recovery, factors);
 
   LoadCaseResult largest = recovery.evaluate(instants[0]);

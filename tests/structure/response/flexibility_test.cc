@@ -59,8 +59,7 @@ TEST_F(Flexibility, ComplianceIsThatOfBalancedLoadCases) {
   pull.lug_forces_B[1] = Vector3(1e3, -2e3, 5e3);
   pull.lug_forces_B[2] = Vector3(0, 1e3, 4e3);
   Eigen::VectorXd forces(3 * model_->lug_count());
-  for (std::size_t i = 0; i < lugs; ++i)
-    forces.segment<3>(static_cast<Eigen::Index>(3 * i)) = pull.lug_forces_B[i];
+  for (std::size_t i = 0; i < lugs; ++i) forces.segment<3>(3 * i) = pull.lug_forces_B[i];
   pull.field = balancing_field(model_->mass_properties(),
                                resultant(model_->space(), model_->lug_loads() * forces));
   const Eigen::VectorXd relative = responses_->without_rigid_motion(responses_->displacement(pull));

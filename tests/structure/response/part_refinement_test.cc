@@ -74,7 +74,7 @@ TEST_F(LShape, PlacesGetSmallerElementsAroundThem) {
   reading.element_size = 0.5;
   const PartModel model = read(reading);
   PartSolution none;
-  none.squared_error = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.mesh.solids.size()));
+  none.squared_error = Eigen::VectorXd::Zero(model.mesh.solids.size());
   const SizeField before = find_sizes(model, none, {});
   RefinementAim aim;
   aim.places = {Vector3(1, 1, 0.25)};

@@ -95,9 +95,7 @@ TEST_P(Kinds, PassThePatchTestWhenDistorted) {
   for (int n = 0; n < model.mesh.nodes.cols(); ++n) {
     const Vector3 x = model.mesh.nodes.col(n);
     exact.segment<3>(3 * n) = gradient * x + shift;
-    if (body[static_cast<std::size_t>(n)] >= 0 && x.minCoeff() > 1e-9 &&
-        (size - x).minCoeff() > 1e-9)
-      continue;
+    if (body[n] >= 0 && x.minCoeff() > 1e-9 && (size - x).minCoeff() > 1e-9) continue;
     for (int a = 0; a < 3; ++a) fixed.push_back({3 * n + a, exact[3 * n + a]});
   }
   const Eigen::VectorXd found =
@@ -206,8 +204,7 @@ TEST_P(Kinds, SharesOfProcessesMakeUpTheWhole) {
     for (int solid = 0; solid < static_cast<int>(share.model.mesh.solids.size()); ++solid) {
       const Eigen::MatrixXd own = part_element_stiffness(share.model, solid);
       const auto node = [&](int i) {
-        return static_cast<std::size_t>(
-            share.model.mesh.node(share.model.mesh.solids[static_cast<std::size_t>(solid)], i));
+        return static_cast<std::size_t>(share.model.mesh.node(share.model.mesh.solids[solid], i));
       };
       for (int i = 0; i < own.rows() / 3; ++i) {
         const int row = share.row_of_node[node(i)] - share.first_row;
@@ -218,7 +215,7 @@ TEST_P(Kinds, SharesOfProcessesMakeUpTheWhole) {
       }
     }
     for (int row = share.first_row; row < share.end_row; ++row) {
-      const int at = 3 * distribution.node_of_row()[static_cast<std::size_t>(row)];
+      const int at = 3 * distribution.node_of_row()[row];
       const int here = 3 * (row - share.first_row);
       EXPECT_LT((rows.middleRows<3>(here) - whole.middleRows<3>(at)).norm(), 1e-12 * whole.norm());
       EXPECT_EQ(share.load.segment<3>(here), load.segment<3>(at));
@@ -328,7 +325,7 @@ TEST(Part, ElementsThatHangOnAnEdgeAreNamed) {
   // The second element's face is taken off the first one's but for its lower edge, y along.
   PartMesh& mesh = model.mesh;
   const int moved = mesh.centre(mesh.solids[0]).x() > 1 ? mesh.solids[0] : mesh.solids[1];
-  const auto first = static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(moved)].first);
+  const auto first = static_cast<std::size_t>(mesh.elements[moved].first);
   for (int i = 0; i < 8; ++i) {
     const Vector3 x = mesh.nodes.col(mesh.node(moved, i));
     if (x.x() > 1.5 || x.z() < 0.5) continue;
@@ -349,8 +346,7 @@ TEST(Part, InvertedElementsAreNamed) {
   model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
   const int element = model.mesh.solids[3];
   auto& nodes = model.mesh.element_nodes;
-  const auto first =
-      static_cast<std::size_t>(model.mesh.elements[static_cast<std::size_t>(element)].first);
+  const auto first = static_cast<std::size_t>(model.mesh.elements[element].first);
   std::swap(nodes[first], nodes[first + 1]);
   EXPECT_THAT(error_of(model), ::testing::AllOf(HasSubstr("1 of 4"), HasSubstr("inverted"),
                                                 HasSubstr("Tetrahedron 10")));

@@ -28,7 +28,7 @@ LoadCase hanging_at_rest(const ElasticModel& model) {
   LoadCase load_case{"at rest", {}, {}};
   load_case.field.acceleration_less_gravity = Vector3(0, 0, gravity);
   const double share = model.mass_properties().mass * gravity / model.lug_count();
-  load_case.lug_forces_B.assign(static_cast<std::size_t>(model.lug_count()), {0, 0, share});
+  load_case.lug_forces_B.assign(model.lug_count(), {0, 0, share});
   return load_case;
 }
 
@@ -65,7 +65,7 @@ Mesh frame() {
   bar(2, 5, 1);
   for (const int vertex : {0, 2, 3, 5})
     mesh.lifting_points.push_back({.name = "L" + std::to_string(vertex),
-                                   .p_BPin = mesh.vertices[static_cast<std::size_t>(vertex)],
+                                   .p_BPin = mesh.vertices[vertex],
                                    .radius = 0.5,
                                    .vertex = vertex});
   return mesh;
@@ -114,8 +114,7 @@ TEST(BlocksWithoutPlates, MechanismsAreRefused) {
     Mesh turned = ladder;
     for (Vector3& place : turned.vertices)
       place = Eigen::AngleAxisd(tilt, Vector3(1, 2, 3).normalized()) * place;
-    for (LiftingPoint& lug : turned.lifting_points)
-      lug.p_BPin = turned.vertices[static_cast<std::size_t>(lug.vertex)];
+    for (LiftingPoint& lug : turned.lifting_points) lug.p_BPin = turned.vertices[lug.vertex];
     const ElasticModel model(std::move(turned), {.degree = 2, .largest_edge = {}}, {}, {});
     try {
       const UnitResponses responses(model);
@@ -188,8 +187,7 @@ TEST(BlocksWithoutPlates, EstimatedErrorOfSolidsFollowsTheTrueOne) {
   for (const int n : {1, 2, 4}) {
     Mesh mesh = slab(n);
     for (const int v : {0, 4 * n, 4 * n * (2 * n + 1)})
-      mesh.lifting_points.push_back(
-          {.name = "L", .p_BPin = mesh.vertices[static_cast<std::size_t>(v)], .vertex = v});
+      mesh.lifting_points.push_back({.name = "L", .p_BPin = mesh.vertices[v], .vertex = v});
     const ElasticModel model(std::move(mesh), {.degree = 2, .largest_edge = {}}, {}, {});
     const Space& space = model.space();
     Eigen::VectorXd motion = Eigen::VectorXd::Zero(model.freedoms());
@@ -200,7 +198,7 @@ TEST(BlocksWithoutPlates, EstimatedErrorOfSolidsFollowsTheTrueOne) {
     }
     double error = 0, norm = 0;
     for (int s = 0; s < static_cast<int>(model.mesh().solids.size()); ++s) {
-      const Solid& solid = model.mesh().solids[static_cast<std::size_t>(s)];
+      const Solid& solid = model.mesh().solids[s];
       const Eigen::VectorXd own = solid_stresses(space, s, motion);
       const auto points = solid_points(model.mesh(), solid);
       for (std::size_t q = 0; q < points.size(); ++q) {

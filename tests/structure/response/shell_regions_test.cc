@@ -52,17 +52,16 @@ TEST(ShellRegions, OuterPlatesOfATurnedBoxMakeTheShell) {
       const double side = outward[axis];
       const Vector3 half_size(2, 1, 0.5);
       EXPECT_NEAR(side * centre[axis], half_size[axis], 1e-9);  // not the bulkhead, nor the lug
-      areas[static_cast<std::size_t>(2 * axis + (side > 0 ? 1 : 0))] +=
-          area_of(model.space(), region.cells);
+      areas[2 * axis + (side > 0 ? 1 : 0)] += area_of(model.space(), region.cells);
     }
     for (std::size_t face = 0; face < 6; ++face)
       EXPECT_NEAR(areas[face], (std::array{2.0, 4.0, 8.0}[face / 2]), 1e-9) << face;
     // A place outside belongs to the face that it lies before and that looks its way.
-    const auto& above = shell.regions()[static_cast<std::size_t>(
-        shell.nearest(X * Vector3(1.9, 0.2, 0.7), X.linear() * Vector3(0.5, 0, 1).normalized()))];
+    const auto& above = shell.regions()[shell.nearest(
+        X * Vector3(1.9, 0.2, 0.7), X.linear() * Vector3(0.5, 0, 1).normalized())];
     EXPECT_NEAR((X.linear().transpose() * above.outward_B).z(), 1, 1e-9);
-    const auto& end = shell.regions()[static_cast<std::size_t>(
-        shell.nearest(X * Vector3(1.9, 0.2, 0.7), X.linear() * Vector3::UnitX()))];
+    const auto& end =
+        shell.regions()[shell.nearest(X * Vector3(1.9, 0.2, 0.7), X.linear() * Vector3::UnitX())];
     EXPECT_NEAR((X.linear().transpose() * end.outward_B).x(), 1, 1e-9);
   }
 }
@@ -78,8 +77,8 @@ TEST(ShellRegions, LoadsHaveTheWrenchesOfTheirRegions) {
     for (Eigen::Index r = 0; r < count; ++r) {
       const Vector3 force = wrenches.col(k).segment<3>(6 * r);
       expected.force += force;
-      expected.moment += wrenches.col(k).segment<3>(6 * r + 3) +
-                         shell.regions()[static_cast<std::size_t>(r)].centre_B.cross(force);
+      expected.moment +=
+          wrenches.col(k).segment<3>(6 * r + 3) + shell.regions()[r].centre_B.cross(force);
     }
     const Wrench found = resultant(model.space(), loads.col(k));
     EXPECT_LT((found.force - expected.force).norm(), 1e-10);

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
-#include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/system/matter.h"
 #include "tests/structure/mesh/files/deck_text.h"

@@ -26,7 +26,7 @@ struct Edge {
     if (reversed) std::reverse(trace.nodes.begin(), trace.nodes.end());
     if (reversed)
       for (std::size_t i = 0; i < trace.nodes.size(); ++i)
-        places[at(trace.nodes[i])] = begin + lagrange_places(degree)[i] * (end - begin);
+        places[trace.nodes[i]] = begin + lagrange_places(degree)[i] * (end - begin);
     traces.push_back(trace);
   }
   std::vector<NodeTie> ties() {
@@ -47,9 +47,9 @@ void expect_conforming(Edge& edge, int degree) {
     double value = 0;
     for (std::size_t i = 0; i < tie.masters.size(); ++i) {
       EXPECT_EQ(tied.count(tie.masters[i]), 0U) << "a master is tied";
-      value += tie.weights[i] * power(edge.places[at(tie.masters[i])], degree);
+      value += tie.weights[i] * power(edge.places[tie.masters[i]], degree);
     }
-    EXPECT_NEAR(value, power(edge.places[at(tie.node)], degree), 1e-13);
+    EXPECT_NEAR(value, power(edge.places[tie.node], degree), 1e-13);
   }
 }
 

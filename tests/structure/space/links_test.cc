@@ -8,7 +8,6 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/system/matter.h"
 
 namespace blocklift::structure {
@@ -24,10 +23,10 @@ struct Nodes {
 
   explicit Nodes(const std::vector<Vector3>& vertices) {
     mesh.vertices = vertices;
-    places.resize(3, static_cast<Eigen::Index>(vertices.size()));
+    places.resize(3, vertices.size());
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       node_of_vertex.push_back(static_cast<int>(v));
-      places.col(static_cast<Eigen::Index>(v)) = vertices[v];
+      places.col(v) = vertices[v];
     }
   }
   // Rows: the freedoms of a node in terms of all others'.
@@ -62,7 +61,7 @@ TEST(Links, DistributingLinkIsTheLeastSquaresMotion) {
   for (int i = 0; i < 4; ++i) {
     a.middleRows<3>(3 * i) << Eigen::Matrix3d::Identity(),
         -cross(nodes.places.col(i + 1) - nodes.places.col(0));
-    w.block<3, 3>(3 * i, 3 * i) = weights[at(i)] * Eigen::Matrix3d::Identity();
+    w.block<3, 3>(3 * i, 3 * i) = weights[i] * Eigen::Matrix3d::Identity();
   }
   const Eigen::MatrixXd expected = (a.transpose() * w * a).inverse() * a.transpose() * w;
   const Eigen::MatrixXd rows = nodes.rows_of(0);
@@ -194,7 +193,7 @@ TEST(Links, LinksFollowOneAnother) {
   const auto of = [&](int vertex) -> Motion6 {
     return motion.segment<6>(6 * space.node_of_vertex(vertex));
   };
-  const Vector3 arm = mesh.vertices[at(tip)] - mesh.vertices[at(hub)];
+  const Vector3 arm = mesh.vertices[tip] - mesh.vertices[hub];
   EXPECT_LT((of(tip).head<3>() - of(hub).head<3>() - Vector3(of(hub).tail<3>()).cross(arm)).norm(),
             1e-12 * motion.norm());
   EXPECT_GT(of(tip).head<3>().norm(), 0);

@@ -9,7 +9,6 @@
 
 #include "structure/error.h"
 #include "structure/formulation/shell.h"
-#include "structure/index.h"
 #include "structure/mesh/laminate.h"
 #include "structure/mesh/lug_on_mesh.h"
 #include "structure/response/elastic_model.h"
@@ -69,10 +68,10 @@ TEST(DeckParts, LinksAlongAxesOfTheirOwn) {
     const Vector3 moved = motion.head<3>() + turned.cross(places[1] - places[0]);
     for (int c = 0; c < 3; ++c) {
       const Vector3 axis = some_axes().col(c);
-      if (bound[at(c)]) {
+      if (bound[c]) {
         EXPECT_NEAR(axis.dot(motion.segment<3>(6) - moved), 0, 1e-14);
       }
-      if (bound[at(c + 3)]) {
+      if (bound[c + 3]) {
         EXPECT_NEAR(axis.dot(motion.segment<3>(9) - turned), 0, 1e-14);
       }
     }
@@ -124,8 +123,7 @@ TEST(DeckParts, VerticesBetweenCornersFollowTheirShell) {
     }
     const Eigen::VectorXd motion = space.expand(unknowns);
     for (const int vertex : {6, 7})
-      EXPECT_NEAR(motion[6 * space.node_of_vertex(vertex) + 2], field(mesh.vertices[at(vertex)]),
-                  1e-12)
+      EXPECT_NEAR(motion[6 * space.node_of_vertex(vertex) + 2], field(mesh.vertices[vertex]), 1e-12)
           << "degree " << degree;
   }
 }
@@ -178,8 +176,7 @@ TEST(DeckParts, LugsAreCarriedByWhatIsThere) {
       const Wrench sum = resultant(model.space(), model.lug_loads().col(3 * lug + axis));
       const Vector3 force = Vector3::Unit(axis);
       EXPECT_LT((sum.force - force).norm(), 1e-9);
-      EXPECT_LT((sum.moment - points[at(lug)].p_BPin.cross(force)).norm(), 1e-9)
-          << points[at(lug)].name;
+      EXPECT_LT((sum.moment - points[lug].p_BPin.cross(force)).norm(), 1e-9) << points[lug].name;
     }
   EXPECT_THROW(add_lug(mesh, {.name = "far", .pin = Vector3(0, 0, 5)}), ModelError);
   EXPECT_THROW(add_lug(mesh, {.name = "far", .pin = Vector3(0, 0, 5), .radius = 2}), ModelError);

@@ -36,7 +36,7 @@ Eigen::MatrixXd by_multipliers(const Eigen::MatrixXd& stiffness, const std::vect
   matrix.topLeftCorner(size, size) = stiffness;
   right.topRows(size) = loads;
   for (Eigen::Index i = 0; i < count; ++i) {
-    const HeldSum& sum = sums[static_cast<std::size_t>(i)];
+    const HeldSum& sum = sums[i];
     for (const auto& [unknown, coefficient] : sum.coefficients)
       matrix(size + i, unknown) = matrix(unknown, size + i) = coefficient;
     right.row(size + i).setConstant(sum.value);

@@ -145,13 +145,13 @@ void add_beams(Mesh& mesh, const Vector3& a, const Vector3& b, int section, cons
 void hold_at(const Space& space, const Selects& selects, const Motion& motion,
              const std::vector<int>& components, std::vector<FixedUnknown>& fixed) {
   std::vector<char> held(at(space.unknowns()), 0);
-  for (const FixedUnknown& known : fixed) held[at(known.unknown)] = 1;
+  for (const FixedUnknown& known : fixed) held[known.unknown] = 1;
   for (int node = 0; node < space.node_count(); ++node) {
     if (!selects(space.nodes().col(node))) continue;
     const Eigen::Matrix<double, 6, 1> wanted = motion(space.nodes().col(node));
     for (const int c : components) {
       const Space::Term *begin = space.begin_of(6 * node + c), *end = space.end_of(6 * node + c);
-      if (end - begin == 1 && begin->weight == 1 && held[at(begin->unknown)]++ == 0)
+      if (end - begin == 1 && begin->weight == 1 && held[begin->unknown]++ == 0)
         fixed.push_back({begin->unknown, wanted[c]});
     }
   }
@@ -177,7 +177,7 @@ Eigen::VectorXd solve(const Space& space, const Eigen::VectorXd& load,
 Eigen::VectorXd area_load(const Space& space, const ForceField& force_per_area) {
   Eigen::MatrixXd load = Eigen::MatrixXd::Zero(space.freedoms(), 1);
   for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
-    const Shell& shell = space.mesh().shells[at(space.shells()[at(cell)].shell)];
+    const Shell& shell = space.mesh().shells[space.shells()[cell].shell];
     const double thickness = space.mesh().section_of(shell).thickness;
     for_each_shell_point(space, {cell}, [&](const MatterPoint& p) {
       const Eigen::Matrix<double, 3, 1> force =
@@ -277,7 +277,7 @@ Eigen::Matrix3d shell_stress(const Space& space, int cell, const Eigen::Vector2d
   const ShellPoint& point = strains.points().front();
   const Eigen::Matrix<double, shell_strains, 1> strain =
       point.strain * motion_of_cell(space, cell, motion);
-  const Shell& shell = space.mesh().shells[at(space.shells()[at(cell)].shell)];
+  const Shell& shell = space.mesh().shells[space.shells()[cell].shell];
   const Eigen::Matrix3d plane =
       shell_stiffness_law(space.mesh().material_of(shell), 1).block<3, 3>(0, 0);
   const Vector3 s = plane * (strain.segment<3>(membrane_11) + z * strain.segment<3>(curvature_11));

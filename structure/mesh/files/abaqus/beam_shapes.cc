@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/plausibility.h"
 
 namespace blocklift::structure {
@@ -249,7 +248,7 @@ class BeamShapeReader {
 
   void read_details(const SectionBlocks& blocks, BeamShape& beam, double shear = 0) {
     BeamSection& section = beam.profile.section;
-    if (shear == 0) shear = mesh_.materials[at(beam.material)].shear_modulus();
+    if (shear == 0) shear = mesh_.materials[beam.material].shear_modulus();
     for (const AbaqusBlock* detail : blocks.details) {
       model_.guarded(*detail, [&] {
         if (detail->data.empty()) throw CardError{"a line of data is missing"};

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/abaqus/generation.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/label_range.h"
@@ -121,7 +120,7 @@ class Cells {
   }
 
  private:
-  AbaqusScope& scope() { return model_.scopes[at(scope_)]; }
+  AbaqusScope& scope() { return model_.scopes[scope_]; }
 
   void divide(const std::vector<AbaqusBlock>& blocks) {
     std::map<std::string, std::vector<const AbaqusBlock*>> parts;
@@ -238,10 +237,10 @@ class Cells {
     const MadeElements made = make_elements(model_, scope(), block);
     if (!made.set.empty()) keep(scope().element_sets[made.set], made.others);
     for (const MadeElement& one : made.elements) {
-      AbaqusDeckElement element = model_.elements[at(one.like)];
+      AbaqusDeckElement element = model_.elements[one.like];
       element.label = one.label;
       for (int& node : element.nodes) {
-        const long label = labels_[at(node)] + one.shift_of_nodes;
+        const long label = labels_[node] + one.shift_of_nodes;
         const auto found = scope().nodes.find(label);
         if (found == scope().nodes.end())
           throw CardError{
@@ -423,7 +422,7 @@ class Cells {
     std::vector<int> set;
     if (block.has("ELSET"))
       for (const int element : model_.elements_of(from, block.value("ELSET")))
-        for (const int node : model_.elements[at(element)].nodes) set.push_back(node);
+        for (const int node : model_.elements[element].nodes) set.push_back(node);
     fill(block, set, from.nodes,
          [&](std::string_view text) { return model_.nodes_of(from, text); });
     keep(scope().node_sets[block.required("NSET")], set);

@@ -8,8 +8,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {
@@ -85,7 +83,7 @@ class NodeMaker {
       throw CardError{fmt::format("LINE = {} is not known; C and straight lines are", line)};
     if (fields.size() < 2) throw CardError{"two nodes are due"};
     const int first = model_.node_of(scope_, fields[0]), last = model_.node_of(scope_, fields[1]);
-    const long from = labels_[at(first)], to = labels_[at(last)];
+    const long from = labels_[first], to = labels_[last];
     const long step = whole(fields, 2, "the step of numbers", 1);
     if (step == 0 || (to - from) / step <= 0 || (to - from) % step != 0)
       throw CardError{fmt::format("steps of {} do not lead from node {} to {}", step, from, to)};
@@ -109,8 +107,7 @@ class NodeMaker {
 
   std::vector<int> in_order(std::string_view set) const {
     std::vector<int> nodes = model_.nodes_of(scope_, set);
-    std::sort(nodes.begin(), nodes.end(),
-              [&](int a, int b) { return labels_[at(a)] < labels_[at(b)]; });
+    std::sort(nodes.begin(), nodes.end(), [&](int a, int b) { return labels_[a] < labels_[b]; });
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
   }
@@ -128,7 +125,7 @@ class NodeMaker {
     for (std::size_t n = 0; n < from.size(); ++n)
       for (long i = 1; i < intervals; ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(intervals);
-        add(labels_[at(from[n])] + i * step,
+        add(labels_[from[n]] + i * step,
             (1 - share) * model_.place(from[n]) + share * model_.place(to[n]));
       }
     made_.others = from;
@@ -158,8 +155,7 @@ class NodeMaker {
           scope_.turn.transpose() * (model_.place(node) / model_.units.length - scope_.shift);
       for (long i = 1; i <= times; ++i) {
         given = motion * given;
-        add(labels_[at(node)] + i * step,
-            model_.units.length * (scope_.turn * given + scope_.shift));
+        add(labels_[node] + i * step, model_.units.length * (scope_.turn * given + scope_.shift));
       }
     }
   }
@@ -193,7 +189,7 @@ void add_rows(const AbaqusModel& model, const AbaqusScope& scope, const Fields& 
     if (count[way] < 1 || count[way] > most_made || (total *= count[way]) > most_made)
       throw CardError{fmt::format("{} elements would be made", count[way])};
   }
-  const long label = model.elements[at(master)].label;
+  const long label = model.elements[master].label;
   for (long k = 0; k < count[2]; ++k)
     for (long j = 0; j < count[1]; ++j)
       for (long i = 0; i < count[0]; ++i)
@@ -222,7 +218,7 @@ MadeElements make_elements(const AbaqusModel& model, const AbaqusScope& scope,
   made.set = block.value("NEW SET");
   const long shift = whole(block, "SHIFT NODES"), step = whole(block, "ELEMENT SHIFT");
   for (const int element : model.elements_of(scope, block.required("OLD SET")))
-    made.elements.push_back({element, model.elements[at(element)].label + step, shift});
+    made.elements.push_back({element, model.elements[element].label + step, shift});
   return made;
 }
 

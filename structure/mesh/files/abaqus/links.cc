@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/spread_mass.h"
@@ -54,9 +53,9 @@ class LinkBlocks {
   std::vector<int> elements(const AbaqusBlock& block, AbaqusKind kind) const {
     std::vector<int> all = model_.elements_of(*scope_, block.required("ELSET"));
     for (const int e : all)
-      if (model_.elements[at(e)].kind != kind)
-        throw CardError{fmt::format("element {} is a {}", model_.elements[at(e)].label,
-                                    model_.elements[at(e)].type)};
+      if (model_.elements[e].kind != kind)
+        throw CardError{
+            fmt::format("element {} is a {}", model_.elements[e].label, model_.elements[e].type)};
     return all;
   }
 
@@ -70,8 +69,8 @@ class LinkBlocks {
     if (value < 0) throw CardError{"the mass is negative"};
     for (const int e : elements(block, AbaqusKind::mass)) {
       PointMass mass;
-      mass.vertex = model_.elements[at(e)].nodes.front();
-      mass.label = model_.elements[at(e)].label;
+      mass.vertex = model_.elements[e].nodes.front();
+      mass.label = model_.elements[e].label;
       mass.mass = value;
       mesh_.masses.push_back(mass);
     }
@@ -91,8 +90,8 @@ class LinkBlocks {
     const double length = model_.units.length;
     for (const int e : elements(block, AbaqusKind::inertia)) {
       PointMass mass;
-      mass.vertex = model_.elements[at(e)].nodes.front();
-      mass.label = model_.elements[at(e)].label;
+      mass.vertex = model_.elements[e].nodes.front();
+      mass.label = model_.elements[e].label;
       mass.inertia = scope_->turn * (inertia * model_.units.mass() * length * length) *
                      scope_->turn.transpose();
       mesh_.masses.push_back(mass);
@@ -106,7 +105,7 @@ class LinkBlocks {
     const double length = model_.units.length;
     std::vector<int> shells, beams;
     for (const int e : model_.elements_of(*scope_, block.required("ELSET"))) {
-      const AbaqusDeckElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[e];
       if (element.shell >= 0) shells.push_back(element.shell);
       beams.insert(beams.end(), element.beams.begin(), element.beams.end());
     }
@@ -136,8 +135,8 @@ class LinkBlocks {
                            double value) {
     std::map<double, std::vector<int>> of_thickness, of_area;
     for (const int s : shells)
-      of_thickness[mesh_.section_of(mesh_.shells[at(s)]).thickness].push_back(s);
-    for (const int b : beams) of_area[mesh_.section_of(mesh_.beams[at(b)]).area].push_back(b);
+      of_thickness[mesh_.section_of(mesh_.shells[s]).thickness].push_back(s);
+    for (const int b : beams) of_area[mesh_.section_of(mesh_.beams[b]).area].push_back(b);
     for (const auto& [thickness, some] : of_thickness)
       add_mass_per_area(mesh_, some, value * thickness);
     for (const auto& [area, some] : of_area) add_mass_per_length(mesh_, some, value * area);
@@ -154,7 +153,7 @@ class LinkBlocks {
     const double stiffness = abaqus_real(block.data[has_freedoms ? 1 : 0].fields(), 0, "stiffness");
     if (stiffness < 0) throw CardError{"the stiffness is negative"};
     for (const int e : elements(block, AbaqusKind::spring)) {
-      const AbaqusDeckElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[e];
       Spring spring;
       spring.label = element.label;
       spring.vertices[0] = element.nodes[0];
@@ -193,7 +192,7 @@ class LinkBlocks {
   std::map<int, double> vertices_of(const AbaqusSurface& surface) const {
     std::map<int, double> weights = surface.nodes;
     for (const auto& [e, face] : surface.faces) {
-      const AbaqusDeckElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[e];
       if (element.solid >= 0) {
         add_face(corners_of_face(element, face), weights);
         continue;
@@ -201,7 +200,7 @@ class LinkBlocks {
       if (element.shell < 0)
         throw CardError{
             fmt::format("element {} of the surface is no shell and no solid", element.label)};
-      const Shell& shell = mesh_.shells[at(element.shell)];
+      const Shell& shell = mesh_.shells[element.shell];
       const std::size_t corners = shell.is_triangle() ? 3 : 4;
       if (face == "SPOS" || face == "SNEG" || face == "SPOS,SNEG") {
         const double share = area(mesh_, shell) / static_cast<double>(corners);
@@ -241,7 +240,7 @@ class LinkBlocks {
       const long last =
           fields.size() > 1 && !fields[1].empty() ? abaqus_label(fields[1], "freedom") : first;
       if (last > 6 || first > last) throw CardError{"freedoms go from 1 to 6"};
-      for (long i = first; i <= last; ++i) bound[at(i - 1)] = true;
+      for (long i = first; i <= last; ++i) bound[i - 1] = true;
     }
     return bound;
   }
@@ -297,7 +296,7 @@ class LinkBlocks {
         const long last = given(2) ? abaqus_label(fields[2], "freedom") : first;
         if (last > 6 || first > last) throw CardError{"freedoms go from 1 to 6"};
         link.bound.fill(false);
-        for (long i = first; i <= last; ++i) link.bound[at(i - 1)] = true;
+        for (long i = first; i <= last; ++i) link.bound[i - 1] = true;
       }
       for (const int node : model_.nodes_of(*scope_, fields[0]))
         if (node != reference) link.slaves.push_back(node);
@@ -309,8 +308,8 @@ class LinkBlocks {
   void add_distributing_coupling(const AbaqusBlock& block) {
     for (const int e : elements(block, AbaqusKind::coupling)) {
       DistributingLink link;
-      link.reference = model_.elements[at(e)].nodes.front();
-      link.label = model_.elements[at(e)].label;
+      link.reference = model_.elements[e].nodes.front();
+      link.label = model_.elements[e].label;
       model_.for_lines(block, [&](const Fields& fields) {
         const double weight = abaqus_real(fields, 1, "weight", 1.0);
         if (!(weight > 0)) throw CardError{"a weight must be positive"};
@@ -331,7 +330,7 @@ class LinkBlocks {
     std::set<int> tied, pinned;
     if (block.has("ELSET"))
       for (const int e : model_.elements_of(*scope_, block.value("ELSET")))
-        tied.insert(model_.elements[at(e)].nodes.begin(), model_.elements[at(e)].nodes.end());
+        tied.insert(model_.elements[e].nodes.begin(), model_.elements[e].nodes.end());
     for (const char* kind : {"TIE NSET", "NSET"})
       if (block.has(kind))
         for (const int node : model_.nodes_of(*scope_, block.value(kind))) tied.insert(node);

@@ -99,9 +99,7 @@ struct AbaqusModel {
   int node_of(const AbaqusScope& scope, std::string_view text) const;
   std::vector<int> elements_of(const AbaqusScope& scope, std::string_view text) const;
   Eigen::Matrix3d axes(int vertex) const;
-  const Vector3& place(int vertex) const {
-    return deck.mesh.vertices[static_cast<std::size_t>(vertex)];
-  }
+  const Vector3& place(int vertex) const { return deck.mesh.vertices[vertex]; }
 };
 
 /// Sorts blocks into parts, instances, assembly, model and steps; nodes, elements, sets, surfaces.

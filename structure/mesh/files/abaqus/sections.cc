@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/abaqus/beam_shapes.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/abaqus/orientation.h"
@@ -127,7 +126,7 @@ class Sections {
     std::optional<AbaqusAxes> axes;
     if (section.laminate >= 0) axes.emplace(*blocks.scope, block.value("ORIENTATION"));
     for (const int e : elements(blocks)) {
-      AbaqusDeckElement& element = model_.elements[at(e)];
+      AbaqusDeckElement& element = model_.elements[e];
       if (element.kind == AbaqusKind::nothing) continue;
       if (element.kind != AbaqusKind::shell)
         throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
@@ -167,7 +166,7 @@ class Sections {
     const auto [found, is_new] = section_of_thickness_.try_emplace(
         {place, thickness}, static_cast<int>(mesh_.shell_sections.size()));
     if (!is_new) return found->second;
-    ShellSection own = mesh_.shell_sections[at(place)];
+    ShellSection own = mesh_.shell_sections[place];
     if (own.laminate >= 0) throw CardError{"layers cannot have the thickness of their nodes"};
     own.offset *= thickness / own.thickness;
     own.thickness = thickness;
@@ -287,7 +286,7 @@ class Sections {
     mesh_.beam_sections.push_back(section);
     const int of_region = region(blocks, shape.material);
     for (const int e : elements(blocks)) {
-      AbaqusDeckElement& element = model_.elements[at(e)];
+      AbaqusDeckElement& element = model_.elements[e];
       if (element.kind == AbaqusKind::nothing) continue;
       if (element.kind != AbaqusKind::beam)
         throw CardError{fmt::format("element {} is a {}, no beam", element.label, element.type)};
@@ -336,10 +335,10 @@ class Sections {
       if (code == codes.end() || (!at_start && !is_same(fields[1], "S2")))
         throw CardError{"elements, S1 or S2, and M1, M2, T, M1-M2, M1-T, M2-T or ALLM are due"};
       for (const int e : model_.elements_of(scope, fields[0])) {
-        const AbaqusDeckElement& element = model_.elements[at(e)];
+        const AbaqusDeckElement& element = model_.elements[e];
         if (element.beams.empty())
           throw CardError{fmt::format("element {} is no beam", element.label)};
-        Beam& beam = mesh_.beams[at(at_start ? element.beams.front() : element.beams.back())];
+        Beam& beam = mesh_.beams[at_start ? element.beams.front() : element.beams.back()];
         for (const std::size_t i : code->second) beam.release[at_start ? 0 : 1][i] = true;
       }
     });
@@ -349,8 +348,8 @@ class Sections {
   void add_solid_section(const SectionBlocks& blocks) {
     std::vector<int> trusses, solids;
     for (const int e : elements(blocks)) {
-      if (model_.elements[at(e)].kind == AbaqusKind::truss) trusses.push_back(e);
-      if (model_.elements[at(e)].kind == AbaqusKind::solid) solids.push_back(e);
+      if (model_.elements[e].kind == AbaqusKind::truss) trusses.push_back(e);
+      if (model_.elements[e].kind == AbaqusKind::solid) solids.push_back(e);
     }
     if (solids.empty() && trusses.empty())
       model_.log.leave_out("*SOLID SECTION", "of nothing here");
@@ -379,7 +378,7 @@ class Sections {
     mesh_.beam_sections.push_back(section);
     const int of_region = region(blocks, section.material);
     for (const int e : trusses) {
-      AbaqusDeckElement& element = model_.elements[at(e)];
+      AbaqusDeckElement& element = model_.elements[e];
       // A third node between the ends bends nothing.
       Beam rod;
       rod.vertices = {element.nodes.front(), element.nodes.back()};
@@ -442,7 +441,7 @@ void read_abaqus_sections(AbaqusModel& model) {
       NamedSet set;
       set.name = scope.name.empty() ? name : scope.name + "." + name;
       for (const int e : elements) {
-        const AbaqusDeckElement& element = model.elements[at(e)];
+        const AbaqusDeckElement& element = model.elements[e];
         if (element.shell >= 0) set.shells.push_back(element.shell);
         set.beams.insert(set.beams.end(), element.beams.begin(), element.beams.end());
       }

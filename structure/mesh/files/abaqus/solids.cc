@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/abaqus/orientation.h"
@@ -44,7 +43,7 @@ class SolidElasticity {
     const int corners = topology_of(solid.shape).corners;
     Vector3 centre = Vector3::Zero();
     for (int i = 0; i < corners; ++i)
-      centre += model_.place(solid.vertices[at(i)]) / (corners * model_.units.length);
+      centre += model_.place(solid.vertices[i]) / (corners * model_.units.length);
     all.push_back(turned(*own_, axes_.at(centre)));
     return straight_ = static_cast<int>(all.size()) - 1;
   }
@@ -62,7 +61,7 @@ void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const Abaqu
                        const std::vector<int>& elements, int material, int region) {
   SolidElasticity elasticity(model, scope, section);
   for (const int e : elements) {
-    AbaqusDeckElement& element = model.elements[at(e)];
+    AbaqusDeckElement& element = model.elements[e];
     if (element.solid >= 0)
       throw CardError{fmt::format("element {} has two sections", element.label)};
     Solid solid;

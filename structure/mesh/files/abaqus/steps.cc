@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/abaqus/model.h"
 
 namespace blocklift::structure {
@@ -67,8 +66,8 @@ class StepBlocks {
         }
         const double value = abaqus_real(fields, 3, "displacement", 0.0);
         for (long i = first; i <= std::min(last, 6L); ++i) {
-          support.held[at(i - 1)] = true;
-          support.value[at(i - 1)] = i <= 3 ? value * model_.units.length : value;
+          support.held[i - 1] = true;
+          support.value[i - 1] = i <= 3 ? value * model_.units.length : value;
         }
       }
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
@@ -178,7 +177,7 @@ class StepBlocks {
         return;
       }
       for (const int e : model_.elements_of(*scope_, fields[0]))
-        add_load(model_.elements[at(e)], kind, value);
+        add_load(model_.elements[e], kind, value);
     });
   }
 
@@ -238,7 +237,7 @@ class StepBlocks {
       throw CardError{fmt::format("surface {} does not exist", fields[0])};
     if (kind != "P") throw CardError{fmt::format("a load {} is not known; P is", kind)};
     for (const auto& [e, face] : surface->second.faces) {
-      const AbaqusDeckElement& element = model_.elements[at(e)];
+      const AbaqusDeckElement& element = model_.elements[e];
       if (element.kind == AbaqusKind::solid) {
         model_.log.leave_out("*DSLOAD", "pressure on solids");
         continue;

@@ -55,7 +55,7 @@ Foot find_foot(const Place& place, const Vector3& point) {
 class FaceOfSolid {
  public:
   FaceOfSolid(const Mesh& mesh, int solid, const std::vector<int>& corners)
-      : solid_(&mesh.solids[at(solid)]), places_(places_of(mesh, *solid_)) {
+      : solid_(&mesh.solids[solid]), places_(places_of(mesh, *solid_)) {
     const SolidTopology& topology = topology_of(solid_->shape);
     const std::array<std::size_t, 4> order = corners.size() == 3
                                                  ? std::array<std::size_t, 4>{0, 1, 2, 2}
@@ -63,13 +63,12 @@ class FaceOfSolid {
     for (std::size_t i = 0; i < 4; ++i) {
       const auto found =
           std::find(solid_->vertices.begin(), solid_->vertices.end(), corners[order[i]]);
-      local_.col(static_cast<Eigen::Index>(i)) =
-          topology.kind.local.col(found - solid_->vertices.begin());
+      local_.col(i) = topology.kind.local.col(found - solid_->vertices.begin());
     }
-    for (const int corner : corners) centre_ += mesh.vertices[at(corner)];
+    for (const int corner : corners) centre_ += mesh.vertices[corner];
     centre_ /= static_cast<double>(corners.size());
     for (const int corner : corners)
-      radius_ = std::max(radius_, (mesh.vertices[at(corner)] - centre_).norm());
+      radius_ = std::max(radius_, (mesh.vertices[corner] - centre_).norm());
   }
 
   /// Vertices of the solid that lie on the face, and the values of their shape functions.
@@ -77,7 +76,7 @@ class FaceOfSolid {
     std::vector<std::pair<int, double>> shares;
     const Eigen::VectorXd values = shape_of(solid_->shape).values(local(xi));
     for (std::size_t i = 0; i < solid_->vertices.size(); ++i)
-      if (const double value = values[static_cast<Eigen::Index>(i)]; std::abs(value) > 1e-12)
+      if (const double value = values[i]; std::abs(value) > 1e-12)
         shares.emplace_back(solid_->vertices[i], value);
     return shares;
   }
@@ -226,13 +225,13 @@ class Ties {
     }
     for (const auto& [node, area] : surface->nodes) slaves.insert(node);
     for (const auto& [element, face] : surface->faces) {
-      const AbaqusDeckElement& one = model_.elements[at(element)];
+      const AbaqusDeckElement& one = model_.elements[element];
       if (one.solid >= 0) {
         add_face(one, face, slaves);
         continue;
       }
-      const std::size_t corners = one.shell >= 0 && mesh_.shells[at(one.shell)].is_triangle() ? 3
-                                  : one.shell >= 0                                            ? 4
+      const std::size_t corners = one.shell >= 0 && mesh_.shells[one.shell].is_triangle() ? 3
+                                  : one.shell >= 0                                        ? 4
                                                    : one.nodes.size();
       const bool is_edge = face.size() == 2 && face[0] == 'E' && face[1] >= '1' &&
                            face[1] < static_cast<char>('1' + corners);
@@ -254,12 +253,12 @@ class Ties {
     const auto is_corner = [&](int vertex) {
       return std::find(corners.begin(), corners.end(), vertex) != corners.end();
     };
-    const Solid& solid = mesh_.solids[at(element.solid)];
+    const Solid& solid = mesh_.solids[element.solid];
     const SolidTopology& topology = topology_of(solid.shape);
     vertices.insert(corners.begin(), corners.end());
     for (std::size_t e = 0; e < topology.edges.size(); ++e)
-      if (is_corner(solid.vertices[at(topology.edges[e][0])]) &&
-          is_corner(solid.vertices[at(topology.edges[e][1])]))
+      if (is_corner(solid.vertices[topology.edges[e][0]]) &&
+          is_corner(solid.vertices[topology.edges[e][1]]))
         vertices.insert(solid.vertices[at(topology.corners) + e]);
   }
 
@@ -272,13 +271,13 @@ class Ties {
     MasterSurface master;
     std::set<int> shells;
     for (const auto& [element, face] : surface->faces) {
-      const AbaqusDeckElement& one = model_.elements[at(element)];
+      const AbaqusDeckElement& one = model_.elements[element];
       if (one.solid >= 0) {
         master.faces.emplace_back(mesh_, one.solid, corners_of_face(one, face));
         add_face(one, face, master.vertices);
       } else if (one.shell >= 0) {
         shells.insert(one.shell);
-        const auto& corners = mesh_.shells[at(one.shell)].vertices;
+        const auto& corners = mesh_.shells[one.shell].vertices;
         master.vertices.insert(corners.begin(), corners.end());
       } else {
         throw CardError{fmt::format("element {} is no shell and no solid", one.label)};
@@ -291,9 +290,9 @@ class Ties {
   /// Without a tolerance of its own a node is tied within 5 % of the shell's size, beyond half the
   /// thickness of either.
   double reach_of(int s) const {
-    const Shell& shell = mesh_.shells[at(s)];
+    const Shell& shell = mesh_.shells[s];
     const double size =
-        (mesh_.vertices[at(shell.vertices[3])] - mesh_.vertices[at(shell.vertices[0])]).norm() /
+        (mesh_.vertices[shell.vertices[3]] - mesh_.vertices[shell.vertices[0]]).norm() /
         std::sqrt(2.0);
     return 0.05 * size + (shell.section >= 0 ? mesh_.section_of(shell).thickness : 0);
   }
@@ -314,8 +313,7 @@ class Ties {
       const FaceOfSolid* face = nullptr;
       tree.for_each_near(point, farthest, [&](int s) {
         const Foot foot = find_foot(
-            [&](const Eigen::Vector2d& xi) { return position(mesh_, mesh_.shells[at(s)], xi); },
-            point);
+            [&](const Eigen::Vector2d& xi) { return position(mesh_, mesh_.shells[s], xi); }, point);
         if (foot.distance > tolerance.value_or(reach_of(s)) || foot.distance >= nearest.distance)
           return;
         nearest = foot;
@@ -362,17 +360,17 @@ class Ties {
     if (turning_.empty()) {
       turning_.assign(mesh_.vertices.size(), 0);
       for (const Shell& shell : mesh_.shells)
-        for (const int corner : shell.vertices) turning_[at(corner)] = 1;
+        for (const int corner : shell.vertices) turning_[corner] = 1;
       for (const Beam& beam : mesh_.beams)
-        for (const int end : beam.vertices) turning_[at(end)] = 1;
+        for (const int end : beam.vertices) turning_[end] = 1;
     }
-    return at(vertex) < turning_.size() && turning_[at(vertex)] != 0;
+    return at(vertex) < turning_.size() && turning_[vertex] != 0;
   }
 
   /// A solid's surface has displacements alone: what is tied to it moves with the place of its
   /// foot, and may turn.
   void tie(int slave, const FaceOfSolid& face, const Foot& foot) {
-    mesh_.vertices[at(slave)] = foot.place;
+    mesh_.vertices[slave] = foot.place;
     const auto shares = face.shares(foot.xi);
     for (int c = 0; c < 3; ++c) {
       MotionEquation equation;

@@ -13,7 +13,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
@@ -86,7 +85,7 @@ class AbaqusText {
  private:
   void line(const std::string& text) { text_ += text + '\n'; }
 
-  long label(int vertex) const { return node_number_[at(vertex)]; }
+  long label(int vertex) const { return node_number_[vertex]; }
 
   void write_nodes() {
     line("*NODE, NSET=NODES");
@@ -146,7 +145,7 @@ class AbaqusText {
       const std::string set = new_set();
       line(fmt::format("*ELEMENT, TYPE={}, ELSET={}", type, set));
       for (const int s : shells) write_shell(s);
-      const ShellSection& section = mesh_.shell_sections[at(place)];
+      const ShellSection& section = mesh_.shell_sections[place];
       line(fmt::format("*SHELL SECTION, ELSET={}, MATERIAL=M{}, OFFSET={}", set,
                        section.material + 1, exact(-section.offset / section.thickness)));
       line(exact(section.thickness / units_.length));
@@ -158,12 +157,12 @@ class AbaqusText {
   }
 
   void write_shell(int s) {
-    const Shell& shell = mesh_.shells[at(s)];
-    shell_number_[at(s)] = elements_.take(shell.label);
+    const Shell& shell = mesh_.shells[s];
+    shell_number_[s] = elements_.take(shell.label);
     std::vector<int> around{shell.vertices[0], shell.vertices[1], shell.vertices[3]};
     if (!shell.is_triangle()) around.push_back(shell.vertices[2]);
-    around.insert(around.end(), middles_[at(s)].begin(), middles_[at(s)].end());
-    std::string text = std::to_string(shell_number_[at(s)]);
+    around.insert(around.end(), middles_[s].begin(), middles_[s].end());
+    std::string text = std::to_string(shell_number_[s]);
     for (const int vertex : around) text += fmt::format(", {}", label(vertex));
     line(text);
   }
@@ -181,8 +180,7 @@ class AbaqusText {
       throw ModelError(
           fmt::format("beam {} is tapered; Abaqus' general sections are of one size", beam.label));
     if (beam.is_rod) return kind;
-    const Vector3 line =
-        mesh_.vertices[at(beam.vertices[1])] - mesh_.vertices[at(beam.vertices[0])];
+    const Vector3 line = mesh_.vertices[beam.vertices[1]] - mesh_.vertices[beam.vertices[0]];
     const Vector3 axis_3 = line.cross(beam.axis_2).normalized();
     kind.axis_2 = axis_3.cross(line).normalized();
     kind.centroid << beam.offset[0].dot(kind.axis_2), beam.offset[0].dot(axis_3);
@@ -217,13 +215,13 @@ class AbaqusText {
     const std::string set = new_set();
     line(fmt::format("*ELEMENT, TYPE={}, ELSET={}", kind.is_rod ? "T3D2" : "B31", set));
     for (const int b : kind.beams) {
-      const Beam& beam = mesh_.beams[at(b)];
-      beam_number_[at(b)] = elements_.take(beam.label);
-      line(fmt::format("{}, {}, {}", beam_number_[at(b)], label(beam.vertices[0]),
+      const Beam& beam = mesh_.beams[b];
+      beam_number_[b] = elements_.take(beam.label);
+      line(fmt::format("{}, {}, {}", beam_number_[b], label(beam.vertices[0]),
                        label(beam.vertices[1])));
     }
-    const BeamSection& section = mesh_.beam_sections[at(kind.section)];
-    const Material& material = mesh_.materials[at(section.material)];
+    const BeamSection& section = mesh_.beam_sections[kind.section];
+    const Material& material = mesh_.materials[section.material];
     const double square = units_.length * units_.length;
     if (kind.is_rod) {
       line(fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M{}", set, section.material + 1));
@@ -330,7 +328,7 @@ class AbaqusText {
     line("*ELASTIC, TYPE=ANISOTROPIC");
     // Of 11, 22, 33, 12, 13, 23 the upper half, column by column, eight on a line.
     static constexpr std::array<Eigen::Index, 6> order{0, 1, 2, 3, 5, 4};
-    const Elasticity d = mesh_.elasticities[at(elasticity)] / units_.stress();
+    const Elasticity d = mesh_.elasticities[elasticity] / units_.stress();
     std::string text;
     int count = 0;
     for (std::size_t j = 0; j < order.size(); ++j)
@@ -339,14 +337,14 @@ class AbaqusText {
         text += ++count % 8 == 0 ? ",\n" : count < 21 ? ", " : "";
       }
     line(text);
-    write_density_and_yield(mesh_.materials[at(material)]);
+    write_density_and_yield(mesh_.materials[material]);
   }
 
   /// A node of its own, rigidly held by a vertex.
   long held_node(int vertex, const Vector3& offset) {
     const long node = nodes_.take(0);
     line("*NODE");
-    line(fmt::format("{}, {}", node, exact((mesh_.vertices[at(vertex)] + offset) / units_.length)));
+    line(fmt::format("{}, {}", node, exact((mesh_.vertices[vertex] + offset) / units_.length)));
     line("*MPC");
     line(fmt::format("BEAM, {}, {}", node, label(vertex)));
     return node;
@@ -456,7 +454,7 @@ class AbaqusText {
     line("*STATIC");
     line("*BOUNDARY, OP=NEW");
     for (const int set : one.supports)
-      for (const Support& support : deck_.support_sets[at(set)].supports)
+      for (const Support& support : deck_.support_sets[set].supports)
         for (std::size_t i = 0; i < 6; ++i)
           if (support.held[i])
             line(fmt::format("{}, {}, {}, {}", label(support.vertex), i + 1, i + 1,
@@ -464,7 +462,7 @@ class AbaqusText {
     line("*CLOAD, OP=NEW");
     std::map<int, std::pair<Vector3, Vector3>> at_vertices;
     for (const auto& [set, factor] : one.loads)
-      for (const PointLoad& load : deck_.load_sets[at(set)].point_loads) {
+      for (const PointLoad& load : deck_.load_sets[set].point_loads) {
         const auto [sum, is_new] =
             at_vertices.try_emplace(load.vertex, Vector3::Zero(), Vector3::Zero());
         sum->second.first += factor * load.force;
@@ -473,8 +471,7 @@ class AbaqusText {
     for (const auto& [vertex, load] : at_vertices)
       write_point_load(vertex, load.first, load.second);
     line("*DLOAD, OP=NEW");
-    for (const auto& [set, factor] : one.loads)
-      write_spread_loads(deck_.load_sets[at(set)], factor);
+    for (const auto& [set, factor] : one.loads) write_spread_loads(deck_.load_sets[set], factor);
     line("*NODE FILE");
     line("U, RF");
     line("*EL FILE");
@@ -483,8 +480,8 @@ class AbaqusText {
   }
 
   void write_point_load(int vertex, const Vector3& force, const Vector3& moment) {
-    const Vector3 along = axes_[at(vertex)].transpose() * force / units_.force;
-    const Vector3 about = axes_[at(vertex)].transpose() * moment / units_.moment();
+    const Vector3 along = axes_[vertex].transpose() * force / units_.force;
+    const Vector3 about = axes_[vertex].transpose() * moment / units_.moment();
     for (int i = 0; i < 3; ++i)
       if (along[i] != 0) line(fmt::format("{}, {}, {}", label(vertex), i + 1, exact(along[i])));
     for (int i = 0; i < 3; ++i)
@@ -497,14 +494,14 @@ class AbaqusText {
       if (!load.direction.isZero() || *most - *least > 1e-9 * std::abs(*most))
         throw ModelError(
             "a pressure is not even and normal to its shell, which is not written here");
-      line(fmt::format("{}, P, {}", shell_number_[at(load.shell)],
+      line(fmt::format("{}, P, {}", shell_number_[load.shell],
                        exact(factor * load.pressure[0] / units_.stress())));
     }
     for (const BeamLoad& load : set.beam_loads)
       for (int i = 0; i < 3; ++i)
         if (load.force_per_length[i] != 0)
           line(
-              fmt::format("{}, P{}, {}", beam_number_[at(load.beam)], static_cast<char>('X' + i),
+              fmt::format("{}, P{}, {}", beam_number_[load.beam], static_cast<char>('X' + i),
                           exact(factor * load.force_per_length[i] * units_.length / units_.force)));
     const double gravity = factor * set.gravity.norm() / units_.length;
     if (gravity != 0)

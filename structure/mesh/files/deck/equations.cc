@@ -7,7 +7,6 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/log.h"
 
 namespace blocklift::structure {
@@ -36,7 +35,7 @@ Row rigid_row(const Deck& deck, const DeckFreedom& freedom, const Vector3& origi
   Row row = Row::Zero();
   if (freedom.component < 3)
     row << direction.transpose(),
-        ((deck.mesh.vertices[at(freedom.vertex)] - origin) / size).cross(direction).transpose();
+        ((deck.mesh.vertices[freedom.vertex] - origin) / size).cross(direction).transpose();
   else
     row.tail<3>() = direction.transpose();
   return row;
@@ -48,7 +47,7 @@ double mean_distance(const Deck& deck, const Freedoms& freedoms, const Vector3& 
                      const FreedomOf& freedom_of) {
   double sum = 0;
   for (const auto& one : freedoms)
-    sum += (deck.mesh.vertices[at(freedom_of(one).vertex)] - origin).norm();
+    sum += (deck.mesh.vertices[freedom_of(one).vertex] - origin).norm();
   return sum > 0 ? sum / static_cast<double>(freedoms.size()) : 1;
 }
 
@@ -95,13 +94,13 @@ void add_rigid_equations(Deck& deck, const std::vector<DeckFreedom>& independent
       "the independent components do not determine a rigid motion; six that do are due";
   if (independent.size() != 6) throw CardError{undetermined};
   if (dependent.empty()) throw CardError{"no component follows"};
-  const Vector3 origin = deck.mesh.vertices[at(independent.front().vertex)];
+  const Vector3 origin = deck.mesh.vertices[independent.front().vertex];
   std::vector<DeckFreedom> all = independent;
   all.insert(all.end(), dependent.begin(), dependent.end());
   const double size =
       mean_distance(deck, all, origin, [](const DeckFreedom& freedom) { return freedom; });
   Matrix6 rows;
-  for (int i = 0; i < 6; ++i) rows.row(i) = rigid_row(deck, independent[at(i)], origin, size);
+  for (int i = 0; i < 6; ++i) rows.row(i) = rigid_row(deck, independent[i], origin, size);
   const Matrix6 inverse = inverse_of(rows, undetermined);
   for (const DeckFreedom& freedom : dependent) {
     const Row shares = rigid_row(deck, freedom, origin, size) * inverse;
@@ -109,15 +108,15 @@ void add_rigid_equations(Deck& deck, const std::vector<DeckFreedom>& independent
     add_term(equation, freedom, 1);
     for (int i = 0; i < 6; ++i)
       if (std::abs(shares[i]) > 1e-12)
-        add_term(equation, independent[at(i)],
-                 -shares[i] * unit_of(freedom, size) / unit_of(independent[at(i)], size));
+        add_term(equation, independent[i],
+                 -shares[i] * unit_of(freedom, size) / unit_of(independent[i], size));
     push(deck, std::move(equation));
   }
 }
 
 void add_mean_equations(Deck& deck, const std::vector<DeckFreedom>& reference,
                         const std::vector<CountedFreedom>& counted) {
-  const Vector3 origin = deck.mesh.vertices[at(reference.front().vertex)];
+  const Vector3 origin = deck.mesh.vertices[reference.front().vertex];
   const double size =
       mean_distance(deck, counted, origin, [](const CountedFreedom& one) { return one.freedom; });
   std::vector<Row> rows;
@@ -143,7 +142,7 @@ void add_mean_equations(Deck& deck, const std::vector<DeckFreedom>& reference,
 }
 
 void add_rigid_rod(Deck& deck, int first, int second) {
-  const Vector3 line = deck.mesh.vertices[at(second)] - deck.mesh.vertices[at(first)];
+  const Vector3 line = deck.mesh.vertices[second] - deck.mesh.vertices[first];
   if (!(line.norm() > 1e-9)) throw CardError{"a rod between nodes at one place has no direction"};
   MotionEquation equation;
   equation.terms = {{first, line.normalized()}, {second, -line.normalized()}};
@@ -155,7 +154,7 @@ std::vector<ScalarTerm> scalar_terms(const MotionEquation& equation, const UnitS
                                      std::set<int>& taken) {
   std::vector<ScalarTerm> terms;
   for (const MotionEquation::Term& term : equation.terms) {
-    const Eigen::Matrix3d turned = axes[at(term.vertex)].transpose();
+    const Eigen::Matrix3d turned = axes[term.vertex].transpose();
     const Vector3 along = turned * term.of_displacement,
                   about = turned * term.of_rotation / units.length;
     for (int i = 0; i < 3; ++i) {

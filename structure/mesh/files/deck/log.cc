@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/nearest_name.h"
 
 namespace blocklift::structure {
@@ -25,7 +24,7 @@ int DeckLog::add_file(const std::string& path) {
 }
 
 std::string DeckLog::place(SourceLine line) const {
-  return fmt::format("{}:{}", files_[at(line.file)], line.line);
+  return fmt::format("{}:{}", files_[line.file], line.line);
 }
 
 void DeckLog::complain(SourceLine line, const std::string& text) {

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/link_frames.h"
 
 namespace blocklift::structure {
@@ -28,13 +27,13 @@ std::vector<Eigen::Matrix3d> vertex_axes(const Deck& deck) {
   std::vector<char> is_set(mesh.vertices.size(), 0);
   const auto set = [&](int vertex, const Eigen::Matrix3d& wanted, const std::array<bool, 6>& used) {
     if (vertex < 0 || is_free_of_axes(used)) return;
-    if (is_set[at(vertex)] != 0 && (axes[at(vertex)] - wanted).norm() > 1e-9)
+    if (is_set[vertex] != 0 && (axes[vertex] - wanted).norm() > 1e-9)
       throw ModelError(fmt::format(
           "vertex {} has supports, links or springs along different axes; a deck has one system at "
           "a node",
-          mesh.vertex_labels.empty() ? vertex + 1 : mesh.vertex_labels[at(vertex)]));
-    axes[at(vertex)] = wanted;
-    is_set[at(vertex)] = 1;
+          mesh.vertex_labels.empty() ? vertex + 1 : mesh.vertex_labels[vertex]));
+    axes[vertex] = wanted;
+    is_set[vertex] = 1;
   };
   for (const SupportSet& list : deck.support_sets)
     for (const Support& support : list.supports) {
@@ -72,7 +71,7 @@ int MiddleVertices::at_place(const Vector3& place) {
   for (long near = cell - 2; near <= cell + 2; ++near) {
     const auto [first, last] = cells_.equal_range(near);
     for (auto entry = first; entry != last; ++entry)
-      if ((mesh_.vertices[at(entry->second)] - place).norm() < step_) return entry->second;
+      if ((mesh_.vertices[entry->second] - place).norm() < step_) return entry->second;
   }
   const auto vertex = static_cast<int>(mesh_.vertices.size());
   mesh_.vertices.push_back(place);
@@ -84,7 +83,7 @@ int MiddleVertices::at_place(const Vector3& place) {
 }
 
 std::vector<int> MiddleVertices::of(const Shell& shell) {
-  const Eigen::Matrix3Xd& points = mesh_.curved_shells[at(shell.curvature)];
+  const Eigen::Matrix3Xd& points = mesh_.curved_shells[shell.curvature];
   if (points.cols() != 9)
     throw ModelError("a shell is curved by more than a quadratic; decks have none such");
   // Around the shell: lower side, right, upper, left of the square of three by three points.

@@ -27,7 +27,7 @@ Flows balanced_flows(const Corners& corners) {
   // With c_i the moment of edge i, the null space of (e_i, c_i) by its 3 x 3 minors.
   Eigen::Matrix<double, 3, 4> rows;
   for (std::size_t i = 0; i < 4; ++i)
-    rows.col(static_cast<Eigen::Index>(i)) << edge(corners, i), cross(corners[i], edge(corners, i));
+    rows.col(i) << edge(corners, i), cross(corners[i], edge(corners, i));
   Eigen::Vector4d flows;
   for (int i = 0; i < 4; ++i) {
     Eigen::Matrix3d minor;

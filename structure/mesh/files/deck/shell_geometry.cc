@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 Eigen::Matrix3Xd quadratic_points(const std::vector<Vector3>& corners,
@@ -40,7 +38,7 @@ std::array<int, 4> lexicographic(const std::vector<int>& around) {
 
 Vector3 unit_normal(const Mesh& mesh, const Shell& shell) {
   const auto vertex = [&](std::size_t i) -> const Vector3& {
-    return mesh.vertices[at(shell.vertices[i])];
+    return mesh.vertices[shell.vertices[i]];
   };
   return (vertex(3) - vertex(0)).cross(vertex(2) - vertex(1)).normalized();
 }
@@ -57,7 +55,7 @@ ShellsByEdge shells_by_edge(const Mesh& mesh) {
   }
   ShellsByEdge halves;
   for (const SurfacePoint& point : mesh.surface_points) {
-    const auto& v = mesh.shells[at(point.shell)].vertices;
+    const auto& v = mesh.shells[point.shell].vertices;
     // Corners of the side on which the point lies; within a shell it lies on none.
     std::array<int, 2> ends{-1, -1};
     if (point.xi[0] == 0) ends = {v[0], v[2]};

@@ -2,7 +2,6 @@
 
 #include <map>
 
-#include "structure/index.h"
 #include "structure/mesh/mass_properties.h"
 
 namespace blocklift::structure {
@@ -14,7 +13,7 @@ int heavier_copy(int section, double mass, std::vector<Section>& sections, doubl
                  std::map<int, int>& heavier) {
   const auto [found, is_new] = heavier.try_emplace(section, static_cast<int>(sections.size()));
   if (is_new) {
-    Section copy = sections[at(section)];
+    Section copy = sections[section];
     copy.*figure += mass;
     sections.push_back(copy);
   }
@@ -26,7 +25,7 @@ int heavier_copy(int section, double mass, std::vector<Section>& sections, doubl
 void add_mass_per_area(Mesh& mesh, const std::vector<int>& shells, double mass) {
   std::map<int, int> heavier;
   for (const int s : shells) {
-    int& section = mesh.shells[at(s)].section;
+    int& section = mesh.shells[s].section;
     section =
         heavier_copy(section, mass, mesh.shell_sections, &ShellSection::mass_per_area, heavier);
   }
@@ -35,7 +34,7 @@ void add_mass_per_area(Mesh& mesh, const std::vector<int>& shells, double mass) 
 void add_mass_per_length(Mesh& mesh, const std::vector<int>& beams, double mass) {
   std::map<int, int> heavier;
   for (const int b : beams) {
-    Beam& beam = mesh.beams[at(b)];
+    Beam& beam = mesh.beams[b];
     for (int* section : {&beam.section, &beam.end_section})
       if (*section >= 0)
         *section = heavier_copy(*section, mass, mesh.beam_sections, &BeamSection::mass_per_length,
@@ -45,15 +44,15 @@ void add_mass_per_length(Mesh& mesh, const std::vector<int>& beams, double mass)
 
 double total_area(const Mesh& mesh, const std::vector<int>& shells) {
   double sum = 0;
-  for (const int s : shells) sum += area(mesh, mesh.shells[at(s)]);
+  for (const int s : shells) sum += area(mesh, mesh.shells[s]);
   return sum;
 }
 
 double total_length(const Mesh& mesh, const std::vector<int>& beams) {
   double sum = 0;
   for (const int b : beams) {
-    const auto& ends = mesh.beams[at(b)].vertices;
-    sum += (mesh.vertices[at(ends[1])] - mesh.vertices[at(ends[0])]).norm();
+    const auto& ends = mesh.beams[b].vertices;
+    sum += (mesh.vertices[ends[1]] - mesh.vertices[ends[0]]).norm();
   }
   return sum;
 }

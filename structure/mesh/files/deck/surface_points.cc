@@ -1,7 +1,5 @@
 #include "structure/mesh/files/deck/surface_points.h"
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 void fasten_used_middles(Deck& deck, const std::vector<SurfacePoint>& middles) {
@@ -9,7 +7,7 @@ void fasten_used_middles(Deck& deck, const std::vector<SurfacePoint>& middles) {
   Mesh& mesh = deck.mesh;
   std::vector<char> used(mesh.vertices.size(), 0);
   const auto use = [&](int vertex) {
-    if (vertex >= 0) used[at(vertex)] = 1;
+    if (vertex >= 0) used[vertex] = 1;
   };
   for (const Shell& shell : mesh.shells)
     for (const int vertex : shell.vertices) use(vertex);
@@ -26,9 +24,9 @@ void fasten_used_middles(Deck& deck, const std::vector<SurfacePoint>& middles) {
   for (const LoadSet& set : deck.load_sets)
     for (const PointLoad& load : set.point_loads) use(load.vertex);
   for (const SurfacePoint& middle : middles) {
-    if (used[at(middle.vertex)] == 0) continue;
+    if (used[middle.vertex] == 0) continue;
     mesh.surface_points.push_back(middle);
-    used[at(middle.vertex)] = 0;
+    used[middle.vertex] = 0;
   }
 }
 

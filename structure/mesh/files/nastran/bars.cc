@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/nastran/model.h"
 #include "structure/mesh/sections.h"
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 void CardView::refuse(std::size_t i, const char* what, const char* due) const {
@@ -49,9 +47,9 @@ std::array<bool, 6> CardView::components(std::size_t i, const char* what) const 
   if (!has(i)) refuse(i, what, "list of components of 1 to 6");
   for (const char c : text(i)) {
     if (c == ' ') continue;  // in small fields: "12 456"
-    if (c < '1' || c > '6' || bound[at(c - '1')])
+    if (c < '1' || c > '6' || bound[c - '1'])
       refuse(i, what, "list of components of 1 to 6, each once");
-    bound[at(c - '1')] = true;
+    bound[c - '1'] = true;
   }
   return bound;
 }

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
@@ -57,7 +56,7 @@ class Supports {
     auto& sets = model_.deck.support_sets;
     const auto [found, is_new] = set_of_.try_emplace(label, static_cast<int>(sets.size()));
     if (is_new) sets.push_back({label, fmt::format("constraint set {}", label), {}});
-    return sets[at(found->second)];
+    return sets[found->second];
   }
 
   Support support(int vertex, const std::array<bool, 6>& held) {
@@ -170,7 +169,7 @@ class Equations {
     if (terms.size() == 1) {
       Support support;
       support.vertex = terms[0].freedom.vertex;
-      support.held[at(terms[0].freedom.component)] = true;
+      support.held[terms[0].freedom.component] = true;
       support.axes = terms[0].freedom.axes;
       held_.supports.push_back(support);
       return;

@@ -12,7 +12,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/nastran/model.h"
 
@@ -82,7 +81,7 @@ class Shells {
     auto& groups = model_.deck.groups_without_thickness;
     if (groups.size() == without_section_.size()) return;
     groups.clear();
-    for (const int region : without_section_) groups.push_back(mesh_.regions[at(region)].name);
+    for (const int region : without_section_) groups.push_back(mesh_.regions[region].name);
   }
 
   /// A quadrangle with a corner twice is a triangle; its remaining corners keep their turn.

@@ -59,7 +59,7 @@ class Grids {
       const auto found = model_.vertex_of.find(label);
       if (found == model_.vertex_of.end())
         throw CardError{fmt::format("grid {} does not exist", label)};
-      const Grid& grid = grids_[at(found->second)];
+      const Grid& grid = grids_[found->second];
       return model_.systems.get(grid.input).place(grid.given);
     });
     for (const auto& entry : model_.systems.definitions())
@@ -116,7 +116,7 @@ class Grids {
   static std::array<bool, 6> digits(const std::string& text) {
     std::array<bool, 6> held{};
     for (const char c : text)
-      if (c >= '1' && c <= '6') held[at(c - '1')] = true;
+      if (c >= '1' && c <= '6') held[c - '1'] = true;
     return held;
   }
 
@@ -203,13 +203,13 @@ bool NastranModel::is_scalar_point(long label) const {
 std::vector<int> NastranModel::pieces_of_beam(int first) const {
   const std::vector<Beam>& beams = deck.mesh.beams;
   std::vector<int> pieces;
-  for (std::size_t b = at(first); b < beams.size() && beams[b].label == beams[at(first)].label; ++b)
+  for (std::size_t b = at(first); b < beams.size() && beams[b].label == beams[first].label; ++b)
     pieces.push_back(static_cast<int>(b));
   return pieces;
 }
 
 Eigen::Matrix3d NastranModel::output_axes(int vertex) {
-  return axes_at(output_system[at(vertex)], vertex);
+  return axes_at(output_system[vertex], vertex);
 }
 
 Eigen::Matrix3d NastranModel::axes_at(long system, int vertex) {

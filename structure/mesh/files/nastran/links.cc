@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/deck/link_frames.h"
@@ -125,7 +124,7 @@ class Links {
   std::vector<DeckFreedom> freedoms(int vertex, const Components& components) {
     std::vector<DeckFreedom> list;
     for (int i = 0; i < 6; ++i)
-      if (components[at(i)]) list.push_back({vertex, i, model_.output_axes(vertex)});
+      if (components[i]) list.push_back({vertex, i, model_.output_axes(vertex)});
     return list;
   }
 

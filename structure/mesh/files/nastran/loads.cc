@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
 
@@ -46,7 +45,7 @@ class Loads {
       sets.back().label = label;
       sets.back().name = fmt::format("load set {}", label);
     }
-    return sets[at(found->second)];
+    return sets[found->second];
   }
 
   double unit(bool is_moment) const {
@@ -173,8 +172,8 @@ class Loads {
       direction = model_.systems.get(system).axes * given.normalized();
     }
     const long label = card.label(1, "element");
-    const bool is_triangle = model_.shell_of.count(label) > 0 &&
-                             mesh_.shells[at(model_.shell_of.at(label))].is_triangle();
+    const bool is_triangle =
+        model_.shell_of.count(label) > 0 && mesh_.shells[model_.shell_of.at(label)].is_triangle();
     const std::array<double, 4> pressure{around[0], around[1], is_triangle ? around[2] : around[3],
                                          around[2]};
     if (card.is(6, "THRU"))
@@ -194,8 +193,8 @@ class Loads {
       model_.log.leave_out(card.name(), "loads on what is no bar");
       return;
     }
-    const Beam& beam = mesh_.beams[at(found->second)];
-    const Beam& last = mesh_.beams[at(model_.pieces_of_beam(found->second).back())];
+    const Beam& beam = mesh_.beams[found->second];
+    const Beam& last = mesh_.beams[model_.pieces_of_beam(found->second).back()];
     const Vector3 line = model_.place(last.vertices[1]) - model_.place(beam.vertices[0]);
     const Vector3 axis_1 = line.normalized();
     const Vector3 axis_3 = axis_1.cross(beam.axis_2).normalized();

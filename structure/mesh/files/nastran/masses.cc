@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/nastran/model.h"
 
 namespace blocklift::structure {
@@ -130,7 +129,7 @@ class Masses {
     if (value < 0) throw CardError{"the mass is negative"};
     const auto [of_vertex, is_new] = scalars_of_.try_emplace(vertex);
     if (is_new) of_vertex->second = {card.line(), label, {}};
-    of_vertex->second.values[at(component - 1)] += value;
+    of_vertex->second.values[component - 1] += value;
   }
 
   /// A body's mass is the same along all three directions.
@@ -139,11 +138,10 @@ class Masses {
       const auto& m = scalars.values;
       const double least = std::min({m[0], m[1], m[2]}), most = std::max({m[0], m[1], m[2]});
       if (most - least > 1e-6 * most) {
-        model_.log.complain(
-            scalars.line,
-            fmt::format("CMASS: the masses along the three directions of grid {} "
-                        "are {:.6g}, {:.6g} and {:.6g}; those of a body are equal",
-                        model_.deck.mesh.vertex_labels[at(vertex)], m[0], m[1], m[2]));
+        model_.log.complain(scalars.line,
+                            fmt::format("CMASS: the masses along the three directions of grid {} "
+                                        "are {:.6g}, {:.6g} and {:.6g}; those of a body are equal",
+                                        model_.deck.mesh.vertex_labels[vertex], m[0], m[1], m[2]));
         continue;
       }
       PointMass mass;

@@ -100,9 +100,7 @@ struct NastranModel {
 
   /// @throws CardError where there is no such grid.
   int vertex(const CardView& card, std::size_t i, const char* what) const;
-  const Vector3& place(int vertex) const {
-    return deck.mesh.vertices[static_cast<std::size_t>(vertex)];
-  }
+  const Vector3& place(int vertex) const { return deck.mesh.vertices[vertex]; }
   /// Is a point one without a place (SPOINT, EPOINT)?
   bool is_scalar_point(long label) const;
   /// The pieces of a beam, by the place of the first.

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/deck/spread_mass.h"
 #include "structure/mesh/files/nastran/model.h"
@@ -100,11 +99,11 @@ class SpreadMasses {
     } else {
       std::vector<char> is_of(mesh.regions.size(), 0);
       for (const auto& [number, region] : model_.region_of)
-        if (is_named(number) && is_kind(card, number)) is_of[at(region)] = 1;
+        if (is_named(number) && is_kind(card, number)) is_of[region] = 1;
       for (std::size_t s = 0; s < mesh.shells.size(); ++s)
-        if (is_of[at(mesh.shells[s].region)] != 0) cells.shells.push_back(static_cast<int>(s));
+        if (is_of[mesh.shells[s].region] != 0) cells.shells.push_back(static_cast<int>(s));
       for (std::size_t b = 0; b < mesh.beams.size(); ++b)
-        if (is_of[at(mesh.beams[b].region)] != 0) cells.beams.push_back(static_cast<int>(b));
+        if (is_of[mesh.beams[b].region] != 0) cells.beams.push_back(static_cast<int>(b));
     }
     if (cells.shells.empty() && cells.beams.empty())
       throw CardError{

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/nastran/model.h"

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/shear_panel.h"
@@ -76,7 +75,7 @@ class ShearPanels {
       places[i] = model_.place(corners[i]);
     }
     const int of_material = nastran_material_place(model_, section.material);
-    const Material material = mesh_.materials[at(of_material)];
+    const Material material = mesh_.materials[of_material];
     const std::optional<ShearPanel> panel = [&]() -> std::optional<ShearPanel> {
       try {
         return make_shear_panel(places, material, section.thickness);
@@ -200,7 +199,7 @@ class ShearPanels {
     if (!is_new) return found->second;
     const auto [weightless, is_new_material] = weightless_.try_emplace(of_material, 0);
     if (is_new_material) {
-      Material material = mesh_.materials[at(of_material)];
+      Material material = mesh_.materials[of_material];
       material.name += " without its mass";
       material.density = 0;
       weightless->second = static_cast<int>(mesh_.materials.size());

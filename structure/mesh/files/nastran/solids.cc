@@ -64,11 +64,11 @@ class Solids {
     Solid solid;
     solid.shape = known.shape;
     solid.label = model_.new_element(card);
-    solid.vertices.assign(at(topology.nodes()), -1);
+    solid.vertices.assign(topology.nodes(), -1);
     for (int i = 0; i < topology.corners; ++i) {
-      solid.vertices[at(i)] = model_.vertex(card, at(2 + i), "corner");
+      solid.vertices[i] = model_.vertex(card, at(2 + i), "corner");
       for (int j = 0; j < i; ++j)
-        if (solid.vertices[at(j)] == solid.vertices[at(i)])
+        if (solid.vertices[j] == solid.vertices[i])
           throw CardError{
               fmt::format("element {} has grid {} twice: a solid whose corners fall "
                           "together is not known; give it as a CPENTA or CTETRA",
@@ -78,7 +78,7 @@ class Solids {
     for (std::size_t i = 0; i < known.middles.size(); ++i) {
       const std::size_t field = at(2 + topology.corners) + i;
       if (!card.has(field) || card.is(field, "0")) continue;
-      solid.vertices[at(known.middles[i])] = model_.vertex(card, field, "middle of an edge");
+      solid.vertices[known.middles[i]] = model_.vertex(card, field, "middle of an edge");
       tells_middles = true;
     }
     const long property = card.label(1, "property");
@@ -153,7 +153,7 @@ class Solids {
       return known->second;
     Vector3 centre = Vector3::Zero();
     for (int i = 0; i < corners; ++i)
-      centre += model_.place(solid.vertices[at(i)]) / (corners * model_.units.length);
+      centre += model_.place(solid.vertices[i]) / (corners * model_.units.length);
     all.push_back(turned(*of.elasticity, system.axes_at(centre)));
     const int place = static_cast<int>(all.size()) - 1;
     if (is_straight) straight_[property] = place;

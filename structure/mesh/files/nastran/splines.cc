@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/nastran/model.h"
 
 namespace blocklift::structure {
@@ -94,8 +93,8 @@ class Splines {
       throw CardError{fmt::format(
           "RSPLINE {}: grid {} lies not between grids {} and {} (within 1 % of their distance off "
           "their line)",
-          card.text(0), mesh_.vertex_labels[at(vertex)], mesh_.vertex_labels[at(first)],
-          mesh_.vertex_labels[at(last)])};
+          card.text(0), mesh_.vertex_labels[vertex], mesh_.vertex_labels[first],
+          mesh_.vertex_labels[last])};
     const ElasticLine line(reach, share);
     const Matrix3 axes = model_.output_axes(vertex);
     for (int i = 0; i < 6; ++i) {

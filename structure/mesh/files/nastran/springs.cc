@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/nastran/model.h"
 
 namespace blocklift::structure {
@@ -151,7 +150,7 @@ class Springs {
     if (has_end) spring.arms[1] = place - to;
     for (int i = 0; i < 6; ++i) {
       spring.components = {i, i};
-      add(card, spring, stiffness[at(i)] * unit(i));
+      add(card, spring, stiffness[i] * unit(i));
     }
   }
 

@@ -62,7 +62,7 @@ class NastranText {
   using Fields = std::vector<CardField>;
 
   long label(int vertex) const {
-    return mesh_.vertex_labels.empty() ? vertex + 1 : mesh_.vertex_labels[at(vertex)];
+    return mesh_.vertex_labels.empty() ? vertex + 1 : mesh_.vertex_labels[vertex];
   }
   double length(double metres) const { return metres / units_.length; }
   double area(double square) const { return square / (units_.length * units_.length); }
@@ -84,7 +84,7 @@ class NastranText {
   }
 
   void check_surface_point(const SurfacePoint& point) const {
-    const std::vector<int>& middles = middles_[at(point.shell)];
+    const std::vector<int>& middles = middles_[point.shell];
     if (std::find(middles.begin(), middles.end(), point.vertex) == middles.end())
       throw ModelError(
           fmt::format("vertex {} lies within a shell; a deck says this of the middles "
@@ -122,11 +122,11 @@ class NastranText {
       if (!one.supports.empty())
         out_.line(fmt::format("  SPC = {}", combined_supports_[i] > 0
                                                 ? combined_supports_[i]
-                                                : support_label_[at(one.supports.front())]));
+                                                : support_label_[one.supports.front()]));
       if (!one.loads.empty())
         out_.line(fmt::format("  LOAD = {}", combined_loads_[i] > 0
                                                  ? combined_loads_[i]
-                                                 : load_label_[at(one.loads.front().first)]));
+                                                 : load_label_[one.loads.front().first]));
     }
     out_.line("BEGIN BULK");
   }
@@ -181,8 +181,8 @@ class NastranText {
     const double t = section.thickness;
     Fields fields{property, material, length(t), material, CardField(), material};
     if (section.laminate >= 0) {
-      const Laminate& laminate = mesh_.laminates[at(section.laminate)];
-      const double density = mesh_.materials[at(section.material)].density;
+      const Laminate& laminate = mesh_.laminates[section.laminate];
+      const double density = mesh_.materials[section.material].density;
       Eigen::Matrix3d shear = Eigen::Matrix3d::Zero();
       shear.topLeftCorner<2, 2>() = laminate.shear / t;
       fields[1] = CardField(matrix_material(laminate.membrane / t, density));
@@ -205,7 +205,7 @@ class NastranText {
   /// The name of a property's first group, as preprocessors keep it in comments.
   void note_group(long property, int region) {
     if (mesh_.regions.empty() || !named_.insert(property).second) return;
-    const std::string& name = mesh_.groups[at(mesh_.regions[at(region)].group)].name;
+    const std::string& name = mesh_.groups[mesh_.regions[region].group].name;
     if (name.find('"') == std::string::npos)
       out_.line(fmt::format("$HMNAME PROP {:>19}\"{}\"", property, name));
   }
@@ -247,8 +247,7 @@ class NastranText {
   /// Of axis 1 of a laminate from the first side, about the normal, degrees.
   double angle(const Shell& shell) const {
     const Vector3 normal = unit_normal(mesh_, shell);
-    const Vector3 side =
-        mesh_.vertices[at(shell.vertices[1])] - mesh_.vertices[at(shell.vertices[0])];
+    const Vector3 side = mesh_.vertices[shell.vertices[1]] - mesh_.vertices[shell.vertices[0]];
     const Vector3 axis = shell.laminate_axis - shell.laminate_axis.dot(normal) * normal;
     return std::atan2(normal.dot(side.cross(axis)), side.dot(axis)) * 180 / std::numbers::pi;
   }
@@ -256,7 +255,7 @@ class NastranText {
   long beam_property(int place, int end, bool is_rod) {
     const auto [found, is_new] = beam_property_.try_emplace({place, end, is_rod}, 0);
     if (!is_new) return found->second;
-    const BeamSection& section = mesh_.beam_sections[at(place)];
+    const BeamSection& section = mesh_.beam_sections[place];
     const long property = properties_.take(section.label);
     found->second = property;
     const long material = section.material + 1;
@@ -289,7 +288,7 @@ class NastranText {
     }
     Fields fields{property, material, a, i1, i2, i12, j, mass};
     fields.insert(fields.end(), points.begin(), points.end());
-    const BeamSection& last = end < 0 ? section : mesh_.beam_sections[at(end)];
+    const BeamSection& last = end < 0 ? section : mesh_.beam_sections[end];
     if (end >= 0) {
       const Fields of_end{"YES",
                           1.0,
@@ -315,8 +314,7 @@ class NastranText {
   /// A beam's offsets lead to its shear centres, whose line tells its axes; where the sections
   /// differ, it is turned a little against the line of the centroids.
   std::array<Vector3, 2> offsets_of_centres(const Beam& beam) const {
-    const Vector3 between =
-        mesh_.vertices[at(beam.vertices[1])] - mesh_.vertices[at(beam.vertices[0])];
+    const Vector3 between = mesh_.vertices[beam.vertices[1]] - mesh_.vertices[beam.vertices[0]];
     std::array<Vector3, 2> offsets = beam.offset;
     constexpr int rounds = 20;  // each is as much smaller as the sections' difference to the length
     for (int round = 0; round < rounds; ++round) {
@@ -345,12 +343,12 @@ class NastranText {
       }
       const bool is_bar = mesh_.section_of(beam).shear_centre.isZero() && beam.end_section < 0;
       Fields fields{number, property, label(a), label(b)};
-      append(fields, axes_[at(a)].transpose() * beam.axis_2.normalized());
+      append(fields, axes_[a].transpose() * beam.axis_2.normalized());
       fields.emplace_back();
       for (const BeamRelease& release : beam.release) fields.emplace_back(digits(release));
       const std::array<Vector3, 2> to_centres = offsets_of_centres(beam);
       for (std::size_t end = 0; end < 2; ++end)
-        append(fields, axes_[at(beam.vertices[end])].transpose() * to_centres[end] / units_.length);
+        append(fields, axes_[beam.vertices[end]].transpose() * to_centres[end] / units_.length);
       const bool is_plain = digits(beam.release[0]).empty() && digits(beam.release[1]).empty() &&
                             beam.offset[0].isZero() && beam.offset[1].isZero() && is_bar;
       if (is_plain) fields.resize(7);
@@ -376,7 +374,7 @@ class NastranText {
       }
       const auto& [name, order] = cards.at(solid.shape);
       Fields fields{elements_.take(solid.label), found->second};
-      for (const int node : order) fields.emplace_back(label(solid.vertices[at(node)]));
+      for (const int node : order) fields.emplace_back(label(solid.vertices[node]));
       out_.card(name, fields);
     }
   }
@@ -384,11 +382,11 @@ class NastranText {
   /// Where it depends on the direction a MAT9 along the basic axes, which PSOLID means.
   long material_of(const Solid& solid) {
     if (solid.elasticity < 0) return static_cast<long>(solid.material) + 1;
-    const Elasticity g = mesh_.elasticities[at(solid.elasticity)] / units_.stress();
+    const Elasticity g = mesh_.elasticities[solid.elasticity] / units_.stress();
     Fields fields{++next_material_};
     for (Eigen::Index i = 0; i < 6; ++i)
       for (Eigen::Index j = i; j < 6; ++j) fields.emplace_back(g(i, j));
-    fields.emplace_back(mesh_.materials[at(solid.material)].density / units_.density());
+    fields.emplace_back(mesh_.materials[solid.material].density / units_.density());
     out_.card("MAT9", fields);
     return next_material_;
   }
@@ -460,9 +458,9 @@ class NastranText {
         out_.card("CELAS2", fields);
         continue;
       }
-      const Vector3 place = mesh_.vertices[at(a)] + spring.arms[0];
-      const bool meets = b < 0 || (mesh_.vertices[at(b)] + spring.arms[1] - place).norm() <
-                                      1e-9 * (1 + place.norm());
+      const Vector3 place = mesh_.vertices[a] + spring.arms[0];
+      const bool meets =
+          b < 0 || (mesh_.vertices[b] + spring.arms[1] - place).norm() < 1e-9 * (1 + place.norm());
       if (!meets || spring.components[0] != spring.components[1] ||
           (b >= 0 && (spring.axes[0] - spring.axes[1]).norm() > 1e-9))
         throw ModelError(fmt::format("spring {} is none that a CBUSH says", spring.label));
@@ -497,8 +495,7 @@ class NastranText {
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) {
       if (combined_supports_[i] == 0) continue;
       Fields fields{combined_supports_[i]};
-      for (const int set : deck_.load_cases[i].supports)
-        fields.emplace_back(support_label_[at(set)]);
+      for (const int set : deck_.load_cases[i].supports) fields.emplace_back(support_label_[set]);
       out_.card("SPCADD", fields);
     }
   }
@@ -516,7 +513,7 @@ class NastranText {
           const double value = load.force_per_length[i] * units_.length / units_.force;
           if (value == 0) continue;
           out_.card("PLOAD1",
-                    {load_label_[s], beam_number_[at(load.beam)],
+                    {load_label_[s], beam_number_[load.beam],
                      std::string("F") + static_cast<char>('X' + i), "FR", 0.0, value, 1.0, value});
         }
       if (!set.gravity.isZero()) {
@@ -530,7 +527,7 @@ class NastranText {
       Fields fields{combined_loads_[i], 1.0};
       for (const auto& [set, factor] : deck_.load_cases[i].loads) {
         fields.emplace_back(factor);
-        fields.emplace_back(load_label_[at(set)]);
+        fields.emplace_back(load_label_[set]);
       }
       out_.card("LOAD", fields);
     }
@@ -544,10 +541,10 @@ class NastranText {
   }
 
   void write_plate_load(long set, const PlateLoad& load) {
-    const Shell& shell = mesh_.shells[at(load.shell)];
+    const Shell& shell = mesh_.shells[load.shell];
     const auto& p = load.pressure;
-    Fields fields{set, shell_number_[at(load.shell)], p[0] / units_.stress(),
-                  p[1] / units_.stress(), p[3] / units_.stress()};
+    Fields fields{set, shell_number_[load.shell], p[0] / units_.stress(), p[1] / units_.stress(),
+                  p[3] / units_.stress()};
     if (!shell.is_triangle()) fields.emplace_back(p[2] / units_.stress());
     if (!load.direction.isZero()) {
       fields.resize(8);

@@ -6,7 +6,6 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/deck/surface_points.h"
 
@@ -160,7 +159,7 @@ class Collector {
             CellKind kind) {
     constexpr double straight = 1e-6;  // of an edge
     std::vector<Vector3> at_corners, at_middles;
-    for (const int corner : corners) at_corners.push_back(mesh_.vertices[at(corner)]);
+    for (const int corner : corners) at_corners.push_back(mesh_.vertices[corner]);
     bool is_curved = false;
     for (std::size_t i = 0; i < kind.corners; ++i) {
       const Vector3& from = at_corners[i];

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 
 namespace blocklift::structure {
@@ -41,7 +40,7 @@ void give_profile(Mesh& mesh, const std::string& group, const Profile& profile,
   for (Beam& beam : mesh.beams) {
     if (beam.section >= 0 || !is_of_group(mesh, beam.region, group)) continue;
     const Vector3 along =
-        (mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])]).normalized();
+        (mesh.vertices[beam.vertices[1]] - mesh.vertices[beam.vertices[0]]).normalized();
     const Vector3 wanted = towards.value_or(along.unitOrthogonal());
     const Vector3 across = wanted - along * along.dot(wanted);
     if (across.norm() < 1e-3 * wanted.norm())
@@ -54,7 +53,7 @@ void give_profile(Mesh& mesh, const std::string& group, const Profile& profile,
     double face = 0;
     const auto [first, last] = shells.equal_range(edge_between(beam.vertices[0], beam.vertices[1]));
     for (auto it = first; towards && it != last; ++it) {
-      const Shell& shell = mesh.shells[at(it->second)];
+      const Shell& shell = mesh.shells[it->second];
       if (shell.section < 0) continue;
       const double share = std::abs(unit_normal(mesh, shell).dot(beam.axis_2));
       if (share > 1 / std::numbers::sqrt2)

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
-#include "structure/index.h"
-
 namespace blocklift::structure {
 
 namespace {

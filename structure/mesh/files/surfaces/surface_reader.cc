@@ -10,7 +10,6 @@
 #include <gmsh.h>
 
 #include "structure/child_process.h"
-#include "structure/index.h"
 #include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/msh_check.h"

@@ -81,8 +81,7 @@ TEST(LinearBuoyancy, IsThatOfTheHullAtSmallMotions) {
     for (const int half : {0, 1}) {
       // So small that what is left of third order is a twentieth of the second.
       move(body, (half == 0 ? 5e-4 : 2.5e-4) * motion);
-      error.at(static_cast<std::size_t>(half)) =
-          (force_of(body, linear) - force_of(body, exact)).norm();
+      error.at(half) = (force_of(body, linear) - force_of(body, exact)).norm();
     }
     EXPECT_LT(error[0], 1e-5 * size);
     EXPECT_NEAR(error[0] / error[1], 4.0, 0.2);

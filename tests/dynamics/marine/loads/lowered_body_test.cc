@@ -34,7 +34,7 @@ TEST(DraughtInterpolation, SharesAreWeightsThatMeetLinesExactly) {
     double value = 0;
     for (Eigen::Index k = 0; k < 4; ++k) {
       EXPECT_DOUBLE_EQ(s.gain[k] * s.gain[k], s.weight[k]);
-      value += s.weight[k] * draughts[static_cast<std::size_t>(k)];
+      value += s.weight[k] * draughts[k];
     }
     EXPECT_GE(value, before);  // never back
     before = value;

@@ -126,7 +126,7 @@ TEST(RadiatedWater, MovesBodiesAsCumminsEquationDoes) {
     for (Eigen::Index i = 0; i < 100; ++i) {
       const auto n = static_cast<std::size_t>(10 * i);
       for (const int body : {0, 1}) {
-        const double z = result.history.bodies[static_cast<std::size_t>(body)].pose(i, 2);
+        const double z = result.history.bodies[body].pose(i, 2);
         const double z_linear = reference.position[n][6 * body + 2];
         difference = std::max(difference, std::abs(z - z_linear));
         if (i > 20) largest = std::max(largest, std::abs(z));
@@ -227,8 +227,8 @@ std::shared_ptr<HydrodynamicDatabase> scattering() {
     Eigen::MatrixXcd X(12, 72);
     for (Eigen::Index m = 0; m < 12; ++m) {
       for (Eigen::Index j = 0; j < 72; ++j) {
-        const double theta = database->headings[static_cast<std::size_t>(j)];
-        const Vector3& p = database->reference_points[static_cast<std::size_t>(m / 6)];
+        const double theta = database->headings[j];
+        const Vector3& p = database->reference_points[m / 6];
         const double phase = w * w / gravity * (std::cos(theta) * p.x() + std::sin(theta) * p.y());
         X(m, j) = w * std::cos(theta - static_cast<double>(m % 6) * std::numbers::pi / 6) *
                   std::polar(1.0, -phase);

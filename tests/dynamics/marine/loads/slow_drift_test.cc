@@ -31,9 +31,9 @@ std::shared_ptr<HydrodynamicDatabase> drifting() {
   for (const double w : database->frequencies) {
     Eigen::MatrixXd D = Eigen::MatrixXd::Zero(6, 72);
     for (int h = 0; h < 72; ++h) {
-      D(surge, h) = 100 * w * std::cos(database->headings[static_cast<std::size_t>(h)]);
-      D(sway, h) = 60 * std::sin(database->headings[static_cast<std::size_t>(h)]);
-      D(yaw, h) = 10 * std::sin(2 * database->headings[static_cast<std::size_t>(h)]);
+      D(surge, h) = 100 * w * std::cos(database->headings[h]);
+      D(sway, h) = 60 * std::sin(database->headings[h]);
+      D(yaw, h) = 10 * std::sin(2 * database->headings[h]);
     }
     database->mean_drift.push_back(D);
   }

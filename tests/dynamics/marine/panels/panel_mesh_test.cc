@@ -178,8 +178,8 @@ TEST(PanelClusters, OfABoxCoverIt) {
   EXPECT_EQ(4 * clusters.count, box.size());
   Eigen::VectorXd areas(box.size()), depths(box.size());
   for (int k = 0; k < box.size(); ++k) {
-    areas[k] = box.panels[static_cast<std::size_t>(k)].area;
-    depths[k] = box.panels[static_cast<std::size_t>(k)].centroid.z();
+    areas[k] = box.panels[k].area;
+    depths[k] = box.panels[k].centroid.z();
   }
   EXPECT_NEAR(clusters.sum(areas).sum(), box.total_area(), 1e-12);
   for (int k = 0; k < clusters.count; ++k) EXPECT_NEAR(clusters.sum(areas)[k], 4.0, 1e-12);

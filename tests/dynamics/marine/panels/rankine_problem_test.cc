@@ -127,7 +127,7 @@ TEST(DampingLid, HoldsOnItsRectangleAndKeepsItsSymmetry) {
   const Eigen::VectorXd rates = zone.rates(model.surface());
   const auto& panels = model.surface_mesh().panels;
   for (Eigen::Index k = 0; k < rates.size(); ++k) {
-    const Vector3& p = panels[static_cast<std::size_t>(k)].centroid;
+    const Vector3& p = panels[k].centroid;
     const bool inside = p.x() > 2 && p.x() < 4 && p.y() < 1;
     EXPECT_EQ(rates[k], inside ? 0.3 : 0.0);
   }

@@ -33,7 +33,7 @@ template <class Function>
 Eigen::VectorXd elevation(const PanelModel& model, const Function& function) {
   Eigen::VectorXd values = model.surface_areas().cwiseSqrt();
   for (Eigen::Index k = 0; k < values.size(); ++k) {
-    const Panel& panel = model.surface_mesh().panels[static_cast<std::size_t>(k)];
+    const Panel& panel = model.surface_mesh().panels[k];
     values[k] *= function(panel.centroid.norm());
   }
   return values;
@@ -109,16 +109,14 @@ TEST(RingLoss, ActsBesideALongBarge) {
   const auto loss_of = [&](const auto& wave) {
     Eigen::VectorXd values = model.surface_areas().cwiseSqrt();
     for (Eigen::Index k = 0; k < values.size(); ++k) {
-      const Vector3& p = model.surface_mesh().panels[static_cast<std::size_t>(k)].centroid;
+      const Vector3& p = model.surface_mesh().panels[k].centroid;
       const bool beside = std::abs(p.x()) < 30.0 && std::abs(p.y()) < 40.0;
       values[k] *= beside ? wave(p) : 0.0;
     }
     const Eigen::VectorXd differences = R * values;
     double lost = 0.0;
     for (Eigen::Index row = 0; row < R.rows(); ++row) {
-      const Vector3& p = model.surface_mesh()
-                             .panels[static_cast<std::size_t>(read_row(R, row, model).middle)]
-                             .centroid;
+      const Vector3& p = model.surface_mesh().panels[read_row(R, row, model).middle].centroid;
       if (std::abs(p.x()) < 15.0 && std::abs(p.y()) < 25.0) lost += std::pow(differences[row], 2);
     }
     return lost;
@@ -146,7 +144,7 @@ TEST(RingLoss, SkipsPanelsThatAreTakenTogether) {
   const PanelModel model = make_model({.first_ring = 0.1, .radius = 10.0});
   PanelClusters single;
   single.count = model.surface_mesh().size();
-  single.of_panel.resize(static_cast<std::size_t>(single.count));
+  single.of_panel.resize(single.count);
   std::iota(single.of_panel.begin(), single.of_panel.end(), 0);
   const RingDifferences R = make_ring_differences(model.surface(), gravity);
   EXPECT_EQ((R - make_ring_differences(model.surface(), gravity, &single)).norm(), 0.0);

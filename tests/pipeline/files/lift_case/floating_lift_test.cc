@@ -80,8 +80,7 @@ TEST(MarineParts, AFloatingCraneHeelsUnderItsLoad) {
   EXPECT_NEAR(lift_force, weight, 1e-6 * weight);
   EXPECT_EQ(loads.size(), 5U);
   // The bow goes down: moment of load, hook and boom over the longitudinal stiffness.
-  const Vector3 forward =
-      solver.workspace().kinematics.X_WB[static_cast<std::size_t>(base)].R.col(0);
+  const Vector3 forward = solver.workspace().kinematics.X_WB[base].R.col(0);
   const double moment = 9.81 * (82e3 * (10 + 40 * std::cos(std::numbers::pi / 3)) +
                                 41e3 * (10 + 10 * std::cos(std::numbers::pi / 3)));
   const double GM = 40.0 * 40.0 / 12 / 2.05 - 5;  // about, m

@@ -376,8 +376,7 @@ TEST(MarineParts, RestraintHoldsAVesselByMatrices) {
   const dynamics::Contacts contacts;
   calc_right_hand_side(built.system, 0, y, &contacts, w, rate);
   // Half a metre ahead: back by surge, and bow up or down by the mixed term.
-  const dynamics::ForceVector& F =
-      w.loads.F_Bo_W[static_cast<std::size_t>(built.system.mechanism().body_index("B1"))];
+  const dynamics::ForceVector& F = w.loads.F_Bo_W[built.system.mechanism().body_index("B1")];
   EXPECT_NEAR(F.force.y(), -0.5 * 400e3, 1.0);
   EXPECT_NEAR(F.moment.x(), 0.5 * -3e6 - 3.0 * -0.5 * 400e3, 1e3);
   const std::string about =

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
 #include "structure/mesh/laminate.h"
 #include "structure/mesh/mass_properties.h"
 #include "tests/structure/mesh/files/deck_text.h"

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/mass_properties.h"
@@ -58,7 +57,7 @@ void expect_same_sections(const Mesh& a, const Mesh& b, double tolerance) {
     expect_equal(m.density, n.density, tolerance, what + " density");
     ASSERT_EQ(p.laminate < 0, q.laminate < 0) << what;
     if (p.laminate >= 0) {
-      const Laminate &l = a.laminates[at(p.laminate)], &k = b.laminates[at(q.laminate)];
+      const Laminate &l = a.laminates[p.laminate], &k = b.laminates[q.laminate];
       expect_equal(l.membrane, k.membrane, tolerance, what + " A");
       expect_equal(l.coupling, k.coupling, tolerance, what + " B");
       expect_equal(l.bending, k.bending, tolerance, what + " D");
@@ -66,7 +65,7 @@ void expect_same_sections(const Mesh& a, const Mesh& b, double tolerance) {
     }
     ASSERT_EQ(x.curvature < 0, y.curvature < 0) << what;
     if (x.curvature >= 0)
-      expect_equal(a.curved_shells[at(x.curvature)], b.curved_shells[at(y.curvature)], tolerance,
+      expect_equal(a.curved_shells[x.curvature], b.curved_shells[y.curvature], tolerance,
                    what + " curvature");
   }
 }
@@ -86,7 +85,7 @@ void expect_same_beams(const Mesh& a, const Mesh& b, double tolerance) {
     expect_equal(p.area, q.area, tolerance, what + " A");
     expect_equal(p.mass_per_length, q.mass_per_length, tolerance, what + " mass");
     if (x.is_rod) continue;
-    const Vector3 line = a.vertices[at(x.vertices[1])] - a.vertices[at(x.vertices[0])];
+    const Vector3 line = a.vertices[x.vertices[1]] - a.vertices[x.vertices[0]];
     expect_equal(line.cross(x.axis_2).normalized(), line.cross(y.axis_2).normalized(), tolerance,
                  what + " axis 3");
     const double size = p.second_moment_2 + p.second_moment_3;
@@ -142,7 +141,7 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
     Eigen::MatrixXd sums =
         Eigen::MatrixXd::Zero(3, 2 * static_cast<long>(deck.mesh.vertices.size()) + 1);
     for (const auto& [set, factor] : one.loads) {
-      const LoadSet& loads = deck.load_sets[at(set)];
+      const LoadSet& loads = deck.load_sets[set];
       sums.rightCols<1>() += factor * loads.gravity;
       for (const PointLoad& load : loads.point_loads) {
         sums.col(2 * load.vertex) += factor * load.force;
@@ -155,11 +154,11 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(
         7, static_cast<long>(deck.mesh.shells.size() + deck.mesh.beams.size()));
     for (const auto& [set, factor] : one.loads) {
-      for (const PlateLoad& load : deck.load_sets[at(set)].plate_loads) {
-        for (int i = 0; i < 4; ++i) sums(i, load.shell) += factor * load.pressure[at(i)];
+      for (const PlateLoad& load : deck.load_sets[set].plate_loads) {
+        for (int i = 0; i < 4; ++i) sums(i, load.shell) += factor * load.pressure[i];
         sums.col(load.shell).tail<3>() = load.direction;
       }
-      for (const BeamLoad& load : deck.load_sets[at(set)].beam_loads)
+      for (const BeamLoad& load : deck.load_sets[set].beam_loads)
         sums.col(static_cast<long>(deck.mesh.shells.size()) + load.beam).head<3>() +=
             factor * load.force_per_length;
     }
@@ -168,11 +167,11 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
   const auto held = [](const Deck& deck, const DeckLoadCase& one) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(12, static_cast<long>(deck.mesh.vertices.size()));
     for (const int set : one.supports)
-      for (const Support& support : deck.support_sets[at(set)].supports)
+      for (const Support& support : deck.support_sets[set].supports)
         for (int i = 0; i < 6; ++i) {
-          if (!support.held[at(i)]) continue;
+          if (!support.held[i]) continue;
           sums(i, support.vertex) = 1 + support.axes(0, i % 3) + 2 * support.axes(1, i % 3);
-          sums(6 + i, support.vertex) = support.value[at(i)];
+          sums(6 + i, support.vertex) = support.value[i];
         }
     return sums;
   };

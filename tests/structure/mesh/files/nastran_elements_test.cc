@@ -43,7 +43,7 @@ TEST(NastranReader, QuadraticShellsAreCurved) {
   expect_near(position(mesh, mesh.shells[1], {0.3, 1}), Vector3(1, 0, 2), 1e-12);
   // The mass hangs on the middle of an edge.
   ASSERT_EQ(mesh.surface_points.size(), 1U);
-  EXPECT_EQ(mesh.vertex_labels[static_cast<std::size_t>(mesh.surface_points[0].vertex)], 6);
+  EXPECT_EQ(mesh.vertex_labels[mesh.surface_points[0].vertex], 6);
   expect_near(mesh.surface_points[0].xi, Eigen::Vector2d(1, 0.5), 1e-15);
   // Its arc is the parabola through the three points: half chord a, height 1 - a, slope s at its
   // ends, long a (sqrt(1 + s^2) + asinh(s) / s). Three Gauss points leave (b - a)^7 f^(6) /

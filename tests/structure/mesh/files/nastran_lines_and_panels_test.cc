@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
 #include "structure/mesh/files/deck/shear_panel.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/files/nastran/writer.h"
@@ -30,7 +29,7 @@ double turn_of(const Mesh& mesh, int vertex, const Vector3& axis,
     if (first.vertex != vertex || (first.of_rotation.normalized() - axis).norm() > 1e-6) continue;
     double sum = 0;
     for (std::size_t t = 1; t < equation.terms.size(); ++t)
-      sum -= equation.terms[t].of_displacement.dot(displacements[at(equation.terms[t].vertex)]);
+      sum -= equation.terms[t].of_displacement.dot(displacements[equation.terms[t].vertex]);
     return sum / first.of_rotation.norm();
   }
   return std::nan("");
@@ -178,7 +177,7 @@ TEST(NastranSplines, FollowACubicLine) {
   for (const MotionEquation& equation : deck.mesh.equations) {
     double sum = 0;
     for (const MotionEquation::Term& term : equation.terms) {
-      const double x = deck.mesh.vertices[at(term.vertex)].x();
+      const double x = deck.mesh.vertices[term.vertex].x();
       sum += term.of_displacement.dot(displacement(x)) + term.of_rotation.dot(rotation(x));
     }
     EXPECT_NEAR(sum, 0, 1e-12);

@@ -6,7 +6,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/space/links.h"
 #include "tests/structure/mesh/files/deck_text.h"
@@ -30,8 +29,8 @@ double sum_of(const MotionEquation& equation, const std::vector<Vector3>& displa
               const std::vector<Vector3>& rotations) {
   double sum = 0;
   for (const MotionEquation::Term& term : equation.terms)
-    sum += term.of_displacement.dot(displacements[at(term.vertex)]) +
-           term.of_rotation.dot(rotations[at(term.vertex)]);
+    sum += term.of_displacement.dot(displacements[term.vertex]) +
+           term.of_rotation.dot(rotations[term.vertex]);
   return sum;
 }
 
@@ -101,7 +100,7 @@ TEST(NastranLinks, MeansOfAnyComponents) {
   Eigen::Matrix3Xd places(3, 5);
   std::vector<int> nodes;
   for (int v = 0; v < 5; ++v) {
-    places.col(v) = plain.mesh.vertices[at(v)];
+    places.col(v) = plain.mesh.vertices[v];
     nodes.push_back(v);
   }
   const auto rows_of = [&](const Deck& deck) {

@@ -494,8 +494,8 @@ TEST(NastranReader, MaterialsOfBarsMayHaveAnyG) {
   const std::string bar = "CBAR,20,7,1,2,0.,0.,1.\nPBARL,7,8,MSCBML0,TUBE\n+,.1,.08\n";
   const std::string stiff = "MAT1,8,58.+9,7.3+9,,1600.\n";
   const Deck deck = nastran(square + bar + stiff);
-  const Material& material = deck.mesh.materials[static_cast<std::size_t>(
-      deck.mesh.section_of(deck.mesh.beams.at(0)).material)];
+  const Material& material =
+      deck.mesh.materials[deck.mesh.section_of(deck.mesh.beams.at(0)).material];
   EXPECT_NEAR(material.shear_modulus(), 7.3e9, 1);
   EXPECT_NEAR(material.youngs_modulus, 58e9, 1);
   Mesh mesh = deck.mesh;

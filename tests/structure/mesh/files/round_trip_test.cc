@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
 #include "structure/mesh/diagnosis.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/abaqus/writer.h"
@@ -199,7 +198,7 @@ TEST(RoundTrip, RealsOfSixteenColumns) {
 }
 
 std::string group_of(const Mesh& mesh, const Shell& shell) {
-  return mesh.groups[at(mesh.regions[at(shell.region)].group)].name;
+  return mesh.groups[mesh.regions[shell.region].group].name;
 }
 
 // The generated block: all of it comes back, and the doctor has nothing against it.

@@ -90,7 +90,7 @@ Eigen::Matrix3d turn_about_z(double degrees) {
 }
 
 const Elasticity& elasticity_in(const Deck& deck, std::size_t solid) {
-  return deck.mesh.elasticities.at(static_cast<std::size_t>(deck.mesh.solids.at(solid).elasticity));
+  return deck.mesh.elasticities.at(deck.mesh.solids.at(solid).elasticity);
 }
 
 // A pyramid of a third of a cube beside the cube, on its face x = 1.
@@ -233,9 +233,7 @@ TEST(SolidDecks, NastransMiddlesStandWhereTheyAreTold) {
   const Solid& solid = deck.mesh.solids.front();
   const SolidTopology& topology = topology_of(solid.shape);
   for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-    const auto place = [&](std::size_t i) {
-      return deck.mesh.vertices[static_cast<std::size_t>(solid.vertices[i])];
-    };
+    const auto place = [&](std::size_t i) { return deck.mesh.vertices[solid.vertices[i]]; };
     const Vector3 middle = 0.5 * (place(static_cast<std::size_t>(topology.edges[e][0])) +
                                   place(static_cast<std::size_t>(topology.edges[e][1])));
     EXPECT_LT((place(8 + e) - middle).norm(), 1e-12) << e;
@@ -250,8 +248,7 @@ TEST(SolidDecks, AbaqusSolidsAndCouplingsOfTheirFaces) {
   ASSERT_EQ(deck.mesh.distributing_links.size(), 1U);
   const DistributingLink& link = deck.mesh.distributing_links[0];
   EXPECT_EQ(link.vertices.size(), 4U);
-  for (const int vertex : link.vertices)
-    EXPECT_NEAR(deck.mesh.vertices[static_cast<std::size_t>(vertex)].z(), 1, 1e-12);
+  for (const int vertex : link.vertices) EXPECT_NEAR(deck.mesh.vertices[vertex].z(), 1, 1e-12);
 }
 
 // Nodes tied to faces of solids follow the faces' own polynomial: a quadratic field comes out where
@@ -294,15 +291,14 @@ SLAVES, BOTH
     return static_cast<int>(std::find(labels.begin(), labels.end(), label) - labels.begin());
   };
   ASSERT_EQ(mesh.equations.size(), 9U);  // the fourth is too far away
-  EXPECT_NEAR(mesh.vertices[static_cast<std::size_t>(vertex(22))].z(), 1, 1e-9);
+  EXPECT_NEAR(mesh.vertices[vertex(22)].z(), 1, 1e-9);
   const auto field = [](const Vector3& x) {
     return 1 + x.x() - 2 * x.y() + x.x() * x.x() + 3 * x.x() * x.y() + x.z() * x.y();
   };
   for (const MotionEquation& equation : mesh.equations) {
     double sum = 0;
     for (const MotionEquation::Term& term : equation.terms)
-      sum +=
-          term.of_displacement.sum() * field(mesh.vertices[static_cast<std::size_t>(term.vertex)]);
+      sum += term.of_displacement.sum() * field(mesh.vertices[term.vertex]);
     EXPECT_NEAR(sum, 0, 1e-9) << equation.terms.front().vertex;
   }
   for (const MotionEquation& equation : mesh.equations) {

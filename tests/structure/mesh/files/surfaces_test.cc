@@ -17,7 +17,6 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
-#include "structure/index.h"
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/surfaces/cad_file.h"
 #include "structure/mesh/files/surfaces/given_properties.h"
@@ -319,7 +318,7 @@ TEST_F(Surfaces, CurvesOfAGeometryAreBars) {
     const Mesh mesh = read_surfaces(file, reading).mesh;
     double length = 0;
     for (const Beam& beam : mesh.beams)
-      length += (mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])]).norm();
+      length += (mesh.vertices[beam.vertices[1]] - mesh.vertices[beam.vertices[0]]).norm();
     EXPECT_NEAR(length, 5 + std::numbers::pi, std::numbers::pi * std::pow(0.0625, 2) / 24);
   }
 }

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/elastic_model.h"
@@ -54,7 +53,7 @@ double length_of_bars(const Mesh& mesh, const std::string& group) {
   double length = 0;
   for (const Beam& beam : mesh.beams)
     if (mesh.group_of_region(beam.region).name == group)
-      length += (mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])]).norm();
+      length += (mesh.vertices[beam.vertices[1]] - mesh.vertices[beam.vertices[0]]).norm();
   return length;
 }
 
@@ -115,7 +114,7 @@ TEST(Bars, HingesAreAtTheEnds) {
   int hinges = 0;
   for (const Beam& beam : mesh.beams)
     for (std::size_t end = 0; end < 2; ++end) {
-      const Vector3& place = mesh.vertices[at(beam.vertices[end])];
+      const Vector3& place = mesh.vertices[beam.vertices[end]];
       const bool is_end = (place - block.bars[0].points[0]).norm() < 1e-6 ||
                           (place - block.bars[0].points[1]).norm() < 1e-6;
       EXPECT_EQ(beam.release[end], is_end ? hinge : BeamRelease{});

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
 
@@ -68,9 +67,9 @@ TEST(FreePlates, ABilgeBetweenBottomAndSide) {
   EXPECT_EQ(mesh.group_of_region(mesh.shells.back().region).name, "bracket");
   for (const Shell& shell : mesh.shells) {
     if (mesh.group_of_region(shell.region).name != "bottom") continue;
-    const Vector3& corner = mesh.vertices[at(shell.vertices[0])];
-    EXPECT_GT((mesh.vertices[at(shell.vertices[1])] - corner)
-                  .cross(mesh.vertices[at(shell.vertices[2])] - corner)
+    const Vector3& corner = mesh.vertices[shell.vertices[0]];
+    EXPECT_GT((mesh.vertices[shell.vertices[1]] - corner)
+                  .cross(mesh.vertices[shell.vertices[2]] - corner)
                   .z(),
               0);
   }
@@ -128,7 +127,7 @@ TEST(FreePlates, StiffenersStay) {
   const Mesh mesh = generate_shell_mesh(block);
   double length = 0;
   for (const Beam& beam : mesh.beams) {
-    length += (mesh.vertices[at(beam.vertices[1])] - mesh.vertices[at(beam.vertices[0])]).norm();
+    length += (mesh.vertices[beam.vertices[1]] - mesh.vertices[beam.vertices[0]]).norm();
     EXPECT_NEAR(beam.offset[0].z(), 0.105, 1e-12);
   }
   EXPECT_NEAR(length, 8, 1e-9);  // at y = 1 and 2 m

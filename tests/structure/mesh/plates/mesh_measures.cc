@@ -8,8 +8,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
-
 namespace blocklift::structure::testing {
 
 namespace {
@@ -23,7 +21,7 @@ std::array<Edge, 4> edges_of(const Shell& shell) {
 }
 
 double length_of(const Mesh& mesh, const Edge& edge) {
-  return (mesh.vertices[at(edge.second)] - mesh.vertices[at(edge.first)]).norm();
+  return (mesh.vertices[edge.second] - mesh.vertices[edge.first]).norm();
 }
 
 std::map<Edge, std::vector<int>> shells_of_edges(const Mesh& mesh) {
@@ -61,18 +59,17 @@ SteelMeasures measure(const Mesh& mesh) {
     const double per_area = mesh.section_of(shell).thickness * mesh.material_of(shell).density;
     for_each_point(mesh, shell, [&](const Vector3& place, const Vector3&, double area) {
       steel.area += area;
-      steel.area_of_region[mesh.regions[at(shell.region)].name] += area;
+      steel.area_of_region[mesh.regions[shell.region].name] += area;
       steel.area_of_group[mesh.group_of_region(shell.region).name] += area;
       steel.mass += area * per_area;
       steel.centre += area * per_area * place;
     });
   }
   for (const Beam& beam : mesh.beams) {
-    const Vector3 a = mesh.vertices[at(beam.vertices[0])] + beam.offset[0];
-    const Vector3 b = mesh.vertices[at(beam.vertices[1])] + beam.offset[1];
+    const Vector3 a = mesh.vertices[beam.vertices[0]] + beam.offset[0];
+    const Vector3 b = mesh.vertices[beam.vertices[1]] + beam.offset[1];
     const BeamSection& section = mesh.section_of(beam);
-    const double mass =
-        (b - a).norm() * section.area * mesh.materials[at(section.material)].density;
+    const double mass = (b - a).norm() * section.area * mesh.materials[section.material].density;
     steel.mass += mass;
     steel.centre += mass * (a + b) / 2;
   }
@@ -84,7 +81,7 @@ double joint_length(const Mesh& mesh) {
   double length = 0;
   for (const auto& [edge, shells] : shells_of_edges(mesh)) {
     std::set<int> regions;
-    for (const int s : shells) regions.insert(mesh.shells[at(s)].region);
+    for (const int s : shells) regions.insert(mesh.shells[s].region);
     if (shells.size() > 2 || regions.size() > 1) length += length_of(mesh, edge);
   }
   return length;
@@ -96,12 +93,12 @@ double joint_overlap(const Mesh& mesh) {
     std::array<int, 3> count{};
     std::array<double, 3> thickness{};  // sum over the shells normal to each axis
     for (const int s : shells) {
-      const Shell& shell = mesh.shells[at(s)];
-      const auto vertex = [&](std::size_t i) { return mesh.vertices[at(shell.vertices[i])]; };
+      const Shell& shell = mesh.shells[s];
+      const auto vertex = [&](std::size_t i) { return mesh.vertices[shell.vertices[i]]; };
       Eigen::Index normal = 0;
       (vertex(1) - vertex(0)).cross(vertex(2) - vertex(0)).maxCoeff(&normal);
-      ++count[at(normal)];
-      thickness[at(normal)] += mesh.section_of(shell).thickness;
+      ++count[normal];
+      thickness[normal] += mesh.section_of(shell).thickness;
     }
     double square = length_of(mesh, edge);
     int covered = 0, planes = 0;
@@ -120,10 +117,9 @@ void expect_conforming(const Mesh& mesh) {
   const auto edges = shells_of_edges(mesh);
   for (const auto& [edge, shells] : edges) {
     std::map<int, int> of_region;
-    for (const int s : shells) ++of_region[mesh.shells[at(s)].region];
-    for (const auto& [region, count] : of_region)
-      EXPECT_LE(count, 2) << mesh.regions[at(region)].name;
-    const Vector3 a = mesh.vertices[at(edge.first)], b = mesh.vertices[at(edge.second)];
+    for (const int s : shells) ++of_region[mesh.shells[s].region];
+    for (const auto& [region, count] : of_region) EXPECT_LE(count, 2) << mesh.regions[region].name;
+    const Vector3 a = mesh.vertices[edge.first], b = mesh.vertices[edge.second];
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       if (static_cast<int>(v) == edge.first || static_cast<int>(v) == edge.second) continue;
       const Vector3& p = mesh.vertices[v];

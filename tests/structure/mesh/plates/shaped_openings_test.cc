@@ -133,8 +133,8 @@ TEST(ShapedOpenings, LieBetweenPlatesAndStiffeners) {
               9 * area_error(pi / 2) * pi * 0.0625);
   double lowest = 2;  // of the stiffener over the third hole
   for (const Beam& beam : mesh.beams)
-    if (std::abs(mesh.vertices[at(beam.vertices[0])].y() - 2.2) < 1e-9)
-      lowest = std::min(lowest, mesh.vertices[at(beam.vertices[0])].z());
+    if (std::abs(mesh.vertices[beam.vertices[0]].y() - 2.2) < 1e-9)
+      lowest = std::min(lowest, mesh.vertices[beam.vertices[0]].z());
   EXPECT_GE(lowest, 0.9);
   EXPECT_LE(lowest, 0.9 + 0.5);
   const auto reactions = samples::weigh(mesh, 3, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}});

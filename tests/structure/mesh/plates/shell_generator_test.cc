@@ -8,7 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "structure/index.h"
 #include "tests/structure/formulation/gravity.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/mesh/plates/mesh_measures.h"
@@ -28,8 +27,7 @@ std::set<long> lines_across(const Mesh& mesh, int axis, const std::string& group
   std::set<long> lines;
   for (const Shell& shell : mesh.shells)
     if (mesh.group_of_region(shell.region).name == group)
-      for (const int v : shell.vertices)
-        lines.insert(std::lround(mesh.vertices[at(v)][axis] * 1e3));
+      for (const int v : shell.vertices) lines.insert(std::lround(mesh.vertices[v][axis] * 1e3));
   return lines;
 }
 
@@ -85,7 +83,7 @@ TEST(ShellGenerator, RegionsAreSheetsAndGroupsAreNames) {
   EXPECT_THAT(regions, ElementsAre("bottom at z = 0 m", "sides at y = 0 m", "sides at y = 3 m",
                                    "frames at x = 0 m", "frames at x = 2 m", "frames at x = 4 m"));
   for (const Region& region : mesh.regions)
-    EXPECT_EQ(region.is_lug, mesh.groups[at(region.group)].name.front() == 'L') << region.name;
+    EXPECT_EQ(region.is_lug, mesh.groups[region.group].name.front() == 'L') << region.name;
   for (std::size_t s = 0; s < mesh.shells.size(); ++s)
     EXPECT_EQ(mesh.shells[s].label, static_cast<long>(s) + 1);
 }
@@ -113,8 +111,8 @@ TEST(ShellGenerator, LiftingPointsKnowTheirLugAndPad) {
   ASSERT_EQ(mesh.lifting_points.size(), 4U);
   const LiftingPoint& lug = mesh.lifting_points[2];
   EXPECT_EQ(lug.name, "L3");
-  EXPECT_EQ(mesh.regions[at(lug.region)].name, "L3 at y = 3 m");
-  EXPECT_EQ(mesh.regions[at(lug.pad_region)].name, "pad_L3 at y = 3 m");
+  EXPECT_EQ(mesh.regions[lug.region].name, "L3 at y = 3 m");
+  EXPECT_EQ(mesh.regions[lug.pad_region].name, "pad_L3 at y = 3 m");
   EXPECT_LT((lug.p_BPin - Vector3(0.4, 3, 2.25)).norm(), 1e-10);
   EXPECT_NEAR(lug.radius, std::hypot(0.4, 2.25 - 1.2), 1e-10);  // to the pad's lower corners
 }

@@ -11,7 +11,6 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/mesh/plates/stiffener_sheets.h"
 #include "structure/mesh/sections.h"

@@ -7,7 +7,6 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
-#include "structure/index.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "tests/structure/formulation/gravity.h"
 #include "tests/structure/hull_block.h"
@@ -55,8 +54,7 @@ BlockDescription panel(double length, double breadth, double thickness) {
 std::set<long> lines_at(const Mesh& mesh, double x) {
   std::set<long> lines;
   for (const Beam& beam : mesh.beams) {
-    const Vector3 &a = mesh.vertices[at(beam.vertices[0])],
-                  &b = mesh.vertices[at(beam.vertices[1])];
+    const Vector3 &a = mesh.vertices[beam.vertices[0]], &b = mesh.vertices[beam.vertices[1]];
     if (a.x() < x && x < b.x()) lines.insert(std::lround(a.y() * 1e3));
   }
   return lines;
@@ -118,7 +116,7 @@ TEST(Stiffeners, AreCutByOpeningsAndRunOverPads) {
   EXPECT_THAT(lines_at(mesh, 0.9), ElementsAre(500, 1000, 1500));
   EXPECT_THAT(lines_at(mesh, 1.1), ElementsAre(500, 1500));
   for (const Beam& beam : mesh.beams) {
-    const Vector3& a = mesh.vertices[at(beam.vertices[0])];
+    const Vector3& a = mesh.vertices[beam.vertices[0]];
     const bool is_on_pad = a.x() > 3 - 1e-9 && a.y() < 0.6;
     EXPECT_NEAR(beam.offset[0].z(), (is_on_pad ? 0.015 : 0.006) + height / 2, 1e-12);
   }
@@ -146,7 +144,7 @@ TEST(Stiffeners, StandOnThePositionsThatTheyName) {
   expect_conforming(mesh);
   EXPECT_NEAR(measure(mesh).mass - measure(generate_shell_mesh(testing::small_block())).mass,
               steel_density * 3 * 2 * height * width, 1e-7);
-  for (const Beam& beam : mesh.beams) EXPECT_EQ(mesh.vertices[at(beam.vertices[0])].x(), 2);
+  for (const Beam& beam : mesh.beams) EXPECT_EQ(mesh.vertices[beam.vertices[0]].x(), 2);
   const std::array<Vector3, 3> supports{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}};
   const auto reactions = samples::weigh(mesh, 2, supports);
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], 9.81 * measure(mesh).mass, 0.1);
