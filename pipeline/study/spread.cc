@@ -38,8 +38,9 @@ ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
   }
   std::sort(again.begin(), again.end());
   const auto at = [&](double part) {
-    return again.empty() ? std::numeric_limits<double>::quiet_NaN()
-                         : again[part * static_cast<double>(again.size() - 1)];
+    return again.empty()
+               ? std::numeric_limits<double>::quiet_NaN()
+               : again[static_cast<std::size_t>(part * static_cast<double>(again.size() - 1))];
   };
   result.low = at((1 - covered) / 2);
   result.high = at((1 + covered) / 2);
