@@ -52,9 +52,15 @@ class KeptValuesReader {
     (pass_value(*this, values), ...);
   }
   void bytes(void* to, std::size_t count) {
+    const void* from = in_place(count);
+    if (count > 0) std::memcpy(to, from, count);
+  }
+  /// The next bytes where they are, not copied.
+  const void* in_place(std::size_t count) {
     if (count > rest_.size()) throw std::runtime_error("kept values end early");
-    if (count > 0) std::memcpy(to, rest_.data(), count);
+    const void* begin = rest_.data();
     rest_.remove_prefix(count);
+    return begin;
   }
   /// A number of things, of which each takes a byte at least.
   std::size_t count() {

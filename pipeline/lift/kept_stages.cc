@@ -1,7 +1,9 @@
 #include "pipeline/lift/kept_stages.h"
 
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "pipeline/formats/kept_values.h"
 
@@ -198,17 +200,27 @@ LiftRun motion_of(const std::string& bytes, BuiltLift model) {
   return run;
 }
 
+// The components first, so that they are aligned in the file's memory.
 std::string bytes_of_stress_basis(const structure::StressBasis& basis) {
+  const auto components = basis.components();
+  const std::int64_t rows = components.rows(), columns = components.cols();
   KeptValuesWriter values;
-  values(basis.squares, basis.components);
+  values(rows, columns);
+  values.bytes(components.data(), sizeof(double) * static_cast<std::size_t>(components.size()));
+  values(basis.squares());
   return values.take();
 }
 
-structure::StressBasis stress_basis_of(std::string_view bytes) {
-  KeptValuesReader values(bytes);
-  structure::StressBasis basis;
-  values(basis.squares, basis.components);
-  return basis;
+structure::StressBasis stress_basis_in(std::shared_ptr<const MappedFile> file) {
+  KeptValuesReader values(file->bytes());
+  std::int64_t rows = 0, columns = 0;
+  values(rows, columns);
+  if (rows < 0 || columns < 0) throw std::runtime_error("the stress that was kept has no size");
+  const auto* first = static_cast<const double*>(
+      values.in_place(sizeof(double) * static_cast<std::size_t>(rows * columns)));
+  std::vector<structure::Square> squares;
+  values(squares);
+  return {std::move(squares), {first, rows, columns}, std::move(file)};
 }
 
 std::string bytes_of_refinement(const KeptRefinement& refinement) { return bytes_of(refinement); }

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <string>
-#include <string_view>
 
+#include "pipeline/formats/mapped_file.h"
 #include "pipeline/lift/lift_run.h"
 #include "structure/response/accuracy.h"
 #include "structure/response/stress_basis.h"
@@ -26,7 +27,8 @@ std::string bytes_of_motion(const LiftRun& run);
 LiftRun motion_of(const std::string& bytes, BuiltLift model);
 
 std::string bytes_of_stress_basis(const structure::StressBasis& basis);
-structure::StressBasis stress_basis_of(std::string_view bytes);
+/// The basis of a file of such bytes, into which it looks.
+structure::StressBasis stress_basis_in(std::shared_ptr<const MappedFile> file);
 
 std::string bytes_of_refinement(const KeptRefinement& refinement);
 KeptRefinement refinement_of(const std::string& bytes);

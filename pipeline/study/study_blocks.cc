@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -126,7 +127,7 @@ void require_balance(const structure::LoadCase& load_case, const MassProperties&
 void find_largest(const structure::StressBasis& basis, const BlockAttachment& attachment,
                   const BlockHistory& history, const MassProperties& mass, double& stress,
                   double& time, Vector3& place) {
-  Eigen::MatrixXd factors(basis.components.cols(), history.sample_count());
+  Eigen::MatrixXd factors(basis.components().cols(), history.sample_count());
   for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample) {
     const structure::LoadCase load_case = map_instant(history, sample, attachment, mass);
     require_balance(load_case, mass, attachment);
@@ -136,7 +137,7 @@ void find_largest(const structure::StressBasis& basis, const BlockAttachment& at
   if (largest.point < 0) throw std::runtime_error("the block has no plating");
   stress = largest.value;
   time = history.motion.time[largest.instant];
-  place = basis.squares[largest.point].centre_B;
+  place = basis.squares()[largest.point].centre_B;
 }
 
 }  // namespace
@@ -163,7 +164,7 @@ std::string StudyBlocks::key_of(const Eigen::VectorXd& values) const {
 fs::path StudyBlocks::file_of(const std::string& key) const {
   ContentHash hash;
   hash.add(std::string_view(key));
-  return folder_ / ("block-" + hash.digits());
+  return folder_ / ("unit-stress-" + hash.digits());
 }
 
 StudyBlocks::Kept& StudyBlocks::kept(const LiftCase& lift_case, const Eigen::VectorXd& values) {
@@ -247,7 +248,7 @@ void StudyBlocks::find_basis(Kept& block, bool over_edges, const Eigen::VectorXd
   const fs::path file = file_of(block.key);
   std::error_code ignored;
   if (!fs::exists(file, ignored)) write_file(file, bytes_of_stress_basis(basis_of(refine(values))));
-  block.basis = stress_basis_of(MappedFile(file).bytes());
+  block.basis = stress_basis_in(std::make_shared<const MappedFile>(file));
 }
 
 LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun& run,
@@ -257,15 +258,15 @@ LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun
   const MassProperties mass = mass_of(*block.model, *lift_case.load.model);
   BlockLoads loads(run.model, run.static_history, run.dynamic_history(), *block.model);
   const structure::StressBasis* basis = &*block.basis;
-  structure::StressBasis with_edges;
+  std::optional<structure::StressBasis> with_edges;
   if (block.refined) {
     const structure::OneBlasThread whatever_the_threads;
     if (const auto edges = find_edge_basis(*block.refined->model, run.model, run.static_history,
                                            run.dynamic_history())) {
       with_edges = *basis;
-      structure::add_loads(*block.refined->responses, edges->loads, with_edges, 1);
+      structure::add_loads(*block.refined->responses, edges->loads, *with_edges, 1);
       loads.add(*edges, edges->ropes);
-      basis = &with_edges;
+      basis = &*with_edges;
     }
   }
   LargestChecked largest;

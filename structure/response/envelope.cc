@@ -162,27 +162,57 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
   return all;
 }
 
-LargestValue find_largest_displacement(const LoadHistory& history, int points,
-                                       const UnitResponsesAt& displacement, int threads) {
+namespace {
+
+/// The largest over batches of points.
+/// @param search (first point, count, what is known, which it raises).
+template <class Search>
+LargestValue find_largest(int points, int threads, const Search& search) {
   LargestValue all;
   std::mutex updating;
   in_batches(points, batch_size, threads, [&](int first, int count) {
-    const Rows rows = responses_of(history, displacement, first, count, 3);
-    SearchWorkspace workspace(history);
     LargestValue known;
     {
       const std::lock_guard lock(updating);
       known = all;
     }
+    search(first, count, known);
+    const std::lock_guard lock(updating);
+    if (known.point >= 0) merge(all, {known.value, known.instant}, known.point);
+  });
+  return all;
+}
+
+}  // namespace
+
+LargestValue find_largest_in_plane(const LoadHistory& history, int points,
+                                   const UnitResponsesAt& stress, int threads) {
+  return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
+    const Rows in_plane = responses_of(history, stress, first, count, 3);
+    SearchWorkspace workspace(history);
+    Rows rows = Rows::Zero(6, in_plane.cols());
+    for (int i = 0; i < count; ++i) {
+      rows.topRows<2>() = in_plane.middleRows<2>(3L * i);
+      rows.row(3) = in_plane.row(3L * i + 2);
+      const Found found =
+          search_stress(history, rows.data(), workspace, von_mises_above(as_floor(known).value))
+              .von_mises;
+      if (found.instant >= 0) merge(known, found, first + i);
+    }
+  });
+}
+
+LargestValue find_largest_displacement(const LoadHistory& history, int points,
+                                       const UnitResponsesAt& displacement, int threads) {
+  return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
+    const Rows rows = responses_of(history, displacement, first, count, 3);
+    SearchWorkspace workspace(history);
     for (int i = 0; i < count; ++i) {
       const Found found = search_displacement(history, rows.data() + 3L * i * rows.cols(),
                                               workspace, as_floor(known));
       if (found.instant >= 0) merge(known, found, first + i);
     }
-    const std::lock_guard lock(updating);
-    if (known.point >= 0) merge(all, {known.value, known.instant}, known.point);
   });
-  return all;
 }
 
 }  // namespace blocklift::structure

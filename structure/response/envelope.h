@@ -75,6 +75,11 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int sets,
                                       const std::function<int(int)>& set_of, int threads = 0);
 
+/// The largest von Mises stress over points in plane stress and instants, likewise.
+/// @param stress rows 3 point + c (11, 22, 12, Pa).
+LargestValue find_largest_in_plane(const LoadHistory& history, int points,
+                                   const UnitResponsesAt& stress, int threads = 0);
+
 /// The largest magnitude of a displacement over points and instants, m, likewise.
 LargestValue find_largest_displacement(const LoadHistory& history, int points,
                                        const UnitResponsesAt& displacement, int threads = 0);

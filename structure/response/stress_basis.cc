@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,15 +41,36 @@ void balance(const ElasticModel& model, Eigen::MatrixXd& loads) {
 
 }  // namespace
 
+StressBasis::StressBasis(std::vector<Square> squares,
+                         const Eigen::Map<const Eigen::MatrixXd>& components,
+                         std::shared_ptr<const void> keeper)
+    : squares_(std::move(squares)),
+      keeper_(std::move(keeper)),
+      first_(components.data()),
+      rows_(components.rows()),
+      columns_(components.cols()),
+      weights_(components.colwise().norm().transpose() /
+               std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, components.rows())))) {
+  if (rows_ != 3 * std::ssize(squares_))
+    throw ModelError(
+        fmt::format("a basis of stress has {} components for {} squares", rows_, squares_.size()));
+}
+
+StressBasis::StressBasis(std::vector<Square> squares, Eigen::MatrixXd components)
+    : StressBasis([&] {
+        const auto kept = std::make_shared<const Eigen::MatrixXd>(std::move(components));
+        return StressBasis(std::move(squares), {kept->data(), kept->rows(), kept->cols()}, kept);
+      }()) {}
+
 Eigen::VectorXd StressBasis::factors(const LoadCase& load_case, const MassProperties& mass) const {
   const auto lug_forces = static_cast<Eigen::Index>(3 * load_case.lug_forces_B.size());
-  if (components.cols() != lug_forces + densities * fields + load_case.added.size())
+  if (columns_ != lug_forces + densities * fields + load_case.added.size())
     throw ModelError(
         fmt::format("load case \"{}\" has {} lug forces and {} added loads; the block's basis has "
                     "{} forces and added loads in all",
                     load_case.name, load_case.lug_forces_B.size(), load_case.added.size(),
-                    components.cols() - densities * fields));
-  Eigen::VectorXd all(components.cols());
+                    columns_ - densities * fields));
+  Eigen::VectorXd all(columns_);
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
     all.segment<3>(3 * lug) = load_case.lug_forces_B[lug];
   const Eigen::Matrix<double, fields, 1> field = load_case.field.coefficients();
@@ -61,22 +84,21 @@ Eigen::VectorXd StressBasis::factors(const LoadCase& load_case, const MassProper
 StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square> squares,
                               int threads) {
   const ElasticModel& model = responses.model();
-  StressBasis basis{std::move(squares), {}};
   const Eigen::Index lug_forces = model.lug_loads().cols();
-  basis.components.resize(3 * basis.squares.size(), lug_forces + densities * fields);
+  Eigen::MatrixXd components(3 * squares.size(), lug_forces + densities * fields);
   // The balanced responses to the lugs' unit forces are known; densities go one after another, for
   // their loads fill the memory.
-  basis.components.leftCols(lug_forces) =
-      CheckedStress(model, responses.displacements().leftCols(lug_forces), basis.squares, threads)
+  components.leftCols(lug_forces) =
+      CheckedStress(model, responses.displacements().leftCols(lug_forces), squares, threads)
           .components();
   for (Eigen::Index density = 0; density < densities; ++density) {
     Eigen::MatrixXd loads =
         inertia_loads(model.space(), unit_density(model.mass_properties(), density));
     balance(model, loads);
-    basis.components.middleCols<fields>(lug_forces + density * fields) =
-        CheckedStress(model, responses.solve(loads), basis.squares, threads).components();
+    components.middleCols<fields>(lug_forces + density * fields) =
+        CheckedStress(model, responses.solve(loads), squares, threads).components();
   }
-  return basis;
+  return {std::move(squares), std::move(components)};
 }
 
 void add_loads(const UnitResponses& responses, Eigen::MatrixXd loads, StressBasis& basis,
@@ -84,29 +106,20 @@ void add_loads(const UnitResponses& responses, Eigen::MatrixXd loads, StressBasi
   const ElasticModel& model = responses.model();
   balance(model, loads);
   const Eigen::MatrixXd added =
-      CheckedStress(model, responses.solve(loads), basis.squares, threads).components();
-  basis.components.conservativeResize(Eigen::NoChange, basis.components.cols() + added.cols());
-  basis.components.rightCols(added.cols()) = added;
+      CheckedStress(model, responses.solve(loads), basis.squares(), threads).components();
+  const auto known = basis.components();
+  Eigen::MatrixXd all(known.rows(), known.cols() + added.cols());
+  all << known, added;
+  basis = StressBasis(basis.squares(), std::move(all));
 }
 
 LargestValue find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
                                   int threads) {
-  const Eigen::VectorXd weights =
-      basis.components.colwise().norm().transpose() /
-      std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, basis.components.rows())));
-  const auto unit_stress = [&](int first, int count) {
-    Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6 * count, basis.components.cols());
-    for (int i = 0; i < count; ++i) {
-      const auto square = basis.components.middleRows<3>(3 * (first + i));
-      stress.middleRows<2>(6 * i) = square.topRows<2>();
-      stress.row(6 * i + 3) = square.row(2);
-    }
-    return stress;
+  const auto unit_stress = [&](int first, int count) -> Eigen::MatrixXd {
+    return basis.components().middleRows(3L * first, 3L * count);
   };
-  return find_largest_stresses(
-             LoadHistory(factors, weights), static_cast<int>(basis.squares.size()), unit_stress, 1,
-             [](int) { return 0; }, threads)
-      .von_mises.front();
+  return find_largest_in_plane(LoadHistory(factors, basis.weights()),
+                               static_cast<int>(basis.squares().size()), unit_stress, threads);
 }
 
 }  // namespace blocklift::structure

@@ -118,6 +118,28 @@ TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
             sets.smallest_principal.value);
 }
 
+// Stress in a plane has three components: the others are nil.
+TEST(Envelope, LargestInPlaneIsThatOfAllComponents) {
+  const Eigen::MatrixXd in_plane = testing::random_responses(3 * 300, 12, 15);
+  Eigen::MatrixXd units = Eigen::MatrixXd::Zero(6 * 300, 12);
+  for (int p = 0; p < 300; ++p) {
+    units.middleRows<2>(6 * p) = in_plane.middleRows<2>(3 * p);
+    units.row(6 * p + 3) = in_plane.row(3 * p + 2);
+  }
+  const Eigen::MatrixXd factors = testing::lift_like_history(12, 400, 16);
+  const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
+  const PointExtremes each = find_von_mises_envelope(
+      history, 300, [&](int first, int count) { return units.middleRows(6 * first, 6 * count); },
+      1);
+  const LargestValue largest = find_largest_in_plane(
+      history, 300, [&](int first, int count) { return in_plane.middleRows(3 * first, 3 * count); },
+      2);
+  Eigen::Index point = 0;
+  EXPECT_NEAR(largest.value, each.value.maxCoeff(&point), 1e-14 * largest.value);
+  EXPECT_EQ(largest.point, point);
+  EXPECT_EQ(largest.instant, each.instant[point]);
+}
+
 TEST(Envelope, LargestDisplacementEqualsBruteForce) {
   const Eigen::MatrixXd units = testing::random_responses(3 * 400, 30, 7);
   for (const bool comes_back : {true, false}) {
