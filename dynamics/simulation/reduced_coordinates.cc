@@ -65,7 +65,18 @@ Eigen::VectorXd ReducedCoordinates::closing_move(const Eigen::MatrixXd& incremen
 }
 
 Eigen::MatrixXd ReducedCoordinates::seen_along(const Eigen::MatrixXd& stiffness) {
-  if (!projector_) return stiffness * tangent();
+  if (!projector_) {
+    // The increments of few joints, those that turn about no fixed axis, are not just added up.
+    const Eigen::MatrixXd moves = tangent();
+    Eigen::MatrixXd seen = stiffness;
+    for (Eigen::Index j = 0; j < moves.cols(); ++j) {
+      for (Eigen::Index i = 0; i < moves.rows(); ++i) {
+        const double beyond = moves(i, j) - (i == j ? 1.0 : 0.0);
+        if (beyond != 0.0) seen.col(j) += beyond * stiffness.col(i);
+      }
+    }
+    return seen;
+  }
   return virtual_motions().transpose() * stiffness * tangent();
 }
 

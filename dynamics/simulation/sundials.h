@@ -5,7 +5,6 @@
 
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include "dynamics/errors.h"
@@ -46,19 +45,18 @@ inline Context make_context() {
   return Context(context);
 }
 
-/// Direct linear solver that has nothing to set up (its owner's CVLsLinSysFn factorises) and whose
-/// `content` is that owner.
-inline LinearSolver make_direct_solver(void* owner,
-                                       int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector,
-                                                    double),
-                                       const Context& context) {
+/// Direct linear solver whose `content` is its owner.
+/// @param factorise the matrix, where that is not done otherwise (by the owner's CVLsLinSysFn).
+inline LinearSolver make_direct_solver(
+    void* owner, int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector, double),
+    const Context& context, int (*factorise)(SUNLinearSolver, SUNMatrix) = nullptr) {
   LinearSolver solver(SUNLinSolNewEmpty(context.get()));
   if (!solver) throw SimulationError("SUNDIALS: SUNLinSolNewEmpty gave no memory");
   solver->content = owner;
   solver->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
   solver->ops->getid = [](SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; };
   solver->ops->initialize = [](SUNLinearSolver) { return 0; };
-  solver->ops->setup = [](SUNLinearSolver, SUNMatrix) { return 0; };
+  solver->ops->setup = factorise ? factorise : [](SUNLinearSolver, SUNMatrix) { return 0; };
   solver->ops->solve = solve;
   solver->ops->free = [](SUNLinearSolver s) {
     s->content = nullptr;
