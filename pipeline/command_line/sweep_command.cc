@@ -141,8 +141,13 @@ void run_members(const SweepOptions& options, const StudyFile& study, const fs::
   for (const int number : missing) orders.push_back({WorkOrder::Kind::member, number, 1});
   const int all = store.count_all(count);
   int done = all - static_cast<int>(missing.size());
+  bool are_figures_known = done > 0;
   const auto take = [&](int order, const std::string& text) {
     const Member member = member_of_text(missing[order], text);
+    if (!are_figures_known && member.failure.empty()) {
+      require_figures(study, member);
+      are_figures_known = true;
+    }
     const HeldSignals until_it_is_written;
     store.write(member);
     ++done;

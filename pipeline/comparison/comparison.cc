@@ -248,11 +248,13 @@ std::string shown_change(const ComparedFigure& figure, std::size_t result) {
 std::string shown_move(const ResultComparison& comparison, const MovedFigure& moved) {
   const ComparedFigure& figure = comparison.figures[moved.figure];
   const std::string change = shown_change(figure, moved.result);
+  const auto in_words = [&](const Json& value) {
+    return value.is_null() ? "nothing" : shown_value(figure, value);
+  };
   return fmt::format(
       "{} of {}: {} instead of {}{}{}, beyond {}", figure.figure.path,
-      comparison.results[moved.result].name, shown_value(figure, figure.values[moved.result]),
-      shown_value(figure, figure.values.front()),
-      figure.figure.unit.empty() ? "" : " " + figure.figure.unit,
+      comparison.results[moved.result].name, in_words(figure.values[moved.result]),
+      in_words(figure.values.front()), figure.figure.unit.empty() ? "" : " " + figure.figure.unit,
       change.empty() ? "" : " (" + change + ")", comparison.tolerances[moved.tolerance].text);
 }
 

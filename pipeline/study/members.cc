@@ -79,9 +79,23 @@ std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
   return figures;
 }
 
+std::vector<std::string> names_of_figures(const Json& summary) {
+  std::vector<std::string> names;
+  for (const SummaryFigure& figure : list_figures(summary)) names.push_back(figure.path);
+  return names;
+}
+
+bool has_figure(const Json& summary, const std::string& path) {
+  const Json* value = find_figure(summary, path);
+  return value && value->is_number();
+}
+
 /// Takes the figures of a summary that are looked at into a member.
 void take_figures(const StudyFile& study, const Json& summary, Member& member) {
   member.figures = figures_of(study, summary);
+  for (const Located<std::string>& path : study.figures)
+    if (!has_figure(summary, path.value))
+      member.unknown.emplace_back(path.value, nearest_name(path.value, names_of_figures(summary)));
   for (const auto& [path, value] : member.figures)
     if (is_worse_when_smaller(summary, path)) member.worse_when_smaller.push_back(path);
   for (const auto& [path, value] : member.figures)
@@ -167,6 +181,7 @@ std::string text_of_member(const Member& member) {
   if (!member.worse_when_smaller.empty()) json["worse_when_smaller"] = member.worse_when_smaller;
   if (!member.failure.empty()) json["failure"] = member.failure;
   for (const auto& [path, unit] : member.units) json["units"][path] = unit;
+  for (const auto& [path, nearest] : member.unknown) json["unknown"][path] = nearest;
   return json.dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -179,6 +194,9 @@ Member member_of_text(int number, const std::string& text) {
   const Json units = json.value("units", Json::object());
   for (const auto& [path, unit] : units.items())
     member.units.emplace_back(path, unit.get<std::string>());
+  const Json unknown = json.value("unknown", Json::object());
+  for (const auto& [path, nearest] : unknown.items())
+    member.unknown.emplace_back(path, nearest.get<std::string>());
   return member;
 }
 
@@ -232,6 +250,26 @@ Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int num
   return member;
 }
 
+namespace {
+
+void miss_figure(const Mark& mark, const std::string& path, const std::string& nearest,
+                 Diagnostics& diagnostics) {
+  std::vector<std::string> hints;
+  if (!nearest.empty()) hints.push_back(fmt::format("did you mean \"{}\"?", nearest));
+  diagnostics.error(mark, fmt::format("the lift's summary has no figure \"{}\"", path),
+                    std::move(hints));
+}
+
+}  // namespace
+
+void require_figures(const StudyFile& study, const Member& member) {
+  Diagnostics diagnostics;
+  for (const auto& [path, nearest] : member.unknown)
+    for (const Located<std::string>& asked : study.figures)
+      if (asked.value == path) miss_figure(asked.mark, path, nearest, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+}
+
 Member run_first_member(const StudyFile& study, const Eigen::VectorXd& values,
                         StudyBlocks& blocks) {
   Json summary;
@@ -244,22 +282,15 @@ Member run_first_member(const StudyFile& study, const Eigen::VectorXd& values,
   } catch (const std::exception& error) {
     return {0, error.what(), {}, {}};
   }
-  std::vector<std::string> known;
-  for (const SummaryFigure& figure : list_figures(summary)) known.push_back(figure.path);
   Diagnostics diagnostics;
-  for (const Located<std::string>* path : figures_of_search(study)) {
-    const Json* value = find_figure(summary, path->value);
-    if (value && value->is_number()) continue;
-    const std::string nearest = nearest_name(path->value, known);
-    std::vector<std::string> hints;
-    if (!nearest.empty()) hints.push_back(fmt::format("did you mean \"{}\"?", nearest));
-    diagnostics.error(path->mark,
-                      fmt::format("the lift's summary has no figure \"{}\"", path->value),
-                      std::move(hints));
-  }
+  for (const Located<std::string>* path : figures_of_search(study))
+    if (!has_figure(summary, path->value))
+      miss_figure(path->mark, path->value, nearest_name(path->value, names_of_figures(summary)),
+                  diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   Member member{0, {}, {}, {}};
   take_figures(study, summary, member);
+  require_figures(study, member);
   return member;
 }
 

@@ -36,6 +36,10 @@ struct Member {
   /// Units of figures whose paths do not tell them.
   std::vector<std::pair<std::string, std::string>> units = {};
 
+  /// Figures that the study asks for and its summary does not have, with the one that may be meant;
+  /// empty: none is near.
+  std::vector<std::pair<std::string, std::string>> unknown = {};
+
   /// The figure at a path; not a number if there is none.
   double figure(const std::string& path) const;
   /// Its unit in the summary; empty for a pure number.
@@ -53,6 +57,9 @@ Member member_of_text(int number, const std::string& text);
 Member run_member(const StudyFile& study, const Eigen::VectorXd& values, int number,
                   StudyBlocks& blocks,
                   const std::optional<std::filesystem::path>& full = std::nullopt);
+
+/// @throws InputError naming the figures of the study that a member which ran does not have.
+void require_figures(const StudyFile& study, const Member& member);
 
 /// Computes the first member of a search.
 /// @throws InputError naming the figures of the search that the lift does not have.

@@ -32,6 +32,19 @@ void remove_new_folder(const fs::path& folder) {
   if (fs::is_empty(folder, ignored)) fs::remove(folder, ignored);
 }
 
+/// What the first member tells to be wrong with the study leaves no folder behind.
+void compute_or_leave_nothing(const StudyFile& study, const Eigen::MatrixXd& design,
+                              const fs::path& folder, const MemberStore& store,
+                              const StudyCrew& crew) {
+  const bool is_new = store.count_done(static_cast<int>(design.rows())) == 0;
+  try {
+    crew.compute_missing(study, design, store);
+  } catch (const InputError&) {
+    if (is_new) remove_new_folder(folder);
+    throw;
+  }
+}
+
 /// Runs the sample as the crew does, then the search, a member after another.
 SearchResults run_search(const StudyFile& study, const Eigen::MatrixXd& sample,
                          const fs::path& folder, const MemberStore& store, const StudyCrew& crew) {
@@ -93,7 +106,7 @@ StudyResults run_study(StudyFile study, Eigen::MatrixXd design, const fs::path& 
     SearchResults found = run_search(study, design, folder, store, crew);
     return evaluate_search(std::move(study), std::move(found));
   }
-  crew.compute_missing(study, design, store);
+  compute_or_leave_nothing(study, design, folder, store, crew);
   std::vector<Member> members = read_members(store, static_cast<int>(design.rows()));
   return evaluate_study(std::move(study), std::move(design), std::move(members));
 }
@@ -105,9 +118,15 @@ void compute_one_by_one(const StudyFile& study, const Eigen::MatrixXd& design,
   const auto count = static_cast<int>(design.rows());
   const std::vector<int> missing = store.find_missing(count);
   int done = count - static_cast<int>(missing.size());
+  bool are_figures_known = done > 0;
   for (const int number : missing) {
     progress("members", static_cast<double>(done) / count, fmt::format("{} of {}", done, count));
-    store.write(run_member(study, design.row(number), number, blocks));
+    const Member member = run_member(study, design.row(number), number, blocks);
+    if (!are_figures_known && member.failure.empty()) {
+      require_figures(study, member);
+      are_figures_known = true;
+    }
+    store.write(member);
     ++done;
   }
 }

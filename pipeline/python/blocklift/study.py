@@ -30,6 +30,10 @@ class Study:
         #: Mean, deviation, quantiles, extremes, correlations of each figure.
         self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
 
+    def __repr__(self) -> str:
+        return (f"<Study {self.summary['study']}, {self.summary['members']} members, "
+                f"{len(self.summary['failures'])} failed, {self.folder}>")
+
     @property
     def members(self) -> pandas.DataFrame:
         """A lift a row: its values, its figures, and why it failed, if it did. SI units."""

@@ -219,6 +219,19 @@ TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {
   EXPECT_FALSE(fs::exists("out"));
 }
 
+// Which figures a lift has its first member tells.
+TEST_F(SweepCommand, RefusesFiguresThatTheLiftDoesNotHave) {
+  write_study(
+      std::string("figures: [ropes.R2.max_static_tension_N, ropes.R1.max_static_tensio_N]\n") +
+      weight);
+  const Outcome outcome = run("sweep study.yaml -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("study.yaml:3:44: error: the lift's summary has no figure "
+                                     "\"ropes.R1.max_static_tensio_N\"\n"
+                                     "    did you mean \"ropes.R1.max_static_tension_N\"?"));
+  EXPECT_FALSE(fs::exists("out"));
+}
+
 // Tensions at rest are in proportion to the weight: the lightest that pulls 18 kN at R2 is known.
 TEST_F(SweepCommand, SearchesForTheBestWithinBounds) {
   write_study(

@@ -240,6 +240,7 @@ class StudyTest(InATemporaryFolder):
         axes = study.plot_tornado(figure)
         self.assertEqual(axes.get_xlabel(), f"rank correlation with {figure}")
         self.assertEqual(len(study.sobol_indices), 0)
+        self.assertRegex(repr(study), r"^<Study \w+, \d+ members, 0 failed, out>$")
         for other in ("limits", "search", "best"):
             with self.assertRaises(KeyError):
                 getattr(study, other)
