@@ -1,6 +1,9 @@
 #include "structure/system/linear_solver.h"
 
+#include <SuiteSparse_config.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <utility>
@@ -10,12 +13,33 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/large_pages.h"
 #include "structure/limits.h"
 
 namespace blocklift::structure {
 
+namespace {
+
+void* allocate_in_large_pages(std::size_t bytes) {
+  void* const memory = std::malloc(bytes);
+  prefer_large_pages(memory, bytes);
+  return memory;
+}
+
+/// The factor is the largest there is of a block.
+void let_cholmod_use_large_pages() {
+  static const bool once = [] {
+    SuiteSparse_config.malloc_func = allocate_in_large_pages;
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+}  // namespace
+
 struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLower, Eigen::Lower> {
   Factor() {
+    let_cholmod_use_large_pages();
     cholmod().nmethods = 1;
     cholmod().method[0].ordering = CHOLMOD_NATURAL;
     cholmod().postorder = 0;  // the unknowns come in postorder already
