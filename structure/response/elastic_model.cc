@@ -93,8 +93,10 @@ ElasticModel::ElasticModel(std::shared_ptr<const Mesh> mesh, const Resolution& r
 }
 
 void ElasticModel::find_inertia() {
-  mass_ = mass_with(stated_mass_, stated_centre_B_);
-  inertia_loads_ = structure::inertia_loads(*space_, mass_);
+  const Matter matter(*space_);
+  mass_ = find_mass_properties(matter, stated_mass_ ? &*stated_mass_ : nullptr,
+                               stated_centre_B_ ? &*stated_centre_B_ : nullptr);
+  inertia_loads_ = structure::inertia_loads(matter, mass_);
 }
 
 MassProperties ElasticModel::mass_with(const std::optional<double>& total_mass,

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <Eigen/Dense>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <fmt/format.h>
 
+#include "structure/batches.h"
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/large_pages.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/space/space_implementation.h"
@@ -119,46 +120,106 @@ Eigen::Matrix<double, 3, 12> inertia_forces(const Vector3& x) {
 
 }  // namespace
 
-void for_each_shell_point(const Space& space, const std::vector<int>& cells,
-                          const VisitMatter& visit) {
-  if (cells.empty()) return;
-  const Space::Implementation& own = space.implementation();
-  const dealii::QGauss<2> rule(static_cast<unsigned>(space.degree()) + 1);
-  dealii::FEValues<2, 3> values(
-      *own.shell_mapping, own.shell_element, rule,
-      dealii::update_quadrature_points | dealii::update_JxW_values | dealii::update_normal_vectors);
-  std::vector<Eigen::VectorXd> shapes;
-  for (const auto& xi : rule.get_points()) shapes.push_back(space.shell_values({xi[0], xi[1]}));
-  for (const int cell : cells) {
-    values.reinit(own.shell_cells[cell]);
-    const Shell& shell = space.mesh().shells[space.shells()[cell].shell];
-    const ShellSection& section = space.mesh().section_of(shell);
-    MatterPoint point;
-    point.nodes = space.shell_nodes(cell);
-    point.node_count = space.nodes_per_shell();
-    for (unsigned q = 0; q < rule.size(); ++q) {
-      const auto& x = values.quadrature_point(q);
-      const auto& n = values.normal_vector(q);
-      const Vector3 normal(n[0], n[1], n[2]);
-      point.values = shapes[q].data();
-      point.volume = 0.5 * values.JxW(q) * section.thickness;
-      point.mass = point.volume * space.mesh().material_of(shell).density;
-      for (const double side : {-1.0, 1.0}) {
-        point.arm = (section.offset + side * section.thickness / std::sqrt(12.0)) * normal;
-        point.place = Vector3(x[0], x[1], x[2]) + point.arm;
-        visit(point);
-      }
+namespace {
+
+/// Shape functions and geometry at the Gauss points of shell cells.
+class ShellRule {
+ public:
+  explicit ShellRule(const Space& space)
+      : space_(space),
+        rule_(static_cast<unsigned>(space.degree()) + 1),
+        values_(*space.implementation().shell_mapping, space.implementation().shell_element, rule_,
+                dealii::update_quadrature_points | dealii::update_JxW_values |
+                    dealii::update_normal_vectors) {}
+
+  std::vector<Eigen::VectorXd> shapes() const {
+    std::vector<Eigen::VectorXd> shapes;
+    for (const auto& xi : rule_.get_points()) shapes.push_back(space_.shell_values({xi[0], xi[1]}));
+    return shapes;
+  }
+  std::size_t size() const { return rule_.size(); }
+  void find(int cell, ShellGaussPoint* points) {
+    values_.reinit(space_.implementation().shell_cells[cell]);
+    const double thickness =
+        space_.mesh().section_of(space_.mesh().shells[space_.shells()[cell].shell]).thickness;
+    for (unsigned q = 0; q < rule_.size(); ++q) {
+      const auto& x = values_.quadrature_point(q);
+      const auto& n = values_.normal_vector(q);
+      points[q] = {{x[0], x[1], x[2]}, {n[0], n[1], n[2]}, 0.5 * values_.JxW(q) * thickness};
+    }
+  }
+
+ private:
+  const Space& space_;
+  dealii::QGauss<2> rule_;
+  dealii::FEValues<2, 3> values_;
+};
+
+/// Both heights of each Gauss point of a cell.
+template <typename Visit>
+void visit_cell(const Space& space, int cell, const std::vector<Eigen::VectorXd>& shapes,
+                const ShellGaussPoint* points, const Visit& visit) {
+  const Shell& shell = space.mesh().shells[space.shells()[cell].shell];
+  const ShellSection& section = space.mesh().section_of(shell);
+  MatterPoint point;
+  point.nodes = space.shell_nodes(cell);
+  point.node_count = space.nodes_per_shell();
+  for (std::size_t q = 0; q < shapes.size(); ++q) {
+    point.values = shapes[q].data();
+    point.volume = points[q].volume;
+    point.mass = point.volume * space.mesh().material_of(shell).density;
+    for (const double side : {-1.0, 1.0}) {
+      point.arm = (section.offset + side * section.thickness / std::sqrt(12.0)) * points[q].normal;
+      point.place = points[q].place + point.arm;
+      visit(point);
     }
   }
 }
 
+}  // namespace
+
+void for_each_shell_point(const Space& space, const std::vector<int>& cells,
+                          const VisitMatter& visit) {
+  if (cells.empty()) return;
+  ShellRule rule(space);
+  const std::vector<Eigen::VectorXd> shapes = rule.shapes();
+  std::vector<ShellGaussPoint> points(rule.size());
+  for (const int cell : cells) {
+    rule.find(cell, points.data());
+    visit_cell(space, cell, shapes, points.data(), visit);
+  }
+}
+
 void for_each_matter_point(const Space& space, const VisitMatter& visit) {
-  std::vector<int> cells(space.shells().size());
-  std::iota(cells.begin(), cells.end(), 0);
-  for_each_shell_point(space, cells, visit);
-  visit_beams(space, visit);
-  visit_solids(space, visit);
-  visit_masses(space, visit);
+  Matter(space, 1).visit(visit);
+}
+
+Matter::Matter(const Space& space, int threads) : space_(space) {
+  const int cells = static_cast<int>(space.shells().size());
+  if (cells == 0) return;
+  shapes_ = ShellRule(space).shapes();
+  points_.resize(at(cells) * shapes_.size());
+  in_batches(cells, 256, threads, [&](int first, int count) {
+    ShellRule rule(space);
+    for (int cell = first; cell < first + count; ++cell)
+      rule.find(cell, points_.data() + at(cell) * shapes_.size());
+  });
+}
+
+void Matter::visit(const VisitMatter& visit) const {
+  for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell)
+    visit_shell(cell, visit);
+  visit_others(visit);
+}
+
+void Matter::visit_shell(int cell, const VisitMatter& visit) const {
+  visit_cell(space_, cell, shapes_, points_.data() + at(cell) * shapes_.size(), visit);
+}
+
+void Matter::visit_others(const VisitMatter& visit) const {
+  visit_beams(space_, visit);
+  visit_solids(space_, visit);
+  visit_masses(space_, visit);
 }
 
 Wrench resultant(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& load) {
@@ -173,8 +234,14 @@ Wrench resultant(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& lo
 
 MassProperties find_mass_properties(const Space& space, const double* stated_mass,
                                     const Vector3* stated_centre) {
+  return find_mass_properties(Matter(space), stated_mass, stated_centre);
+}
+
+MassProperties find_mass_properties(const Matter& matter, const double* stated_mass,
+                                    const Vector3* stated_centre) {
+  const Space& space = matter.space();
   MassMoments steel;
-  for_each_matter_point(space, [&](const MatterPoint& p) { steel.add(p.mass, p.place); });
+  matter.visit([&](const MatterPoint& p) { steel.add(p.mass, p.place); });
   if (!(steel.mass > 0)) throw ModelError("the block has no mass; give its materials a density");
   MassProperties result;
   result.steel_mass = steel.mass;
@@ -206,9 +273,8 @@ MassProperties find_mass_properties(const Space& space, const double* stated_mas
         mass / 1e3, centre.x(), centre.y(), centre.z(), steel.mass / 1e3, result.steel_centre_B.x(),
         result.steel_centre_B.y(), result.steel_centre_B.z(), worst.x(), worst.y(), worst.z()));
   MassMoments all;
-  for_each_matter_point(space, [&](const MatterPoint& p) {
-    all.add(p.mass * result.density_factor(p.place), p.place);
-  });
+  matter.visit(
+      [&](const MatterPoint& p) { all.add(p.mass * result.density_factor(p.place), p.place); });
   result.mass = all.mass;
   result.centre_of_mass_B = all.first / all.mass;
   result.outfitting_mass = result.mass - result.steel_mass;
@@ -217,13 +283,37 @@ MassProperties find_mass_properties(const Space& space, const double* stated_mas
   return result;
 }
 
+namespace {
+
+/// The cells that each shell was divided into. Cells of two shells have no node in common.
+std::vector<std::vector<int>> cells_by_shell(const Space& space) {
+  std::vector<std::vector<int>> cells(space.mesh().shells.size());
+  for (std::size_t cell = 0; cell < space.shells().size(); ++cell)
+    cells[space.shells()[cell].shell].push_back(static_cast<int>(cell));
+  return cells;
+}
+
+}  // namespace
+
 Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass) {
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(space.freedoms(), 12);
-  for_each_matter_point(space, [&](const MatterPoint& p) {
+  return inertia_loads(Matter(space), mass);
+}
+
+Eigen::MatrixXd inertia_loads(const Matter& matter, const MassProperties& mass, int threads) {
+  const Space& space = matter.space();
+  Eigen::MatrixXd loads = make_large_zero(space.freedoms(), 12);
+  const VisitMatter add = [&](const MatterPoint& p) {
     const Eigen::Matrix<double, 3, 12> forces =
         p.mass * mass.density_factor(p.place) * inertia_forces(p.place);
     add_forces(p, forces, loads);
+  };
+  // Shell by shell: threads add to rows of their own, each row in the order of its cells.
+  const std::vector<std::vector<int>> cells = cells_by_shell(space);
+  in_batches(static_cast<int>(cells.size()), 32, threads, [&](int first, int count) {
+    for (int shell = first; shell < first + count; ++shell)
+      for (const int cell : cells[shell]) matter.visit_shell(cell, add);
   });
+  matter.visit_others(add);
   return loads;
 }
 

@@ -34,6 +34,33 @@ void for_each_shell_point(const Space& space, const std::vector<int>& cells,
 /// point masses (six points, likewise).
 void for_each_matter_point(const Space& space, const VisitMatter& visit);
 
+/// A Gauss point of a shell cell on the surface of its nodes.
+struct ShellGaussPoint {
+  Vector3 place = Vector3::Zero();   ///< m
+  Vector3 normal = Vector3::Zero();  ///< unit
+  double volume = 0;                 ///< of half the thickness, m^3
+};
+
+/// All matter of a space, its shells' points found once for all that is summed over them.
+class Matter {
+ public:
+  /// @param threads 0: as many as the machine has. The space must outlive this object.
+  explicit Matter(const Space& space, int threads = 0);
+
+  const Space& space() const { return space_; }
+  /// Visits what for_each_matter_point does, in its order.
+  void visit(const VisitMatter& visit) const;
+  /// Visits the matter of one shell cell.
+  void visit_shell(int cell, const VisitMatter& visit) const;
+  /// Visits all that is no shell.
+  void visit_others(const VisitMatter& visit) const;
+
+ private:
+  const Space& space_;
+  std::vector<Eigen::VectorXd> shapes_;  ///< at each Gauss point of a cell
+  std::vector<ShellGaussPoint> points_;  ///< cell by cell
+};
+
 /// Adds to load vectors (a column each, six rows a node) forces at a point of matter: 3 x columns,
 /// N.
 template <typename Loads, typename Forces>
@@ -56,11 +83,15 @@ Wrench resultant(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& lo
 /// that is linear in place: see MassProperties.
 /// @throws ModelError if the density would be negative somewhere, the message naming the mass and
 ///   the centre of the steel, or there is no mass.
+MassProperties find_mass_properties(const Matter& matter, const double* stated_mass,
+                                    const Vector3* stated_centre);
 MassProperties find_mass_properties(const Space& space, const double* stated_mass,
                                     const Vector3* stated_centre);
 
 /// Load vectors of the twelve unit inertia fields (columns, in the order of
 /// InertiaField::coefficients), N.
+/// @param threads 0: as many as the machine has; sums are formed in one order, whatever the number.
+Eigen::MatrixXd inertia_loads(const Matter& matter, const MassProperties& mass, int threads = 0);
 Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass);
 
 /// Load vectors of wrenches about a point (force, moment; a column each), spread over some shell

@@ -119,6 +119,24 @@ Mesh everything() {
   return mesh;
 }
 
+// Each row of the loads is summed in one order, whatever the threads: shells that were divided to
+// different depths, with a beam and point masses at their vertices.
+TEST(Matter, ThreadsChangeNoDigit) {
+  const Mesh mesh = everything();
+  const Space space(mesh, {3, [](const Vector3& place) { return place.x() < 1 ? 0.1 : 0.6; }});
+  const Matter matter(space, 3), by_one(space, 1);
+  const MassProperties mass = find_mass_properties(matter, nullptr, nullptr);
+  EXPECT_EQ(mass.mass, find_mass_properties(by_one, nullptr, nullptr).mass);
+  EXPECT_EQ(mass.centre_of_mass_B, find_mass_properties(by_one, nullptr, nullptr).centre_of_mass_B);
+  const Eigen::MatrixXd loads = inertia_loads(by_one, mass, 1);
+  EXPECT_EQ(inertia_loads(matter, mass, 3), loads);
+  Eigen::MatrixXd in_turn = Eigen::MatrixXd::Zero(space.freedoms(), 1);
+  for_each_matter_point(space, [&](const MatterPoint& p) {
+    add_forces(p, Vector3(-p.mass * mass.density_factor(p.place) * Vector3::UnitX()), in_turn);
+  });
+  EXPECT_EQ(in_turn.col(0), loads.col(0));
+}
+
 // d'Alembert: the loads' resultant is that of the whole mass as one rigid body,
 // F = -m (a + alpha x c + omega x (omega x c)), and likewise the moment, for a stated mass and
 // centre too.
