@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "structure/batches.h"
+#include "structure/large_pages.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -88,16 +91,17 @@ TimedExtreme of_point(const UnitResponses& responses, const StressPoints& points
 TimedExtreme largest_displacement(const UnitResponses& responses, const LoadHistory& history,
                                   int threads) {
   const ElasticModel& model = responses.model();
-  Eigen::MatrixXd relative(responses.displacements().rows(), responses.count());
-  for (Eigen::Index k = 0; k < relative.cols(); ++k)
-    relative.col(k) = responses.without_rigid_motion(responses.displacements().col(k));
+  const Eigen::Index nodes = model.space().node_count();
+  Eigen::MatrixXd displacements = make_large(3 * nodes, responses.count());
+  in_batches(responses.count(), 1, threads, [&](int k, int) {
+    const Eigen::VectorXd relative =
+        responses.without_rigid_motion(responses.displacements().col(k));
+    displacements.col(k).reshaped(3, nodes) = relative.reshaped(6, nodes).topRows<3>();
+  });
   const LargestValue moved = find_largest_displacement(
       history, model.space().node_count(),
-      [&](int first, int count) {
-        Eigen::MatrixXd displacement(3 * count, relative.cols());
-        for (int i = 0; i < count; ++i)
-          displacement.middleRows<3>(3 * i) = relative.middleRows<3>(6 * (first + i));
-        return displacement;
+      [&](int first, int count) -> Eigen::MatrixXd {
+        return displacements.middleRows(3L * first, 3L * count);
       },
       threads);
   TimedExtreme extreme;

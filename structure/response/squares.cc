@@ -12,6 +12,7 @@
 
 #include "structure/batches.h"
 #include "structure/formulation/shell.h"
+#include "structure/large_pages.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress_tensor.h"
 
@@ -127,20 +128,18 @@ class PlaceGrid {
   std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
 };
 
+/// The squares of one field.
 class SquarePlacer {
  public:
-  SquarePlacer(const Mesh& mesh, const PlateFields& fields, const FieldWalker& walker, double size)
-      : mesh_(mesh), fields_(fields), walker_(walker), size_(size) {}
+  SquarePlacer(const Mesh& mesh, const FieldWalker& walker, double size)
+      : mesh_(mesh), walker_(walker), size_(size) {}
 
-  std::vector<Square> place() {
-    for (const PlateField& field : fields_.fields) {
-      const std::size_t before = squares_.size();
-      for (const auto& outline : field.outlines)
-        for (const FieldEdge& edge : outline) along(field, edge);
-      between(field);
-      if (squares_.size() == before) smaller(field);
-    }
-    mark_corners();
+  std::vector<Square> place(const PlateField& field) {
+    squares_.clear();
+    for (const auto& outline : field.outlines)
+      for (const FieldEdge& edge : outline) along(field, edge);
+    between(field);
+    if (squares_.empty()) smaller(field);
     return std::move(squares_);
   }
 
@@ -237,6 +236,18 @@ class SquarePlacer {
       }
   }
 
+  const Mesh& mesh_;
+  const FieldWalker& walker_;
+  double size_;
+  std::vector<Square> squares_;
+};
+
+/// Tells the squares near vertices without a limit of the stress, and which of them touch a weld.
+class SiteMarker {
+ public:
+  SiteMarker(const Mesh& mesh, const PlateFields& fields, double size, std::vector<Square>& squares)
+      : mesh_(mesh), fields_(fields), size_(size), squares_(squares) {}
+
   void mark_corners() {
     const double reach = corner_reach * size_;
     PlaceGrid corners(reach);
@@ -254,6 +265,7 @@ class SquarePlacer {
     mark_welds(at_corners);
   }
 
+ private:
   /// Squares near corners that touch a joint between plates or a stiffener.
   void mark_welds(const PlaceGrid& at_corners) {
     const auto mark = [&](const Vector3& begin, const Vector3& end) {
@@ -292,16 +304,23 @@ class SquarePlacer {
 
   const Mesh& mesh_;
   const PlateFields& fields_;
-  const FieldWalker& walker_;
   double size_;
-  std::vector<Square> squares_;
+  std::vector<Square>& squares_;
 };
 
 }  // namespace
 
 std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
                                   const FieldWalker& walker, double size) {
-  return SquarePlacer(mesh, fields, walker, size).place();
+  std::vector<std::vector<Square>> of_fields(fields.fields.size());
+  in_batches(static_cast<int>(of_fields.size()), 1, 0, [&](int field, int) {
+    of_fields[field] = SquarePlacer(mesh, walker, size).place(fields.fields[field]);
+  });
+  std::vector<Square> squares;
+  for (const std::vector<Square>& of_field : of_fields)
+    squares.insert(squares.end(), of_field.begin(), of_field.end());
+  SiteMarker(mesh, fields, size, squares).mark_corners();
+  return squares;
 }
 
 CheckedStress::CheckedStress(const ElasticModel& model,
@@ -326,7 +345,11 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
   const Space& space = model.space();
   const CellFinder cells(space);
   // A node's six freedoms of all motions lie together.
-  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows = motions;
+  auto by_rows = make_large<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      motions.rows(), motions.cols());
+  in_batches(static_cast<int>(motions.rows()), 4096, threads, [&](int first, int count) {
+    by_rows.middleRows(first, count) = motions.middleRows(first, count);
+  });
   const Eigen::Index columns = motions.cols();
   components_.setZero(3 * static_cast<Eigen::Index>(squares_.size()), columns);
   bending_ = components_;

@@ -10,7 +10,9 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "structure/batches.h"
 #include "structure/error.h"
+#include "structure/large_pages.h"
 #include "structure/limits.h"
 #include "structure/response/loose_block.h"
 #include "structure/stopwatch.h"
@@ -70,7 +72,7 @@ UnitResponses::UnitResponses(const ElasticModel& model, const UnitResponses& sam
 
 void UnitResponses::balance_loads(Eigen::MatrixXd& loads,
                                   Eigen::Ref<Eigen::MatrixXd> accelerations) const {
-  for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+  in_batches(static_cast<int>(accelerations.cols()), 1, 0, [&](int k, int) {
     // Twice: the second pass removes the rounding of the first.
     accelerations.col(k).setZero();
     for (int pass = 0; pass < 2; ++pass) {
@@ -81,17 +83,16 @@ void UnitResponses::balance_loads(Eigen::MatrixXd& loads,
       loads.col(k) += model_.inertia_loads().leftCols<6>() * field;
       accelerations.col(k) += field;
     }
-  }
+  });
 }
 
 void UnitResponses::solve_basis() {
   const Eigen::Index lug_forces = 3 * model_.lug_count();
-  Eigen::MatrixXd loads(model_.freedoms(), lug_forces + 6);
-  loads << model_.lug_loads(), model_.inertia_loads().rightCols<6>();
+  Eigen::MatrixXd loads = make_large(model_.freedoms(), lug_forces + 12);
+  loads << model_.lug_loads(), model_.inertia_loads().rightCols<6>(),
+      model_.inertia_loads().leftCols<6>();
   balancing_.resize(6, lug_forces + 6);
-  balance_loads(loads, balancing_);
-  loads.conservativeResize(Eigen::NoChange, lug_forces + 12);
-  loads.rightCols<6>() = model_.inertia_loads().leftCols<6>();
+  balance_loads(loads, balancing_);  // the plain accelerations stay as they are
   displacements_ = solve(loads, reactions_);
   check_stiffness();
 }

@@ -11,8 +11,10 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <fmt/format.h>
 
+#include "structure/batches.h"
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/large_pages.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/space/links.h"
@@ -546,24 +548,27 @@ void Space::number_unknowns() {
 }
 
 Eigen::MatrixXd Space::expand(const Eigen::MatrixXd& unknowns) const {
-  Eigen::MatrixXd motion(freedoms(), unknowns.cols());
-  for (Eigen::Index column = 0; column < unknowns.cols(); ++column)
+  Eigen::MatrixXd motion = make_large(freedoms(), unknowns.cols());
+  in_batches(static_cast<int>(unknowns.cols()), 1, 0, [&](int column, int) {
     for (int f = 0; f < freedoms(); ++f) {
       double sum = 0;
       for (const Term* term = begin_of(f); term != end_of(f); ++term)
         sum += term->weight * unknowns(term->unknown, column);
       motion(f, column) = sum;
     }
+  });
   return motion;
 }
 
 Eigen::MatrixXd Space::reduce(const Eigen::MatrixXd& forces) const {
-  Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(unknowns(), forces.cols());
-  for (Eigen::Index column = 0; column < forces.cols(); ++column)
+  Eigen::MatrixXd reduced = make_large(unknowns(), forces.cols());
+  in_batches(static_cast<int>(forces.cols()), 1, 0, [&](int column, int) {
+    reduced.col(column).setZero();
     for (int f = 0; f < freedoms(); ++f)
       if (const double force = forces(f, column); force != 0)
         for (const Term* term = begin_of(f); term != end_of(f); ++term)
           reduced(term->unknown, column) += term->weight * force;
+  });
   return reduced;
 }
 

@@ -15,6 +15,7 @@
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/large_pages.h"
 #include "structure/limits.h"
 #include "structure/system/linear_solver.h"
 
@@ -34,24 +35,38 @@ struct Pattern {
   std::vector<long> column_start;                  // of each unknown, and the end
 };
 
-Pattern make_pattern(const Elimination& elimination) {
+/// Later groups in the columns of a group.
+std::vector<Neighbour> neighbours_of(const Elimination& elimination, int g) {
+  std::vector<int> others;
+  for (const int element : elimination.groups[g].elements)
+    for (const int other : elimination.groups_of_elements[element])
+      if (other > g) others.push_back(other);
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end()), others.end());
+  std::vector<Neighbour> neighbours;
+  long rows = 0;
+  for (const int other : others) {
+    neighbours.push_back({other, rows});
+    rows += elimination.groups[other].count;
+  }
+  return neighbours;
+}
+
+Pattern make_pattern(const Elimination& elimination, int threads) {
   Pattern pattern;
   pattern.neighbours.resize(elimination.groups.size());
+  in_batches(static_cast<int>(elimination.groups.size()), 256, threads, [&](int first, int count) {
+    for (int g = first; g < first + count; ++g)
+      pattern.neighbours[g] = neighbours_of(elimination, g);
+  });
   pattern.column_start.reserve(at(elimination.count) + 1);
   pattern.column_start.push_back(0);
-  std::vector<int> others;
   for (std::size_t g = 0; g < elimination.groups.size(); ++g) {
     const UnknownGroup& group = elimination.groups[g];
-    others.clear();
-    for (const int element : group.elements)
-      for (const int other : elimination.groups_of_elements[element])
-        if (other > static_cast<int>(g)) others.push_back(other);
-    std::sort(others.begin(), others.end());
-    others.erase(std::unique(others.begin(), others.end()), others.end());
     long rows = 0;
-    for (const int other : others) {
-      pattern.neighbours[g].push_back({other, rows});
-      rows += elimination.groups[other].count;
+    if (!pattern.neighbours[g].empty()) {
+      const Neighbour& last = pattern.neighbours[g].back();
+      rows = last.offset + elimination.groups[last.group].count;
     }
     for (long k = 0; k < group.count; ++k)
       pattern.column_start.push_back(pattern.column_start.back() + group.count - k + rows);
@@ -59,22 +74,34 @@ Pattern make_pattern(const Elimination& elimination) {
   return pattern;
 }
 
-SparseLower make_matrix(const Elimination& elimination, const Pattern& pattern) {
-  SparseLower matrix(elimination.count, elimination.count);
-  matrix.resizeNonZeros(pattern.column_start.back());
-  std::copy(pattern.column_start.begin(), pattern.column_start.end(), matrix.outerIndexPtr());
-  for (std::size_t g = 0; g < elimination.groups.size(); ++g) {
-    const UnknownGroup& group = elimination.groups[g];
-    for (int k = 0; k < group.count; ++k) {
-      long* row = matrix.innerIndexPtr() + pattern.column_start[group.first + k];
-      for (int r = k; r < group.count; ++r) *row++ = group.first + r;
-      for (const Neighbour& neighbour : pattern.neighbours[g]) {
-        const UnknownGroup& other = elimination.groups[neighbour.group];
-        for (int r = 0; r < other.count; ++r) *row++ = other.first + r;
-      }
+/// The row numbers of a group's columns.
+void write_rows(const Elimination& elimination, const Pattern& pattern, int g, long* rows) {
+  const UnknownGroup& group = elimination.groups[g];
+  for (int k = 0; k < group.count; ++k) {
+    long* row = rows + pattern.column_start[group.first + k];
+    for (int r = k; r < group.count; ++r) *row++ = group.first + r;
+    for (const Neighbour& neighbour : pattern.neighbours[g]) {
+      const UnknownGroup& other = elimination.groups[neighbour.group];
+      for (int r = 0; r < other.count; ++r) *row++ = other.first + r;
     }
   }
-  std::fill(matrix.valuePtr(), matrix.valuePtr() + pattern.column_start.back(), 0.0);
+}
+
+SparseLower make_matrix(const Elimination& elimination, const Pattern& pattern, int threads) {
+  SparseLower matrix(elimination.count, elimination.count);
+  const long entries = pattern.column_start.back();
+  matrix.resizeNonZeros(entries);
+  prefer_large_pages(matrix.valuePtr(), at(entries) * sizeof(double));
+  prefer_large_pages(matrix.innerIndexPtr(), at(entries) * sizeof(long));
+  std::copy(pattern.column_start.begin(), pattern.column_start.end(), matrix.outerIndexPtr());
+  in_batches(static_cast<int>(elimination.groups.size()), 256, threads, [&](int first, int count) {
+    for (int g = first; g < first + count; ++g) {
+      const UnknownGroup& group = elimination.groups[g];
+      write_rows(elimination, pattern, g, matrix.innerIndexPtr());
+      std::fill(matrix.valuePtr() + pattern.column_start[group.first],
+                matrix.valuePtr() + pattern.column_start[group.first + group.count], 0.0);
+    }
+  });
   return matrix;
 }
 
@@ -249,9 +276,9 @@ void take_entries(const std::vector<int>& unknowns, const Eigen::MatrixXd& matri
 SparseLower assemble(const Elimination& elimination,
                      const std::function<FindEntries()>& make_worker, int threads) {
   if (threads <= 0) threads = usable_threads();
-  const Pattern pattern = make_pattern(elimination);
+  const Pattern pattern = make_pattern(elimination, threads);
   require_memory(elimination, pattern);
-  SparseLower matrix = make_matrix(elimination, pattern);
+  SparseLower matrix = make_matrix(elimination, pattern, threads);
   std::vector<FindEntries> workers;
   for (int t = 0; t < threads; ++t) workers.push_back(make_worker());
   // In batches, so that the elements' matrices never take more than some tens of megabytes.
