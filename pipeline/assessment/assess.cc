@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@
 #include "pipeline/results/result_file.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/results/word_document.h"
+#include "structure/batches.h"
 #include "structure/limits.h"
 #include "structure/output/part_files.h"
 #include "structure/output/vtu.h"
@@ -178,18 +180,28 @@ LiftRun find_motion(const LiftCase& the_case, BuiltLift model, const Progress& p
   return run;
 }
 
-/// Divides elements until the checked stress stands, and finds the first elastic period before.
-void refine(const LiftCase& the_case,
-            const std::function<structure::LoadFactors(const structure::ElasticModel&,
-                                                       structure::UnitResponses&)>& factors_of,
-            const Progress& progress, UnfinishedRun* unfinished, BlockRun& block) {
-  std::optional<KeptRefinement> earlier;
+std::optional<KeptRefinement> find_refinement(const UnfinishedRun* unfinished) {
   if (unfinished)
-    if (const auto kept = unfinished->find(refinement_part)) earlier = refinement_of(*kept);
+    if (const auto kept = unfinished->find(refinement_part)) return refinement_of(*kept);
+  return std::nullopt;
+}
+
+/// What is known of the block on the mesh that is begun with, as far as it is needed: its responses
+/// and its first elastic period.
+void begin_block(const LiftCase& the_case, const std::optional<KeptRefinement>& earlier,
+                 const Progress& progress, BlockRun& block) {
   const bool is_first_mesh = !earlier || earlier->state.steps.size() == 1;
   if (is_first_mesh && !block.responses) respond(the_case, progress, block);
   block.first_elastic_period =
       earlier ? earlier->first_elastic_period : find_first_elastic_period(*block.responses);
+}
+
+/// Divides elements of a block that was begun until the checked stress stands.
+void refine(const LiftCase& the_case,
+            const std::function<structure::LoadFactors(const structure::ElasticModel&,
+                                                       structure::UnitResponses&)>& factors_of,
+            const std::optional<KeptRefinement>& earlier, const Progress& progress,
+            UnfinishedRun* unfinished, BlockRun& block) {
   structure::RefinementRecord record;
   if (earlier) record.earlier = &earlier->state;
   if (unfinished) {
@@ -208,7 +220,8 @@ void refine(const LiftCase& the_case,
 }
 
 /// Stresses of a block that was lifted.
-void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Progress& progress,
+void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
+                         const std::optional<KeptRefinement>& earlier, const Progress& progress,
                          UnfinishedRun* unfinished, BlockRun& block) {
   // The shell's regions, and with them the fields of pressure, follow the mesh; so do edges.
   const auto factors = [&](const structure::ElasticModel& model,
@@ -219,7 +232,7 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Pr
     return {factors_of(responses, loads.attachment, loads.at_rest),
             factors_of(responses, loads.attachment, loads.in_motion)};
   };
-  refine(the_case, factors, progress, unfinished, block);
+  refine(the_case, factors, earlier, progress, unfinished, block);
   progress("block: stresses", 0.5, "");
   const BlockLoads loads = loads_on(lift, block, *block.model);
   const auto& [attachment, at_rest, in_motion] = loads;
@@ -235,8 +248,8 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift, const Pr
 }
 
 /// Stresses under a table of loads.
-void assess_table(const LiftCase& the_case, const Progress& progress, UnfinishedRun* unfinished,
-                  BlockRun& block) {
+void assess_table(const LiftCase& the_case, const std::optional<KeptRefinement>& earlier,
+                  const Progress& progress, UnfinishedRun* unfinished, BlockRun& block) {
   const LoadTable& table = *the_case.load_table;
   const std::vector<structure::LiftingPoint> lugs = block.model->mesh().lifting_points;
   const auto static_forces = table_forces(table, table.static_loads, lugs);
@@ -247,7 +260,7 @@ void assess_table(const LiftCase& the_case, const Progress& progress, Unfinished
     return {responses.coefficients(map_load_table(static_forces, lugs, mass)),
             responses.coefficients(map_load_table(dynamic_forces, lugs, mass))};
   };
-  refine(the_case, factors, progress, unfinished, block);
+  refine(the_case, factors, earlier, progress, unfinished, block);
   progress("block: stresses", 0.5, "");
   const structure::StressRecovery recovery(*block.responses);
   block.assessment = assess_load_table(*block.responses, recovery, static_forces, dynamic_forces);
@@ -269,6 +282,31 @@ void check_motion(const Progress& progress, Assessment& assessment) {
   assessment.measures = find_measures(assessment.lift_case, lift);
   for (Check& check : check_measures(assessment.lift_case, lift, assessment.measures))
     assessment.checks.push_back(std::move(check));
+}
+
+/// The motion of a lift with what follows from it alone, and the block on the mesh that is begun
+/// with. Neither needs the other if the block moves as a rigid body: they go side by side.
+void lift_and_begin_block(const std::optional<KeptRefinement>& earlier, const Progress& progress,
+                          UnfinishedRun* unfinished, Assessment& assessment) {
+  const LiftCase& the_case = assessment.lift_case;
+  BlockRun& block = assessment.block;
+  const std::optional<LoadFlexibility> flexibility =
+      find_flexibility(the_case, progress, unfinished, block);
+  const LoadFlexibility* const gives_way = flexibility ? &*flexibility : nullptr;
+  const LoadMass mass = load_mass(block.model->mass_properties());
+  BuiltLift model = prepare_lift(the_case, mass, progress, gives_way);
+  const auto lift = [&] {
+    assessment.lift = find_motion(the_case, std::move(model), progress, unfinished);
+    check_motion(progress, assessment);
+    find_lengths(mass, gives_way, progress, assessment);
+  };
+  // Only one of the two says how far it is.
+  const auto begin = [&] {
+    begin_block(
+        the_case, earlier, [](auto&&...) {}, block);
+  };
+  structure::in_batches(2, 1, std::min(2, structure::usable_threads()),
+                        [&](int which, int) { which == 0 ? lift() : begin(); });
 }
 
 }  // namespace
@@ -296,20 +334,13 @@ Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* u
   if (!block.model) throw InputError(diagnostics);
   block.mesh_s = watch.lap();
 
+  const std::optional<KeptRefinement> earlier = find_refinement(unfinished);
   if (!the_case.load_table) {
-    const std::optional<LoadFlexibility> flexibility =
-        find_flexibility(the_case, progress, unfinished, block);
-    BuiltLift model = prepare_lift(the_case, load_mass(block.model->mass_properties()), progress,
-                                   flexibility ? &*flexibility : nullptr);
-    assessment.lift = find_motion(the_case, std::move(model), progress, unfinished);
-    check_motion(progress, assessment);
-    find_lengths(load_mass(block.model->mass_properties()), flexibility ? &*flexibility : nullptr,
-                 progress, assessment);
-  }
-  if (assessment.lift) {
-    assess_lifted_block(the_case, *assessment.lift, progress, unfinished, block);
+    lift_and_begin_block(earlier, progress, unfinished, assessment);
+    assess_lifted_block(the_case, *assessment.lift, earlier, progress, unfinished, block);
   } else {
-    assess_table(the_case, progress, unfinished, block);
+    begin_block(the_case, earlier, progress, block);
+    assess_table(the_case, earlier, progress, unfinished, block);
     block.buckling = assess_buckling(the_case, *block.responses, block.assessment);
     block.padeyes = assess_padeyes(the_case, *block.responses, block.assessment);
   }
@@ -391,8 +422,12 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
   Preparation preparation(folder);
   Stopwatch watch;
   const std::string run = new_run_identity();
-  write_result_file(assessment, run, preparation.folder() / layout::results_file);
-  write_pictures(assessment.block, preparation.folder());
+  structure::in_batches(2, 1, std::min(2, structure::usable_threads()), [&](int which, int) {
+    if (which == 0)
+      write_result_file(assessment, run, preparation.folder() / layout::results_file);
+    else
+      write_pictures(assessment.block, preparation.folder());
+  });
 
   nlohmann::ordered_json summary = make_summary(assessment);
   summary[layout::run] = run;
