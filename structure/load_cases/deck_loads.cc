@@ -2,11 +2,13 @@
 
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
+#include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 
 namespace blocklift::structure {
@@ -14,6 +16,26 @@ namespace blocklift::structure {
 namespace {
 
 Eigen::Index row_of(int node) { return 6 * static_cast<Eigen::Index>(node); }
+
+/// Shares of a face's corners at a point of the unit square, and their slopes (columns) along it.
+struct FacePoint {
+  Eigen::Vector4d shares = Eigen::Vector4d::Zero();
+  Eigen::Matrix<double, 4, 2> slopes = Eigen::Matrix<double, 4, 2>::Zero();
+};
+
+/// @param corners 4, or 3: the square's side xi = 0 is drawn together into the first of them.
+FacePoint face_point(std::size_t corners, const Eigen::Vector2d& xi) {
+  const double x = xi.x(), y = xi.y();
+  FacePoint point;
+  if (corners == 3) {
+    point.shares << 1 - x, x * (1 - y), x * y, 0;
+    point.slopes << -1, 0, 1 - y, -x, y, x, 0, 0;
+  } else {
+    point.shares << (1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y;
+    point.slopes << y - 1, x - 1, 1 - y, -x, y, x, -y, 1 - x;
+  }
+  return point;
+}
 
 /// Adds loads to a load vector of a space.
 class LoadAdder {
@@ -45,6 +67,39 @@ class LoadAdder {
       for (Eigen::Index q = 0; q < rule.cols(); ++q)
         for (const int i : loads)
           add_pressure(set.plate_loads[i], cell, rule.col(q), shells.points()[q], factor);
+    }
+  }
+
+  void add(const SolidLoad& on_face, double factor) {
+    const Mesh& mesh = space_.mesh();
+    const Solid& solid = mesh.solids[on_face.solid];
+    const SolidTopology& topology = topology_of(solid.shape);
+    const std::vector<int>& face = topology.faces[on_face.face];
+    const Eigen::Matrix3Xd places = places_of(mesh, solid);
+    // Shape functions of second degree, a pressure and an area of that degree along either side.
+    const Eigen::Matrix3Xd rule = square_rule(4);
+    for (Eigen::Index q = 0; q < rule.cols(); ++q) {
+      const FacePoint point = face_point(face.size(), rule.col(q).head<2>());
+      Vector3 local = Vector3::Zero();
+      Eigen::Matrix<double, 3, 2> along = Eigen::Matrix<double, 3, 2>::Zero();
+      double pressure = 0;
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        const auto corner = static_cast<Eigen::Index>(i);
+        const Vector3 place = topology.kind.local.col(face[i]);
+        local += point.shares[corner] * place;
+        along += place * point.slopes.row(corner);
+        pressure += point.shares[corner] * on_face.pressure[i];
+      }
+      const Eigen::Matrix<double, 3, 2> tangents =
+          places * (shape_of(solid.shape).gradients(local) * along);
+      const Vector3 outward = tangents.col(0).cross(tangents.col(1));
+      const Vector3 area = on_face.direction.isZero(0)
+                               ? Vector3(-outward)
+                               : Vector3(outward.norm() * on_face.direction);
+      const Eigen::VectorXd values = shape_of(solid.shape).values(local);
+      for (Eigen::Index i = 0; i < values.size(); ++i)
+        load_.segment<3>(row_of(space_.solid_nodes(on_face.solid)[i])) +=
+            factor * rule(2, q) * pressure * values[i] * area;
     }
   }
 
@@ -97,6 +152,7 @@ Eigen::VectorXd load_of(const ElasticModel& model, const Deck& deck,
     const LoadSet& set = deck.load_sets[place];
     for (const PointLoad& point : set.point_loads) adder.add(point, factor);
     adder.add_plates(set, factor);
+    for (const SolidLoad& on_face : set.solid_loads) adder.add(on_face, factor);
     for (const BeamLoad& along : set.beam_loads) adder.add(along, factor);
     if (!set.gravity.isZero(0))
       load -= factor * (model.inertia_loads().leftCols<3>() * set.gravity);

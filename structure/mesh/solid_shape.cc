@@ -228,6 +228,18 @@ double least_jacobian_ratio(const Mesh& mesh, const Solid& solid) {
   return largest > 0 ? least / largest : -1;
 }
 
+int face_of(const Solid& solid, std::vector<int> corners) {
+  std::sort(corners.begin(), corners.end());
+  const auto& faces = topology_of(solid.shape).faces;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    std::vector<int> own;
+    for (const int corner : faces[f]) own.push_back(solid.vertices[corner]);
+    std::sort(own.begin(), own.end());
+    if (own == corners) return static_cast<int>(f);
+  }
+  return -1;
+}
+
 std::vector<SolidFace> outer_faces(const Mesh& mesh) {
   std::map<std::vector<int>, std::pair<int, SolidFace>> faces;
   for (std::size_t s = 0; s < mesh.solids.size(); ++s)

@@ -17,7 +17,7 @@ namespace blocklift::structure {
 struct SolidTopology {
   int corners = 0;
   std::vector<std::array<int, 2>> edges;  ///< corners at their ends
-  std::vector<std::vector<int>> faces;    ///< corners around each, seen from outside
+  std::vector<std::vector<int>> faces;    ///< corners around each, seen from outside; S1, S2, ...
   std::vector<int> mirrored;              ///< nodes in the order that turns the solid's inside out
   /// Quadratic, with a rule that is exact for the stiffness of solids with straight edges and
   /// parallel faces: 27 points of a hexahedron, 10 of a tetrahedron, 18 of a wedge at least, 36 of
@@ -53,6 +53,10 @@ void complete_solid(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles);
 
 /// The least determinant of the Jacobian at the corners and the centre, over the largest.
 double least_jacobian_ratio(const Mesh& mesh, const Solid& solid);
+
+/// The face of a solid whose corners are these vertices, in any order: its place among the faces
+/// of the solid's topology; -1: it has none.
+int face_of(const Solid& solid, std::vector<int> corners);
 
 /// A face that one solid alone has.
 struct SolidFace {

@@ -1,7 +1,6 @@
 // Solids, their faces, and their materials that depend on the direction.
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -99,20 +98,15 @@ void complete_abaqus_solids(AbaqusModel& model) {
 }
 
 std::vector<int> corners_of_face(const AbaqusDeckElement& solid, const std::string& face) {
-  // The faces of C3D4, C3D6, C3D8 and C3D5 as Abaqus numbers them.
-  static const std::array<std::vector<std::vector<std::size_t>>, 4> faces{
-      {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
-       {{0, 1, 2}, {3, 5, 4}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}},
-       {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}},
-       {{0, 1, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}}}};
-  const auto& own = faces[static_cast<std::size_t>(shape_by_nodes(solid.nodes.size()))];
+  // They stand in the order in which Abaqus numbers them.
+  const auto& own = topology_of(shape_by_nodes(solid.nodes.size())).faces;
   const auto number =
       face.size() == 2 && face[0] == 'S' ? static_cast<std::size_t>(face[1] - '1') : own.size();
   if (number >= own.size())
     throw CardError{fmt::format("face {} of element {} ({}) is not known; S1 to S{} are", face,
                                 solid.label, solid.type, own.size())};
   std::vector<int> corners;
-  for (const std::size_t i : own[number]) corners.push_back(solid.nodes[i]);
+  for (const int i : own[number]) corners.push_back(solid.nodes[i]);
   return corners;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -101,6 +102,7 @@ class StepBlocks {
         model_.guarded(*block, [&] {
           if (reset(*block)) {
             loads_.plate_loads.clear();
+            loads_.solid_loads.clear();
             loads_.beam_loads.clear();
             loads_.gravity.setZero();
           }
@@ -161,8 +163,8 @@ class StepBlocks {
     return loads_.point_loads.back();
   }
 
-  // *DLOAD / element or set, P | GRAV | PX ..., magnitude, direction; *DSLOAD / surface, P,
-  // magnitude
+  // *DLOAD / element or set, P | P1 ... | GRAV | PX ..., magnitude, direction; *DSLOAD / surface,
+  // P, magnitude
   void add_spread_loads(const AbaqusBlock& block) {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"elements, kind and magnitude are due"};
@@ -205,7 +207,10 @@ class StepBlocks {
 
   void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
     if (element.kind == AbaqusKind::solid) {
-      model_.log.leave_out("*DLOAD", "pressure on solids");
+      if (element.solid < 0 || kind.size() != 2 || kind[0] != 'P' || kind[1] < '1' || kind[1] > '9')
+        model_.log.leave_out("*DLOAD", "loads other than P1 to P6 and GRAV of solids");
+      else
+        add_face_pressure(element, std::string{'S', kind[1]}, value);
       return;
     }
     if (kind == "P" && element.shell >= 0) {
@@ -231,6 +236,14 @@ class StepBlocks {
     loads_.plate_loads.push_back(load);
   }
 
+  void add_face_pressure(const AbaqusDeckElement& element, const std::string& face, double value) {
+    SolidLoad load;
+    load.solid = element.solid;
+    load.face = face_of(model_.deck.mesh.solids[element.solid], corners_of_face(element, face));
+    load.pressure.fill(value * model_.units.stress());
+    loads_.solid_loads.push_back(load);
+  }
+
   void add_surface_pressure(const Fields& fields, const std::string& kind, double value) {
     const auto surface = model_.surfaces.find(upper(fields[0]));
     if (surface == model_.surfaces.end())
@@ -239,7 +252,10 @@ class StepBlocks {
     for (const auto& [e, face] : surface->second.faces) {
       const AbaqusDeckElement& element = model_.elements[e];
       if (element.kind == AbaqusKind::solid) {
-        model_.log.leave_out("*DSLOAD", "pressure on solids");
+        if (element.solid < 0 || face == "SPOS")
+          model_.log.leave_out("*DSLOAD", "pressure on solids whose faces are not named (S1 ...)");
+        else
+          add_face_pressure(element, face, value);
         continue;
       }
       if (element.shell < 0 || (face != "SPOS" && face != "SNEG"))

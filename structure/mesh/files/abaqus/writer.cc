@@ -289,6 +289,7 @@ class AbaqusText {
 
   /// One set and section for each region's solids of one shape and material.
   void write_solids() {
+    solid_number_.resize(mesh_.solids.size());
     std::map<std::tuple<int, int, int, SolidShape>, std::vector<const Solid*>> kinds;
     for (const Solid& solid : mesh_.solids) {
       if (solid.shape == SolidShape::pyramid)
@@ -302,7 +303,8 @@ class AbaqusText {
       const std::string set = new_set();
       line(fmt::format("*ELEMENT, TYPE=C3D{}, ELSET={}", topology_of(shape).nodes(), set));
       for (const Solid* solid : solids) {
-        std::string text = std::to_string(elements_.take(solid->label));
+        long& number = solid_number_[solid - mesh_.solids.data()];
+        std::string text = std::to_string(number = elements_.take(solid->label));
         for (std::size_t i = 0; i < solid->vertices.size(); ++i)
           text += fmt::format("{}{}", i == 10 ? ",\n" : ", ", label(solid->vertices[i]));
         line(text);
@@ -488,13 +490,24 @@ class AbaqusText {
       if (about[i] != 0) line(fmt::format("{}, {}, {}", label(vertex), i + 4, exact(about[i])));
   }
 
+  static void check_even(const std::array<double, 4>& pressure, std::size_t corners,
+                         const Vector3& direction) {
+    const auto [least, most] =
+        std::minmax_element(pressure.begin(), pressure.begin() + static_cast<long>(corners));
+    if (!direction.isZero() || *most - *least > 1e-9 * std::abs(*most))
+      throw ModelError("a pressure is not even and normal to its face, which is not written here");
+  }
+
   void write_spread_loads(const LoadSet& set, double factor) {
     for (const PlateLoad& load : set.plate_loads) {
-      const auto [least, most] = std::minmax_element(load.pressure.begin(), load.pressure.end());
-      if (!load.direction.isZero() || *most - *least > 1e-9 * std::abs(*most))
-        throw ModelError(
-            "a pressure is not even and normal to its shell, which is not written here");
+      check_even(load.pressure, 4, load.direction);
       line(fmt::format("{}, P, {}", shell_number_[load.shell],
+                       exact(factor * load.pressure[0] / units_.stress())));
+    }
+    for (const SolidLoad& load : set.solid_loads) {
+      const Solid& solid = mesh_.solids[load.solid];
+      check_even(load.pressure, topology_of(solid.shape).faces[load.face].size(), load.direction);
+      line(fmt::format("{}, P{}, {}", solid_number_[load.solid], load.face + 1,
                        exact(factor * load.pressure[0] / units_.stress())));
     }
     for (const BeamLoad& load : set.beam_loads)
@@ -514,7 +527,7 @@ class AbaqusText {
   const UnitSystem units_;
   std::vector<Eigen::Matrix3d> axes_;
   Numbering elements_, nodes_;
-  std::vector<long> node_number_, shell_number_, beam_number_;
+  std::vector<long> node_number_, shell_number_, solid_number_, beam_number_;
   std::vector<std::vector<int>> middles_;
   std::vector<std::string> element_sets_;
   std::set<std::pair<int, int>> written_;  ///< materials with elasticities

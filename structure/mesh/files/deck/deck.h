@@ -73,6 +73,14 @@ struct PlateLoad {
   Vector3 direction = Vector3::Zero();  ///< unit vector; without length: along the normal
 };
 
+/// Pressure on a face of a solid, linear between its corners.
+struct SolidLoad {
+  int solid = 0;
+  int face = 0;                         ///< place among the faces of the solid's topology
+  std::array<double, 4> pressure{};     ///< at the face's corners, in their order there, Pa
+  Vector3 direction = Vector3::Zero();  ///< unit vector; without length: into the solid
+};
+
 struct BeamLoad {
   int beam = 0;
   Vector3 force_per_length = Vector3::Zero();  ///< N/m, along the world's axes
@@ -83,6 +91,7 @@ struct LoadSet {
   std::string name;
   std::vector<PointLoad> point_loads;
   std::vector<PlateLoad> plate_loads;
+  std::vector<SolidLoad> solid_loads;
   std::vector<BeamLoad> beam_loads;
   Vector3 gravity = Vector3::Zero();  ///< acceleration that all masses feel, m/s^2
 };

@@ -1,10 +1,14 @@
 // Loads by their sets.
 
+#include <unordered_map>
+
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
+#include "structure/mesh/files/nastran/solid_faces.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -12,7 +16,10 @@ namespace {
 
 class Loads {
  public:
-  explicit Loads(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
+  explicit Loads(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {
+    for (std::size_t s = 0; s < mesh_.solids.size(); ++s)
+      solid_of_[mesh_.solids[s].label] = static_cast<int>(s);
+  }
 
   std::map<long, int> read() {
     const auto point = [&](bool is_moment) {
@@ -115,7 +122,8 @@ class Loads {
     const auto found = model_.shell_of.find(label);
     if (found != model_.shell_of.end()) return found->second;
     if (model_.any_elements.count(label) > 0) {
-      model_.log.leave_out(card.name(), "pressure on what is no plate");
+      model_.log.leave_out(
+          card.name(), "pressure on what is no plate, or on solids without the grids of a face");
       return -1;
     }
     throw CardError{fmt::format("a pressure of set {} is on element {}, which does not exist",
@@ -153,7 +161,34 @@ class Loads {
       if (card.has(i)) add_plate_load(card, card.label(i, "element"), pressure, Vector3::Zero());
   }
 
-  // PLOAD4 SID EID P1 P2 P3 P4 THRU EID2 / CID N1 N2 N3 SORL LDIR
+  // The pressures go around the face from G1 on, as seen from outside.
+  void add_solid_load(const CardView& card, int number, const std::array<double, 4>& around,
+                      const Vector3& direction) {
+    const Solid& solid = mesh_.solids[number];
+    if (!card.has(6))
+      throw CardError{
+          fmt::format("element {} is a solid; the grids G1 and G3 or G4 that name its "
+                      "loaded face are due",
+                      solid.label)};
+    FaceGrids grids{model_.vertex(card, 6, "grid G1")};
+    if (card.has(7)) grids.second = model_.vertex(card, 7, "grid G3");
+    SolidLoad load{number, face_of(solid, grids), {}, direction};
+    if (load.face < 0)
+      throw CardError{fmt::format(
+          "the grids {} and {} name no face of element {}; G1 is on it, and G3 opposite (four "
+          "corners), G4 not on it (CTETRA), G3 the other corner on the base (triangle of a CPYRAM) "
+          "or nothing (triangle of a CPENTA)",
+          card.text(6), card.has(7) ? card.text(7) : "none", solid.label)};
+    const std::vector<int>& face = topology_of(solid.shape).faces[load.face];
+    std::size_t corner = 0;
+    while (solid.vertices[face[corner]] != grids.corner) ++corner;
+    for (std::size_t i = 0; i < face.size(); ++i)
+      load.pressure[(corner + i) % face.size()] = around[i] * model_.units.stress();
+    set(card).solid_loads.push_back(load);
+  }
+
+  // PLOAD4 SID EID P1 P2 P3 P4 THRU EID2 / CID N1 N2 N3 SORL LDIR; of solids G1 and G3 or G4 where
+  // THRU and EID2 are
   void add_corner_pressure(const CardView& card) {
     const double first = card.real(2, "pressure");
     const std::array<double, 4> around{first, card.real(3, "pressure", first),
@@ -172,6 +207,11 @@ class Loads {
       direction = model_.systems.get(system).axes * given.normalized();
     }
     const long label = card.label(1, "element");
+    const auto solid = solid_of_.find(label);
+    if (solid != solid_of_.end() && !card.is(6, "THRU")) {
+      add_solid_load(card, solid->second, around, direction);
+      return;
+    }
     const bool is_triangle =
         model_.shell_of.count(label) > 0 && mesh_.shells[model_.shell_of.at(label)].is_triangle();
     const std::array<double, 4> pressure{around[0], around[1], is_triangle ? around[2] : around[3],
@@ -220,6 +260,7 @@ class Loads {
   NastranModel& model_;
   Mesh& mesh_;
   std::map<long, int> set_of_;
+  std::unordered_map<long, int> solid_of_;  ///< places in the mesh by their numbers
 };
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/nastran/card_writer.h"
+#include "structure/mesh/files/nastran/solid_faces.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -373,7 +374,7 @@ class NastranText {
         note_group(found->second, solid.region);
       }
       const auto& [name, order] = cards.at(solid.shape);
-      Fields fields{elements_.take(solid.label), found->second};
+      Fields fields{solid_number_.emplace_back(elements_.take(solid.label)), found->second};
       for (const int node : order) fields.emplace_back(label(solid.vertices[node]));
       out_.card(name, fields);
     }
@@ -508,6 +509,7 @@ class NastranText {
         write_vector("MOMENT", load_label_[s], load.vertex, load.moment / units_.moment());
       }
       for (const PlateLoad& load : set.plate_loads) write_plate_load(load_label_[s], load);
+      for (const SolidLoad& load : set.solid_loads) write_solid_load(load_label_[s], load);
       for (const BeamLoad& load : set.beam_loads)
         for (int i = 0; i < 3; ++i) {
           const double value = load.force_per_length[i] * units_.length / units_.force;
@@ -542,14 +544,25 @@ class NastranText {
 
   void write_plate_load(long set, const PlateLoad& load) {
     const Shell& shell = mesh_.shells[load.shell];
-    const auto& p = load.pressure;
-    Fields fields{set, shell_number_[load.shell], p[0] / units_.stress(), p[1] / units_.stress(),
-                  p[3] / units_.stress()};
-    if (!shell.is_triangle()) fields.emplace_back(p[2] / units_.stress());
-    if (!load.direction.isZero()) {
-      fields.resize(8);
-      fields.emplace_back(0L);
-      append(fields, load.direction);
+    Fields fields{set, shell_number_[load.shell]};
+    for (const std::size_t i : {0U, 1U, 3U, 2U})
+      if (i != 2 || !shell.is_triangle()) fields.emplace_back(load.pressure[i] / units_.stress());
+    write_pressure(std::move(fields), load.direction);
+  }
+
+  void write_solid_load(long set, const SolidLoad& load) {
+    const FaceGrids grids = grids_of_face(mesh_.solids[load.solid], load.face);
+    Fields fields{set, solid_number_[load.solid]};
+    for (const double p : load.pressure) fields.emplace_back(p / units_.stress());
+    fields.emplace_back(label(grids.corner));
+    if (grids.second) fields.emplace_back(label(*grids.second));
+    write_pressure(std::move(fields), load.direction);
+  }
+
+  void write_pressure(Fields fields, const Vector3& direction) {
+    if (!direction.isZero()) {
+      fields.resize(9);  // no CID: along the basic axes
+      append(fields, direction);
     }
     out_.card("PLOAD4", fields);
   }
@@ -561,7 +574,7 @@ class NastranText {
   Numbering elements_, properties_;
   std::set<long> named_;  ///< properties whose group is written
   std::vector<std::vector<int>> middles_;
-  std::vector<long> shell_number_, beam_number_;
+  std::vector<long> shell_number_, solid_number_, beam_number_;
   std::vector<long> support_label_, load_label_, combined_supports_, combined_loads_;
   std::vector<Eigen::Matrix3d> systems_;
   std::map<std::tuple<double, int, double, int, long>, long> shell_property_;

@@ -10,6 +10,7 @@
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/mass_properties.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure::test {
 
@@ -164,6 +165,20 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
     }
     return sums;
   };
+  const auto on_faces = [](const Deck& deck, const DeckLoadCase& one) {
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(4, static_cast<long>(deck.mesh.vertices.size()));
+    for (const auto& [set, factor] : one.loads)
+      for (const SolidLoad& load : deck.load_sets[set].solid_loads) {
+        const Solid& solid = deck.mesh.solids[load.solid];
+        const auto& face = topology_of(solid.shape).faces[load.face];
+        for (std::size_t i = 0; i < face.size(); ++i) {
+          auto of_corner = sums.col(solid.vertices[face[i]]);
+          of_corner[0] += factor * load.pressure[i];
+          of_corner.tail<3>() += load.direction;
+        }
+      }
+    return sums;
+  };
   const auto held = [](const Deck& deck, const DeckLoadCase& one) {
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(12, static_cast<long>(deck.mesh.vertices.size()));
     for (const int set : one.supports)
@@ -179,6 +194,7 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
     expect_equal(forces(a, a.load_cases[i]), forces(b, b.load_cases[i]), tolerance, "forces");
     expect_equal(pressures(a, a.load_cases[i]), pressures(b, b.load_cases[i]), tolerance,
                  "pressures");
+    expect_equal(on_faces(a, a.load_cases[i]), on_faces(b, b.load_cases[i]), tolerance, "faces");
     expect_equal(held(a, a.load_cases[i]), held(b, b.load_cases[i]), tolerance, "supports");
   }
 }
