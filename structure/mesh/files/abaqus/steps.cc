@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -15,6 +20,66 @@ namespace {
 
 using Fields = std::vector<std::string_view>;
 
+/// Loads of one kind of keyword (*DLOAD, *DSLOAD) as far as the steps go: one that is given again
+/// in a later step takes the place of the one before (OP = MOD); within a step they add up.
+class SpreadLoads {
+ public:
+  /// What a load is and the element that it is on.
+  using Key = std::pair<std::string, int>;
+
+  void begin_step() { ++step_; }
+  /// OP = NEW.
+  void drop_earlier() {
+    drop_earlier(plates_);
+    drop_earlier(solids_);
+    drop_earlier(beams_);
+    drop_earlier(gravity_);
+  }
+  void add(const Key& key, const PlateLoad& load) { add(plates_, key, load); }
+  void add(const Key& key, const SolidLoad& load) { add(solids_, key, load); }
+  void add(const Key& key, const BeamLoad& load) { add(beams_, key, load); }
+  void add_gravity(const Vector3& gravity) { add(gravity_, {"GRAV", -1}, gravity); }
+
+  void add_to(LoadSet& set) const {
+    append(plates_, set.plate_loads);
+    append(solids_, set.solid_loads);
+    append(beams_, set.beam_loads);
+    for (const auto& [key, given] : gravity_)
+      for (const Vector3& gravity : given.loads) set.gravity += gravity;
+  }
+
+ private:
+  template <typename Load>
+  struct Given {
+    int step = 0;
+    std::vector<Load> loads;
+  };
+  template <typename Load>
+  using ByKey = std::map<Key, Given<Load>>;
+
+  template <typename Load>
+  void add(ByKey<Load>& all, const Key& key, const Load& load) {
+    Given<Load>& given = all[key];
+    if (given.step != step_) given = {step_, {}};
+    given.loads.push_back(load);
+  }
+  template <typename Load>
+  void drop_earlier(ByKey<Load>& all) {
+    std::erase_if(all, [&](const auto& one) { return one.second.step != step_; });
+  }
+  template <typename Load>
+  static void append(const ByKey<Load>& all, std::vector<Load>& to) {
+    for (const auto& [key, given] : all)
+      to.insert(to.end(), given.loads.begin(), given.loads.end());
+  }
+
+  int step_ = 0;
+  ByKey<PlateLoad> plates_;
+  ByKey<SolidLoad> solids_;
+  ByKey<BeamLoad> beams_;
+  ByKey<Vector3> gravity_;
+};
+
 class StepBlocks {
  public:
   explicit StepBlocks(AbaqusModel& model) : model_(model) {}
@@ -27,8 +92,8 @@ class StepBlocks {
     }
     scope_ = &model_.scopes.front();
     for (const auto& blocks : model_.steps) read_step(blocks);
-    if (model_.steps.empty() && !supports_.empty())
-      model_.deck.support_sets.push_back({1, "supports of the model", supports_});
+    if (model_.steps.empty() && !now_.supports.empty())
+      model_.deck.support_sets.push_back({1, "supports of the model", now_.supports});
   }
 
  private:
@@ -50,7 +115,6 @@ class StepBlocks {
 
   // *BOUNDARY / node or set, first, last, value | node or set, ENCASTRE
   void add_supports(const AbaqusBlock& block) {
-    if (block.value("OP") == "NEW") supports_.clear();
     if (block.has("TYPE") && block.value("TYPE") != "DISPLACEMENT")
       throw CardError{fmt::format("TYPE = {} is not known", block.value("TYPE"))};
     model_.for_lines(block, [&](const Fields& fields) {
@@ -74,7 +138,7 @@ class StepBlocks {
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
         support.vertex = node;
         support.axes = model_.axes(node);
-        supports_.push_back(support);
+        now_.supports.push_back(support);
       }
     });
   }
@@ -83,37 +147,45 @@ class StepBlocks {
     const AbaqusBlock& step = *blocks.front();
     model_.log.use("*STEP");
     // A perturbation begins without the loads of the steps before.
-    const LoadSet kept = loads_;
-    const std::vector<Support> supports_kept = supports_;
-    if (step.has("PERTURBATION")) loads_ = LoadSet();
-    const auto reset = [&](const AbaqusBlock& block) { return block.value("OP") == "NEW"; };
+    const State kept = now_;
+    if (step.has("PERTURBATION")) {
+      now_.points.clear();
+      now_.on_elements = now_.on_surfaces = {};
+    }
+    now_.on_elements.begin_step();
+    now_.on_surfaces.begin_step();
+    // OP = NEW stands at each block of a step, and drops what the steps before have left.
+    std::set<std::string> renewed;
+    const auto renews = [&](const AbaqusBlock& block) {
+      return block.value("OP") == "NEW" && renewed.insert(block.name).second;
+    };
     for (const AbaqusBlock* block : blocks) {
       if (block->has("AMPLITUDE"))
         model_.log.remark(block->line, "*" + block->name +
                                            ": AMPLITUDE is left out; the load is "
                                            "taken in full");
-      if (block->name == "BOUNDARY") model_.guarded(*block, [&] { add_supports(*block); });
+      if (block->name == "BOUNDARY")
+        model_.guarded(*block, [&] {
+          if (renews(*block)) now_.supports.clear();
+          add_supports(*block);
+        });
       if (block->name == "CLOAD")
         model_.guarded(*block, [&] {
-          if (reset(*block)) loads_.point_loads.clear();
+          if (renews(*block)) now_.points.clear();
           add_point_loads(*block);
         });
       if (block->name == "DLOAD" || block->name == "DSLOAD")
         model_.guarded(*block, [&] {
-          if (reset(*block)) {
-            loads_.plate_loads.clear();
-            loads_.solid_loads.clear();
-            loads_.beam_loads.clear();
-            loads_.gravity.setZero();
-          }
+          if (renews(*block)) spread_of(*block).drop_earlier();
           add_spread_loads(*block);
         });
     }
     keep(step);
-    if (step.has("PERTURBATION")) {
-      loads_ = kept;
-      supports_ = supports_kept;
-    }
+    if (step.has("PERTURBATION")) now_ = kept;
+  }
+
+  SpreadLoads& spread_of(const AbaqusBlock& block) {
+    return block.name == "DLOAD" ? now_.on_elements : now_.on_surfaces;
   }
 
   void keep(const AbaqusBlock& step) {
@@ -123,13 +195,17 @@ class StepBlocks {
     DeckLoadCase load_case;
     load_case.label = label;
     load_case.title = named != nullptr ? named->as_given : fmt::format("step {}", label);
-    loads_.label = label;
-    loads_.name = load_case.title;
+    LoadSet loads;
+    loads.label = label;
+    loads.name = load_case.title;
+    loads.point_loads = now_.points;
+    now_.on_elements.add_to(loads);
+    now_.on_surfaces.add_to(loads);
     load_case.loads = {{static_cast<int>(deck.load_sets.size()), 1.0}};
-    deck.load_sets.push_back(loads_);
-    if (!supports_.empty()) {
+    deck.load_sets.push_back(std::move(loads));
+    if (!now_.supports.empty()) {
       load_case.supports = {static_cast<int>(deck.support_sets.size())};
-      deck.support_sets.push_back({label, "supports of " + load_case.title, supports_});
+      deck.support_sets.push_back({label, "supports of " + load_case.title, now_.supports});
     }
     deck.load_cases.push_back(load_case);
   }
@@ -157,10 +233,10 @@ class StepBlocks {
   }
 
   PointLoad& load_of(int node) {
-    for (PointLoad& load : loads_.point_loads)
+    for (PointLoad& load : now_.points)
       if (load.vertex == node) return load;
-    loads_.point_loads.push_back({node, Vector3::Zero(), Vector3::Zero()});
-    return loads_.point_loads.back();
+    now_.points.push_back({node, Vector3::Zero(), Vector3::Zero()});
+    return now_.points.back();
   }
 
   // *DLOAD / element or set, P | P1 ... | GRAV | PX ..., magnitude, direction; *DSLOAD / surface,
@@ -202,7 +278,7 @@ class StepBlocks {
                           fields[0], model_.elements[e].label)};
       }
     }
-    loads_.gravity += value * model_.units.length * direction.normalized();
+    now_.on_elements.add_gravity(value * model_.units.length * direction.normalized());
   }
 
   void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
@@ -210,11 +286,12 @@ class StepBlocks {
       if (element.solid < 0 || kind.size() != 2 || kind[0] != 'P' || kind[1] < '1' || kind[1] > '9')
         model_.log.leave_out("*DLOAD", "loads other than P1 to P6 and GRAV of solids");
       else
-        add_face_pressure(element, std::string{'S', kind[1]}, value);
+        now_.on_elements.add({kind, element.solid},
+                             face_pressure(element, std::string{'S', kind[1]}, value));
       return;
     }
     if (kind == "P" && element.shell >= 0) {
-      add_pressure(element.shell, value);
+      now_.on_elements.add({kind, element.shell}, pressure(element.shell, value));
       return;
     }
     static const std::map<std::string, Vector3> directions{
@@ -225,23 +302,25 @@ class StepBlocks {
       return;
     }
     for (const int beam : element.beams)
-      loads_.beam_loads.push_back(
-          {beam, value * model_.units.force / model_.units.length * direction->second});
+      now_.on_elements.add(
+          {kind, beam},
+          BeamLoad{beam, value * model_.units.force / model_.units.length * direction->second});
   }
 
-  void add_pressure(int shell, double value) {
+  PlateLoad pressure(int shell, double value) const {
     PlateLoad load;
     load.shell = shell;
     load.pressure.fill(value * model_.units.stress());
-    loads_.plate_loads.push_back(load);
+    return load;
   }
 
-  void add_face_pressure(const AbaqusDeckElement& element, const std::string& face, double value) {
+  SolidLoad face_pressure(const AbaqusDeckElement& element, const std::string& face,
+                          double value) const {
     SolidLoad load;
     load.solid = element.solid;
     load.face = face_of(model_.deck.mesh.solids[element.solid], corners_of_face(element, face));
     load.pressure.fill(value * model_.units.stress());
-    loads_.solid_loads.push_back(load);
+    return load;
   }
 
   void add_surface_pressure(const Fields& fields, const std::string& kind, double value) {
@@ -255,7 +334,8 @@ class StepBlocks {
         if (element.solid < 0 || face == "SPOS")
           model_.log.leave_out("*DSLOAD", "pressure on solids whose faces are not named (S1 ...)");
         else
-          add_face_pressure(element, face, value);
+          now_.on_surfaces.add({surface->first + " " + face, element.solid},
+                               face_pressure(element, face, value));
         continue;
       }
       if (element.shell < 0 || (face != "SPOS" && face != "SNEG"))
@@ -264,14 +344,20 @@ class StepBlocks {
                         "known",
                         face, element.label)};
       // Pressure pushes against its surface: on the upper side, against the normal.
-      add_pressure(element.shell, face == "SPOS" ? -value : value);
+      now_.on_surfaces.add({surface->first + " " + face, element.shell},
+                           pressure(element.shell, face == "SPOS" ? -value : value));
     }
   }
 
   AbaqusModel& model_;
   const AbaqusScope* scope_ = nullptr;
-  std::vector<Support> supports_;
-  LoadSet loads_;
+  /// What holds and acts as far as the steps go.
+  struct State {
+    std::vector<Support> supports;
+    std::vector<PointLoad> points;
+    SpreadLoads on_elements, on_surfaces;
+  };
+  State now_;
 };
 
 }  // namespace

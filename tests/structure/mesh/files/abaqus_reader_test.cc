@@ -355,6 +355,61 @@ Plate, P, 1000.
   EXPECT_THAT(entry(deck, "*OUTPUT").left_out, HasSubstr("printed"));
 }
 
+// What is given again in a later step takes the place of what was there; within a step pressures add
+// up. OP = NEW, which preprocessors write at each block of a step, drops the steps before alone.
+TEST(AbaqusReader, LaterStepsChangeLoads) {
+  const Deck deck = abaqus(square_plate + R"(*SURFACE, NAME=TOP
+PLATE, SPOS
+*STEP
+*STATIC
+*BOUNDARY
+1, 1, 6
+*CLOAD
+2, 3, 100.
+*DLOAD
+PLATE, P, 1000.
+PLATE, P, 500.
+, GRAV, 9.81, 0., 0., -1.
+*DSLOAD
+TOP, P, 7.
+*END STEP
+*STEP
+*STATIC
+*DLOAD
+PLATE, P, 400.
+, GRAV, 3., 0., 1., 0.
+*END STEP
+*STEP
+*STATIC
+*BOUNDARY, OP=NEW
+1, 1, 3
+*BOUNDARY, OP=NEW
+4, 3, 3
+*CLOAD, OP=NEW
+3, 3, 10.
+*CLOAD, OP=NEW
+4, 3, 20.
+*DLOAD, OP=NEW
+PLATE, P, 5.
+*DLOAD, OP=NEW
+PLATE, P, 6.
+*END STEP
+)");
+  ASSERT_EQ(deck.load_sets.size(), 3U);
+  const auto pressure = [&](std::size_t step) {
+    double sum = 0;
+    for (const PlateLoad& load : deck.load_sets[step].plate_loads) sum += load.pressure[0];
+    return sum;
+  };
+  EXPECT_DOUBLE_EQ(pressure(0), 1500 - 7);
+  EXPECT_DOUBLE_EQ(pressure(1), 400 - 7);
+  expect_near(deck.load_sets[1].gravity, Vector3(0, 3, 0), 1e-12);
+  EXPECT_DOUBLE_EQ(pressure(2), 11 - 7);
+  EXPECT_TRUE(deck.load_sets[2].gravity.isZero());
+  EXPECT_EQ(deck.load_sets[2].point_loads.size(), 2U);
+  EXPECT_EQ(deck.support_sets.at(2).supports.size(), 2U);
+}
+
 TEST(AbaqusReader, IncludesFilesBelowItsFolder) {
   const DeckFolder folder;
   folder.write("deck/nodes.inc", nodes);
