@@ -18,7 +18,7 @@ namespace {
 TEST(KeptStagesTest, StressIsLookedIntoWhereTheFileIsMapped) {
   const test::TemporaryFolder folder;
   std::vector<structure::Square> squares(5);
-  for (int i = 0; i < 5; ++i) squares[static_cast<std::size_t>(i)].centre_B.x() = i;
+  for (int i = 0; i < 5; ++i) squares[i].centre_B.x() = i;
   const Eigen::MatrixXd components = Eigen::MatrixXd::Random(15, 54);
   const structure::StressBasis basis(squares, components);
   write_file("kept", bytes_of_stress_basis(basis));

@@ -173,7 +173,7 @@ std::vector<std::pair<int, int>> outer_faces_of(const Box& box) {
     for (std::size_t f = 0; f < table.size(); ++f) {
       std::vector<int> corners;
       for (const char digit : table[f])
-        if (digit != ' ') corners.push_back(box.solids[s][static_cast<std::size_t>(digit - '1')]);
+        if (digit != ' ') corners.push_back(box.solids[s][digit - '1']);
       std::sort(corners.begin(), corners.end());
       of_corners[corners].emplace_back(s + 1, f + 1);
     }
