@@ -13,6 +13,7 @@
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/rope_stretch.h"
+#include "pipeline/build/spreader_body.h"
 #include "pipeline/build/spreader_start.h"
 #include "pipeline/build/wish_maker.h"
 #include "pipeline/files/lift_case/crane_start.h"
@@ -204,15 +205,8 @@ class LiftBuilder {
   }
 
   void add_spreader(dynamics::MechanismBuilder& builder, const SpreaderInCase& bar) {
-    BodyDefinition body;
-    body.name = bar.name.value;
-    body.joint.kind = dynamics::JointKind::free;
-    body.mass = bar.mass();
-    body.I_BBcm_B = bar.inertia();
-    const BarSection& section = bar.section.value;
-    const Vector3 size(bar.length.value, section.width(), section.height());
     const BodyIndex index =
-        register_body(builder, body, "spreader", {BoxShape{size, {0, 0, 0}, {0, 0, 0}}});
+        register_body(builder, spreader_body(bar), "spreader", spreader_boxes(bar));
     spreaders_.push_back({bar.name.value, index, {}});
   }
 

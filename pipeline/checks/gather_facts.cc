@@ -165,9 +165,10 @@ class LiftedFacts {
     Index sample = 0;
     spreader.load = load_of(hung_load(bar, lift_.static_history),
                             hung_load(bar, lift_.dynamic_history()), sample);
-    const structure::Column column = case_.find_spreader(bar.name)->column();
-    spreader.borne_at_rest = borne_load(column, bar, lift_.static_history);
-    spreader.borne_in_motion = borne_load(column, bar, lift_.dynamic_history());
+    const SpreaderInCase& in_case = *case_.find_spreader(bar.name);
+    spreader.is_frame = in_case.is_frame();
+    spreader.borne_at_rest = borne_load(in_case, bar, lift_.static_history);
+    spreader.borne_in_motion = borne_load(in_case, bar, lift_.dynamic_history());
     for (const LiftSpreader::End& end : bar.ends) {
       if (!end.from_above) continue;
       const auto carries =

@@ -87,7 +87,7 @@ class MeasureChecks {
       note(*worst, check_at_least(name, worst->peak.value, *limit, worst->measure->unit));
   }
 
-  /// A bar against buckling by its compression alone, and with bending.
+  /// A bar against buckling by its compression alone, and with bending; of a frame the worst side.
   void add_spreader(const SpreaderInCase& bar) {
     const double factor = spreader_factor(case_.checks);
     const std::string subject = "spreader " + bar.name.value;
@@ -95,16 +95,18 @@ class MeasureChecks {
       if (measure.subject != bar.name.value) continue;
       const MeasurePeak peak = find_peak(lift_, measure);
       Check check;
-      if (measure.kind == "compression") {
+      if (measure.kind == "compression" && !bar.is_frame()) {
         check = check_at_most(
             fmt::format("{}: compression against buckling load / {:g}", subject, factor),
             std::max(0.0, peak.value), structure::buckling_resistance(bar.column()) / factor, "N");
         check.note = "EN 1993-1-1, 6.3.1.1";
       } else if (measure.kind == "share of the resistance") {
-        check =
-            check_at_most(fmt::format("{}: compression with bending, times {:g}", subject, factor),
-                          peak.value, 1, "1");
-        check.note = "EN 1993-1-1, 6.3.1.1, moments growing by 5.2.2(5)";
+        check = check_at_most(fmt::format("{}: compression with bending{}, times {:g}", subject,
+                                          bar.is_frame() ? " and torsion" : "", factor),
+                              peak.value, 1, "1");
+        check.note = bar.is_frame()
+                         ? "EN 1993-1-1, 6.3.1.1 and 6.2.1(5), moments growing by 5.2.2(5)"
+                         : "EN 1993-1-1, 6.3.1.1, moments growing by 5.2.2(5)";
       } else {
         continue;
       }

@@ -102,8 +102,12 @@ void print_sheaves(const RiggedLift& rigged) {
 
 void print_spreaders(const RiggedLift& rigged) {
   if (!rigged.spreaders.empty()) {
-    TextTable table(
-        {{"spreader"}, {"bar"}, {"WLL t", 4}, {"mass kg", 4}, {"use", 3}, {"governing check"}});
+    TextTable table({{"spreader"},
+                     {"of stock"},
+                     {"WLL t", 4},
+                     {"mass kg", 4},
+                     {"use", 3},
+                     {"governing check"}});
     for (const ChosenSpreader& chosen : rigged.spreaders) {
       const SpreaderInStock& bar = rigged.stock.spreaders[chosen.index];
       const Check& governing = *governing_check(chosen.checks);
@@ -113,10 +117,9 @@ void print_spreaders(const RiggedLift& rigged) {
     fmt::print("\n{}", table.text());
   }
   for (const SpreaderInCase& bar : rigged.lift_case.spreaders)
-    if (!has_bars_of_length(rigged.stock, bar.length.value))
-      print_wrapped(fmt::format("the stock has no bar of {}: {} stays as it is",
-                                format_quantity(bar.length.value, Dimension::length),
-                                bar.name.value));
+    if (!has_spreaders_of_size(rigged.stock, bar))
+      print_wrapped(fmt::format("the stock has no {} of {}: {} stays as it is",
+                                bar.is_frame() ? "frame" : "bar", bar.size_text(), bar.name.value));
 }
 
 /// What was used most of all that was chosen.
@@ -193,7 +196,7 @@ void print_failures(const RiggedLift& rigged) {
   }
   for (const ChosenSpreader& spreader : rigged.spreaders)
     if (!spreader.pass())
-      say("spreader bar of the stock passes for " + spreader.name,
+      say("spreader of the stock passes for " + spreader.name,
           rigged.stock.spreaders[spreader.index].name(), spreader.checks);
 }
 

@@ -167,10 +167,7 @@ class Clearances {
     cranes_.resize(case_.cranes.size());
     for (const LiftBody& body : lift_.model.bodies) {
       if (body.kind != "crane" || body.boxes.empty()) continue;
-      std::vector<Triangle> triangles;
-      for (const BoxShape& box : body.boxes)
-        for (const Triangle& triangle : surface_of(box)) triangles.push_back(triangle);
-      cranes_[crane_of(body.name)].push_back({body.name, body.body, Solid(triangles)});
+      cranes_[crane_of(body.name)].push_back({body.name, body.body, Solid(surface_of(body.boxes))});
     }
   }
 
@@ -235,7 +232,7 @@ class Clearances {
   void add_spreaders() {
     for (const LiftBody& body : lift_.model.bodies) {
       if (body.kind != "spreader") continue;
-      const PlacedSolid bar{body.name, body.body, Solid(surface_of(body.boxes.front()))};
+      const PlacedSolid bar{body.name, body.body, Solid(surface_of(body.boxes))};
       add_pair(load_, bar);
       for (const auto& crane : cranes_)
         for (const PlacedSolid& part : crane) add_pair(bar, part);

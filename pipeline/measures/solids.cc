@@ -176,6 +176,13 @@ std::vector<Triangle> surface_of(const BoxShape& box) {
   return triangles;
 }
 
+std::vector<Triangle> surface_of(const std::vector<BoxShape>& boxes) {
+  std::vector<Triangle> triangles;
+  for (const BoxShape& box : boxes)
+    for (const Triangle& triangle : surface_of(box)) triangles.push_back(triangle);
+  return triangles;
+}
+
 std::vector<Triangle> surface_of(const LoadInCase& load) {
   return load.vessel ? surface_of(load.vessel->hull) : surface_of(*load.model);
 }

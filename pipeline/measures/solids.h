@@ -18,6 +18,8 @@ std::vector<Triangle> surface_of(const BlockModel& block);
 std::vector<Triangle> surface_of(const dynamics::Hull& hull);
 /// The six sides of a box, in the frame of its body.
 std::vector<Triangle> surface_of(const BoxShape& box);
+/// All of them, which may cross.
+std::vector<Triangle> surface_of(const std::vector<BoxShape>& boxes);
 /// What is lifted: the hull of a vessel, else the block.
 std::vector<Triangle> surface_of(const LoadInCase& load);
 

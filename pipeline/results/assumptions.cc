@@ -120,8 +120,9 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
   }
   if (!lift_case.spreaders.empty()) {
     list.emplace_back(
-        "Spreaders are rigid bars, their mass spread evenly over their length. As columns they are "
-        "pinned at their ends, in both planes.");
+        "Spreaders are rigid in the motion, their mass spread evenly over their bars. As columns "
+        "bars and the sides of frames are pinned at their ends, in both planes; what is within a "
+        "frame's sides follows from their stiffness, rigidly joined at the corners.");
   }
   list.emplace_back(
       "Drives and winches follow their motion profiles exactly, whatever force that takes.");

@@ -90,7 +90,9 @@ void add_rigging(const LiftCase& lift_case, const StandardAssessment& standard,
     sheaves.push_back({sheave.name.value, tonnes(sheave.working_load), tonnes(sheave.breaking_load),
                        number(sheave.tread, 1e3, 0), "", ""});
   for (const SpreaderInCase& bar : lift_case.spreaders)
-    bars.push_back({bar.name.value, fmt::format("{:.3f}", bar.length.value),
+    bars.push_back({bar.name.value,
+                    bar.is_frame() ? fmt::format("{:.3f} x {:.3f}", bar.length.value, *bar.width)
+                                   : fmt::format("{:.3f}", bar.length.value),
                     number(bar.mass(), 1, 0), number(bar.yield_stress, 1e-6, 0), "", ""});
   document.heading("Rigging list");
   if (!slings.empty())

@@ -137,7 +137,7 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
   LiftRunner runner(std::move(lift_case), progress);
   std::vector<std::string> bars;
   for (const SpreaderInCase& bar : runner.the_case().spreaders)
-    if (has_bars_of_length(rigged.stock, bar.length.value)) bars.push_back(bar.name.value);
+    if (has_spreaders_of_size(rigged.stock, bar)) bars.push_back(bar.name.value);
   Loads loads;
   // Slings first, then bars.
   const auto choose = [&] {

@@ -146,7 +146,10 @@ YAML::Node rigged_spreaders(const RiggedLift& rigged, const YAML::Node& spreader
     node.remove("mass");
     if (bar.given_mass) node["mass"] = fmt::format("{:.10g} kg", *bar.given_mass);
     node["length"] = millimetres(bar.length.value);
+    if (bar.is_frame()) node["width"] = millimetres(*bar.width);
     node["section"] = section_node(bar.section.value);
+    node.remove("cross_section");
+    if (bar.cross_section) node["cross_section"] = section_node(bar.cross_section->value);
     node["yield_stress"] = fmt::format("{:.10g} MPa", bar.yield_stress / 1e6);
     node["buckling_curve"] = buckling_curve_name(bar.curve);
     node["upper_eye"] = millimetres(bar.upper_eye);

@@ -15,8 +15,11 @@ namespace {
 
 constexpr double same_length = 1e-3;  // m
 
-bool is_as_long(const SpreaderInStock& one, double length) {
-  return std::abs(one.spreader.bar.length.value - length) <= same_length;
+bool is_as_large(const SpreaderInStock& one, const SpreaderInCase& in_case) {
+  const SpreaderInCase& bar = one.spreader.bar;
+  return bar.is_frame() == in_case.is_frame() &&
+         std::abs(bar.length.value - in_case.length.value) <= same_length &&
+         (!bar.is_frame() || std::abs(*bar.width - *in_case.width) <= same_length);
 }
 
 const LiftSpreader& bar_of(const LiftRun& lift, const std::string& name) {
@@ -25,14 +28,14 @@ const LiftSpreader& bar_of(const LiftRun& lift, const std::string& name) {
 }
 
 /// By the chain of the rules, with the candidate's resistance in place of that of the case's bar.
-std::vector<Check> checks_by_rules(const structure::Column& column, const LiftCase& lift_case,
+std::vector<Check> checks_by_rules(const SpreaderInCase& candidate, const LiftCase& lift_case,
                                    const LiftRun& lift, const LiftFacts& facts,
                                    const LiftSpreader& bar) {
   SpreaderFacts spreader =
       *std::find_if(facts.spreaders.begin(), facts.spreaders.end(),
                     [&](const SpreaderFacts& one) { return one.name == bar.name; });
-  spreader.borne_at_rest = borne_load(column, bar, lift.static_history);
-  spreader.borne_in_motion = borne_load(column, bar, lift.dynamic_history());
+  spreader.borne_at_rest = borne_load(candidate, bar, lift.static_history);
+  spreader.borne_in_motion = borne_load(candidate, bar, lift.dynamic_history());
   StandardAssessment assessment;
   assessment.name = lift_case.standard->rules.name;
   assessment.chains.push_back(spreader_chain(LoadFactors(*lift_case.standard, facts), spreader));
@@ -41,37 +44,37 @@ std::vector<Check> checks_by_rules(const structure::Column& column, const LiftCa
 
 }  // namespace
 
-bool has_bars_of_length(const Stock& stock, double length) {
+bool has_spreaders_of_size(const Stock& stock, const SpreaderInCase& in_case) {
   return std::any_of(stock.spreaders.begin(), stock.spreaders.end(),
-                     [&](const SpreaderInStock& one) { return is_as_long(one, length); });
+                     [&](const SpreaderInStock& one) { return is_as_large(one, in_case); });
 }
 
 std::vector<Check> check_spreader(const SpreaderInStock& candidate, const LiftCase& lift_case,
                                   const LiftRun& lift, const std::optional<LiftFacts>& facts,
                                   const std::string& name) {
   const LiftSpreader& bar = bar_of(lift, name);
-  const structure::Column column = candidate.spreader.bar.column();
   const double factor = spreader_factor(lift_case.checks);
   std::vector<Check> checks{
-      check_at_most(fmt::format("resistance of the bar / {:g}", factor),
-                    largest_share(column, bar, lift, factor), 1, "1"),
+      check_at_most(fmt::format("resistance of the {} / {:g}",
+                                candidate.spreader.bar.is_frame() ? "frame" : "bar", factor),
+                    largest_share(candidate.spreader.bar, bar, lift, factor), 1, "1"),
       check_at_most(fmt::format("working load at rest, {}", candidate.rule),
                     std::max(0.0, hung_load(bar, lift.static_history).maxCoeff()),
                     candidate.spreader.working_load, "N")};
   if (facts)
-    for (Check& check : checks_by_rules(column, lift_case, lift, *facts, bar))
+    for (Check& check : checks_by_rules(candidate.spreader.bar, lift_case, lift, *facts, bar))
       checks.push_back(std::move(check));
   return checks;
 }
 
 ChosenSpreader choose_spreader(const Stock& stock, const LiftCase& lift_case, const LiftRun& lift,
                                const std::optional<LiftFacts>& facts, const std::string& name) {
-  const double length = lift_case.find_spreader(name)->length.value;
+  const SpreaderInCase& in_case = *lift_case.find_spreader(name);
   std::optional<ChosenSpreader> lightest, nearest;
   double least_use = 0;
   for (std::size_t i = 0; i < stock.spreaders.size(); ++i) {
     const SpreaderInStock& candidate = stock.spreaders[i];
-    if (!is_as_long(candidate, length)) continue;
+    if (!is_as_large(candidate, in_case)) continue;
     ChosenSpreader chosen{name, i, check_spreader(candidate, lift_case, lift, facts, name)};
     const double use = governing_check(chosen.checks)->utilisation;
     const bool is_lighter = !lightest || candidate.spreader.bar.mass() <

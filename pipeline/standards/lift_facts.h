@@ -47,13 +47,15 @@ struct SlingFacts {
   double angle = 0;  ///< at its upper end to the plumb, at the largest load at rest, rad
 };
 
-/// Spreader bar.
+/// Spreader bar or frame.
 struct SpreaderFacts {
   std::string name;
   LoadFacts load;            ///< of all that hangs below it
   ComputedFactors computed;  ///< the worst of the slings that carry it
   int slings_on_hook = 1;
-  /// The load below it that it bears as a column, by the ropes' directions where they ask most, N.
+  bool is_frame = false;
+  /// The load below it that it bears, as a column or by the sides of its frame, by the ropes'
+  /// directions where they ask most, N.
   double borne_at_rest = 0, borne_in_motion = 0;
 };
 

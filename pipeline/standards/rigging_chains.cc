@@ -397,13 +397,14 @@ std::vector<Chain> sheave_chains(const LoadFactors& factors, const SheaveInCase&
 Chain spreader_chain(const LoadFactors& factors, const SpreaderFacts& spreader) {
   ChainBuilder chain("spreader", spreader.name);
   factors.add_all(chain, spreader.load, spreader.computed, spreader.slings_on_hook);
-  chain.result("load below the bar");
+  chain.result(spreader.is_frame ? "load below the frame" : "load below the bar");
   factors.add_lift_point_consequence(chain);
   if (!(spreader.borne_at_rest > 0) || !(spreader.borne_in_motion > 0)) return chain.finish();
   const double factor = factors.facts().spreader_factor;
   chain.limit(
       spreader.borne_at_rest / factor,
-      fmt::format("resistance as a column {} / {:g}", load_text(spreader.borne_at_rest), factor),
+      fmt::format("resistance {} {} / {:g}", spreader.is_frame ? "of its sides" : "as a column",
+                  load_text(spreader.borne_at_rest), factor),
       "EN 1993-1-1, 6.3.1", spreader.borne_in_motion / factor);
   return chain.finish();
 }

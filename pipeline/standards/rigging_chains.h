@@ -33,9 +33,9 @@ std::vector<Chain> master_link_chains(const LoadFactors& factors, const MasterLi
 std::vector<Chain> sheave_chains(const LoadFactors& factors, const SheaveInCase& sheave,
                                  const SlingFacts& sling);
 
-/// Load below a spreader bar against what the bar bears as a column (EN 1993-1-1, 6.3.1) over the
-/// case's factor, with the rules' consequence factor of lift points, which spreader bars are among
-/// (0027/ND, table 11-1).
+/// Load below a spreader against what it bears as a column, or its sides do (EN 1993-1-1, 6.3.1),
+/// over the case's factor, with the rules' consequence factor of lift points, which spreader bars
+/// are among (0027/ND, table 11-1).
 Chain spreader_chain(const LoadFactors& factors, const SpreaderFacts& spreader);
 
 }  // namespace blocklift::pipeline

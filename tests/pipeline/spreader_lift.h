@@ -41,4 +41,26 @@ dynamics: {relative_tolerance: 1e-8}
   return lift;
 }
 
+/// The sample's plate below a frame of 4 x 2 m: four slings of 3 m from the hook to its corners, and
+/// four of 2 m from there to the plate's two lugs.
+inline SampleLift frame_lift() {
+  SampleLift lift = spreader_lift();
+  lift.lift_case =
+      with(lift.lift_case, "  B1:\n    length: 4 m\n", "  B1:\n    length: 4 m\n    width: 2 m\n");
+  lift.lift_case = with(lift.lift_case, "left: 5 m", "left: 4 m");
+  const std::size_t begin = lift.lift_case.find("ropes:\n"),
+                    end = lift.lift_case.find("operation:");
+  lift.lift_case.replace(begin, end - begin, R"(ropes:
+  U1: {from: C1.left, to: B1.upper_1, model: ropes/tackle, length: 3 m}
+  U2: {from: C1.left, to: B1.upper_2, model: ropes/tackle, length: 3 m}
+  U3: {from: C1.left, to: B1.upper_3, model: ropes/tackle, length: 3 m}
+  U4: {from: C1.left, to: B1.upper_4, model: ropes/tackle, length: 3 m}
+  R1: {from: B1.lower_1, to: L1, model: ropes/tackle, length: 2 m}
+  R2: {from: B1.lower_2, to: L2, model: ropes/tackle, length: 2 m}
+  R3: {from: B1.lower_3, to: L2, model: ropes/tackle, length: 2 m}
+  R4: {from: B1.lower_4, to: L1, model: ropes/tackle, length: 2 m}
+)");
+  return lift;
+}
+
 }  // namespace blocklift::pipeline::test

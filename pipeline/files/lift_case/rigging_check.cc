@@ -62,13 +62,18 @@ void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
       };
       below += int{is_at_bar(first) || (rope.is_basket() && is_at_bar(last))};
     }
+    const std::string& name = bar.name.value;
     if (all_known && (above == 0 || below == 0))
-      diagnostics.error(bar.name.mark,
-                        fmt::format("no sling {} spreader {}", above == 0 ? "ends at" : "begins at",
-                                    bar.name.value),
-                        {fmt::format("slings from above end at {0}.upper_a and {0}.upper_b, those "
-                                     "to the load begin at {0}.lower_a and {0}.lower_b",
-                                     bar.name.value)});
+      diagnostics.error(
+          bar.name.mark,
+          fmt::format("no sling {} spreader {}", above == 0 ? "ends at" : "begins at", name),
+          {bar.is_frame()
+               ? fmt::format("slings from above end at {0}.upper_1 to {0}.upper_4, those to the "
+                             "load begin at {0}.lower_1 to {0}.lower_4",
+                             name)
+               : fmt::format("slings from above end at {0}.upper_a and {0}.upper_b, those to the "
+                             "load begin at {0}.lower_a and {0}.lower_b",
+                             name)});
     check_reach(lift_case, bar, diagnostics);
   }
 }

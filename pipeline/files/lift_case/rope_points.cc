@@ -96,7 +96,7 @@ class PointResolver {
       return resolved;
     }
     std::vector<std::string> known;
-    for (const std::string& one : spreader_eyes) known.push_back(bar.name.value + "." + one);
+    for (const std::string& one : bar.eye_names()) known.push_back(bar.name.value + "." + one);
     fail(name,
          fmt::format("{} \"{}\", which is no eye of spreader {}", subject_, name.value,
                      bar.name.value),

@@ -95,15 +95,18 @@ Format<StockSheave> sheave_format() {
 }
 
 Format<StockSpreader> stock_spreader_format() {
-  Table<StockSpreader> table("spreader in stock", "A spreader bar in stock.");
+  Table<StockSpreader> table("spreader in stock", "A spreader bar or frame in stock.");
   table
       .required("bar", &StockSpreader::bar, spreader_format(),
                 "its keys, as a case has them under spreaders")
       .required("working_load", &StockSpreader::working_load,
-                quantity(Dimension::load, Range::positive()), "that hangs below it, on both ends")
-      .required("sling_angle", &StockSpreader::sling_angle,
-                quantity(Dimension::angle, Range::inside(0, std::numbers::pi / 2)),
-                "of the slings above it to the level, the least for this load");
+                quantity(Dimension::load, Range::positive()),
+                "that hangs below it, on all its ends or corners alike")
+      .required(
+          "sling_angle", &StockSpreader::sling_angle,
+          quantity(Dimension::angle, Range::inside(0, std::numbers::pi / 2)),
+          "of the slings above it, which meet over its middle, to the level; the least for this "
+          "load");
   return table.format();
 }
 
@@ -207,13 +210,14 @@ void check_sheave(const StockSheave& sheave, Diagnostics& diagnostics) {
 void check_spreader(const StockSpreader& spreader, double factor, Diagnostics& diagnostics) {
   const SpreaderInCase& bar = spreader.bar;
   const BarSection& section = bar.section.value;
-  const bool is_whole = section.pipe.has_value() != section.box.has_value();
-  if (!is_whole || !(bar.yield_stress > 0) || !(bar.length.value > 0)) return;
+  if (!section.is_whole() || !(bar.yield_stress > 0) || !(bar.length.value > 0)) return;
+  if (bar.is_frame() && !(*bar.width > 0)) return;
+  if (bar.cross_section && !bar.cross_section->value.is_whole()) return;
   const double use = spreader.utilisation(factor);
   if (!(use > 1 / least_of_rule)) return;
   diagnostics.error(
       spreader.name.mark,
-      fmt::format("{}: under its working load, times {:g}, the bar bears {:.3f} of its resistance "
+      fmt::format("{}: under its working load, times {:g}, it bears {:.3f} of its resistance "
                   "(EN 1993-1-1)",
                   spreader.name.value, factor, use));
 }
@@ -227,12 +231,24 @@ double StockMasterLink::mass_of_bar() const {
 
 double StockSpreader::utilisation(double factor) const {
   constexpr double gravity = 9.80665;
-  structure::ColumnForces forces;
-  // Its own weight hangs on the slings above, too.
-  forces.compression = (working_load + bar.mass() * gravity) / 2 / std::tan(sling_angle);
-  forces.moments[0] =
-      forces.compression * bar.upper_eye + bar.mass() * gravity * bar.length.value / 8;
-  return structure::column_utilisation(bar.column(), forces, factor);
+  std::vector<structure::PointForce> forces;
+  std::vector<Vector3> points;
+  const std::vector<std::string> eyes = bar.eye_names();
+  const double share = 2.0 / static_cast<double>(eyes.size());
+  for (const std::string& name : eyes) {
+    const bool is_upper = name.starts_with("upper");
+    // Its own weight hangs on the slings above, too.
+    const double upright = share * (working_load + (is_upper ? bar.mass() * gravity : 0));
+    points.push_back(*bar.eye(name));
+    Vector3 force(0, 0, -upright);
+    if (is_upper) {
+      const Vector3 level(points.back().x(), points.back().y(), 0);
+      force = -level.normalized() * upright / std::tan(sling_angle) + Vector3(0, 0, upright);
+    }
+    forces.push_back({points.back(), force});
+  }
+  const SpreaderStrength strength(bar, points);
+  return strength.utilisation(strength.find_forces(forces), factor);
 }
 
 const std::vector<std::pair<std::string, SlingConstruction>>& sling_constructions() {

@@ -8,7 +8,7 @@
 
 #include "pipeline/declaration/format.h"
 #include "pipeline/files/rigging/rope_model.h"
-#include "pipeline/files/rigging/spreader.h"
+#include "pipeline/files/rigging/spreader_strength.h"
 
 namespace blocklift::pipeline {
 
@@ -98,7 +98,7 @@ struct StockSheave {
   double mass = nan;           ///< kg
 };
 
-/// A spreader bar in stock. SI units.
+/// A spreader bar or frame in stock. SI units.
 struct StockSpreader {
   Located<std::string> name;
   SpreaderInCase bar;
@@ -106,9 +106,9 @@ struct StockSpreader {
   /// Of the slings above to the level, the least that the working load holds for, rad.
   double sling_angle = std::numeric_limits<double>::quiet_NaN();
 
-  /// What the bar bears of its resistance under the working load, all forces times a factor: half
-  /// of it over tan(sling_angle) presses the bar at the height of its upper eyes, its own weight
-  /// bends it (structure::column_utilisation).
+  /// What it bears of its resistance under the working load, which hangs on its lower eyes alike,
+  /// all forces times a factor, with slings above at sling_angle that meet over its middle and its
+  /// own weight (SpreaderStrength).
   double utilisation(double factor) const;
 };
 
@@ -137,7 +137,7 @@ Format<RiggingStock> rigging_stock_format();
 /// Whether the figures of a stock hold together, after its ropes were looked up: working loads by
 /// the rule, strength over mass by the construction, pins by the shear that they may bear, master
 /// links by their mass and the mean stress of their sides, sheaves by the bend of their largest
-/// rope, spreader bars as columns. Figures that could not be read are passed over.
+/// rope, spreaders by their strength. Figures that could not be read are passed over.
 void check_rigging_stock(const RiggingStock& stock, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

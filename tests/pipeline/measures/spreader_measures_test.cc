@@ -1,6 +1,7 @@
 #include "pipeline/measures/spreader_measures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -179,6 +180,71 @@ TEST(SpreaderMeasures, TwoTiersFindTheirPlaces) {
   EXPECT_NEAR(lift.measure("B1: compression").at_rest[0], H1, 2e-3 * H1);
   EXPECT_NEAR(lift.measure("B2: compression").at_rest[0], H2 - H1, 1e-3 * H1);
   EXPECT_EQ(lift.run.model.ropes[4].hoist, "C1.left");
+}
+
+// Slings of 3 m from the hook to the corners of a frame of 4 x 2 m rise by 2 m; those of 2 m below it
+// lean in by 1 m and fall by sqrt(3) m. Along x only those above press, along y those above and,
+// towards the plate, those below; the eyes bend: each level pull times its height.
+TEST(SpreaderMeasures, FrameIsPressedByStatics) {
+  const BarLift lift = lift_on_bar(test::frame_lift());
+  const SpreaderInCase& frame = *lift.lift_case.find_spreader("B1");
+  const double W = 10e3 * gravity, own = frame.mass() * gravity;
+  EXPECT_NEAR(frame.mass(), 7850 * 2 * (4 + 2) * frame.column().area, 1e-9 * frame.mass());
+  const double along = (W + own) / 4 * 2 / 2, across_above = (W + own) / 4 * 1 / 2;
+  const double across_below = W / 4 / std::sqrt(3.0);
+  // The slings stretch by 2e-4 of their length.
+  EXPECT_NEAR(lift.measure("B1: compression").at_rest[0],
+              std::max(along, across_above + across_below), 2e-3 * along);
+  const double sag = own / 3 * 4 / 8;  // of a long side, a third of the weight
+  const double bend_along = along * 0.2 + sag;
+  const double bend_across = across_above * 0.2 - across_below * 0.1 + own / 6 * 2 / 8;
+  EXPECT_NEAR(lift.measure("B1: bending moment").at_rest[0], std::max(bend_along, bend_across),
+              3e-3 * bend_along);
+  EXPECT_NEAR(lift.measure("B1: torsion moment").at_rest[0], 0, 1e-3 * bend_along);
+  const std::vector<Check> checks = check_measures(lift.lift_case, lift.run, lift.measures);
+  ASSERT_EQ(checks.size(), 1U);
+  EXPECT_EQ(checks[0].name, "spreader B1: compression with bending and torsion, times 1.5");
+  EXPECT_TRUE(checks[0].pass);
+}
+
+// A frame of four equal sides has about its middle what two pairs of rods have.
+TEST(SpreaderMeasures, FrameHasTheInertiaOfItsSides) {
+  SpreaderInCase frame;
+  frame.length.value = 4;
+  frame.width = 2;
+  frame.section.value.pipe = std::array<double, 2>{0.1, 0.01};
+  frame.given_mass = 600;
+  const Eigen::Vector3d I = frame.inertia().diagonal();
+  const double L = 200, W = 100;  // kg, of each side
+  const double own = frame.column().second_moments[0] / frame.column().area;
+  EXPECT_NEAR(I.x(), 2 * L * (1 + 2 * own) + 2 * W * (4.0 / 12 + own), 1e-6);
+  EXPECT_NEAR(I.y(), 2 * L * (16.0 / 12 + own) + 2 * W * (4 + 2 * own), 1e-6);
+  EXPECT_NEAR(I.z(), 2 * L * (1 + 16.0 / 12 + own) + 2 * W * (4 + 4.0 / 12 + own), 1e-6);
+}
+
+// Two tiers of plumb slings: a frame below a bar, whose slings run to both corners of each end. Along
+// x nothing presses the frame, which hangs plumb; along y those slings do, which lean by 1 m in 1 m.
+TEST(SpreaderMeasures, FrameHangsBelowABar) {
+  test::SampleLift parts = test::frame_lift();
+  const std::size_t begin = parts.lift_case.find("  U1:"), end = parts.lift_case.find("  R1:");
+  parts.lift_case.replace(
+      begin, end - begin,
+      "  T1: {from: C1.left, to: B2.upper_a, model: ropes/tackle, length: 2.5 m}\n"
+      "  T2: {from: C1.left, to: B2.upper_b, model: ropes/tackle, length: 2.5 m}\n"
+      "  U1: {from: B2.lower_a, to: B1.upper_1, model: ropes/tackle, length: 1.4142 m}\n"
+      "  U2: {from: B2.lower_b, to: B1.upper_2, model: ropes/tackle, length: 1.4142 m}\n"
+      "  U3: {from: B2.lower_b, to: B1.upper_3, model: ropes/tackle, length: 1.4142 m}\n"
+      "  U4: {from: B2.lower_a, to: B1.upper_4, model: ropes/tackle, length: 1.4142 m}\n");
+  parts.lift_case = test::with(parts.lift_case, "spreaders:\n",
+                               "spreaders:\n  B2: {length: 4 m, section: {box: [150 mm, 100 mm, 8 "
+                               "mm]}, yield_stress: 355 MPa}\n");
+  const BarLift lift = lift_on_bar(parts);
+  const double W = 10e3 * gravity, own = lift.lift_case.find_spreader("B1")->mass() * gravity;
+  const double upper = lift.lift_case.find_spreader("B2")->mass() * gravity;
+  const double across = (W + own) / 4 + W / 4 / std::sqrt(3.0);
+  EXPECT_NEAR(lift.measure("B1: compression").at_rest[0], across, 2e-3 * across);
+  const double above = (W + own + upper) / 2 * 2 / 1.5;
+  EXPECT_NEAR(lift.measure("B2: compression").at_rest[0], above, 2e-3 * above);
 }
 
 }  // namespace

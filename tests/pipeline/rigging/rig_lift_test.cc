@@ -117,6 +117,34 @@ TEST(RigLiftTest, ChoosesMasterLinkAndSpreader) {
   EXPECT_NEAR(again.standard->master_links[0].mass, 6.78, 1e-9);
 }
 
+// A frame of the case's length and width is chosen; bars and frames of another width are none.
+TEST(RigLiftTest, ChoosesFramesOfTheirSize) {
+  const TemporaryFolder folder;
+  folder.write(
+      "loft/frames.yaml",
+      "kind: rigging\ntitle: t\nsource: s\nrule: {name: own, safety_factor: 2, formula: f}\n"
+      "spreaders:\n"
+      "  bar: {bar: {length: 4 m, section: {pipe: [139.7 mm, 6.3 mm]}, yield_stress: 355 MPa}, "
+      "working_load: 12 t, sling_angle: 45 deg}\n"
+      "  wide: {bar: {length: 4 m, width: 3 m, section: {pipe: [114.3 mm, 6.3 mm]}, yield_stress: "
+      "355 MPa}, working_load: 12 t, sling_angle: 45 deg}\n"
+      "  fits: {bar: {length: 4 m, width: 2 m, section: {pipe: [139.7 mm, 6.3 mm]}, yield_stress: "
+      "355 MPa, cross_section: {box: [120 mm, 80 mm, 6 mm]}}, working_load: 12 t, sling_angle: "
+      "45 deg}\n");
+  const RiggedLift rigged =
+      rig_sample(folder, test::frame_lift().lift_case, {200, 245, 270, 460, 600});
+  EXPECT_TRUE(rigged.pass());
+  ASSERT_EQ(rigged.spreaders.size(), 1U);
+  EXPECT_EQ(rigged.stock.spreaders[rigged.spreaders[0].index].name(), "fits");
+  write_rigged_case(rigged, "rigged.yaml");
+  const LiftCase again = read_lift_case("rigged.yaml");
+  const SpreaderInCase& frame = *again.find_spreader("B1");
+  EXPECT_NEAR(*frame.width, 2, 1e-12);
+  EXPECT_NEAR((*frame.section.value.pipe)[0], 0.1397, 1e-12);
+  ASSERT_TRUE(frame.cross_section);
+  EXPECT_NEAR((*frame.cross_section->value.box)[0], 0.12, 1e-12);
+}
+
 // Half the weight, 49.05 kN, asks for 245.25 kN and 5.0 t; the motion adds a few per cent.
 TEST(RigLiftTest, ChoosesForHalfTheWeightEach) {
   const TemporaryFolder folder;

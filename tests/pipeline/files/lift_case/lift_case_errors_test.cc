@@ -170,6 +170,22 @@ TEST(LiftCaseErrors, SpreaderOfAThinOrImpossibleWall) {
               HasSubstr("has 0 shapes, and one is due"));
 }
 
+TEST(LiftCaseErrors, FramesHaveOtherEyesThanBars) {
+  const std::string frame = "  B1:\n    length: 4 m\n    width: 2 m\n";
+  EXPECT_THAT(complaints_about_spreader("  B1:\n    length: 4 m\n", frame),
+              HasSubstr("\"B1.upper_a\", which is no eye of spreader B1\n    its eyes are "
+                        "B1.upper_1, B1.upper_2, B1.upper_3, B1.upper_4, B1.lower_1"));
+  EXPECT_THAT(complaints_about_spreader(
+                  "    length: 4 m\n    section:",
+                  "    length: 4 m\n    cross_section: {pipe: [168.3 mm, 8 mm]}\n    section:"),
+              HasSubstr("spreader B1 has a cross_section and no width\n    a frame has a width"));
+  EXPECT_THAT(
+      complaints_about_spreader("    length: 4 m\n    section:",
+                                "    length: 4 m\n    width: 2 m\n    cross_section: {pipe: "
+                                "[168.3 mm, 2 mm]}\n    section:"),
+      HasSubstr("the wall of spreader B1 is too thin"));
+}
+
 TEST(LiftCaseErrors, SpreaderWithAnothersName) {
   EXPECT_THAT(complaints_about_spreader("  B1:\n",
                                         "  load: {length: 2 m, section: {pipe: [100 mm, "
