@@ -1,5 +1,6 @@
 #include "pipeline/measures/line_measures.h"
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -60,6 +61,36 @@ void add_lines(const LiftRun& lift, const char* kind, const char* meaning,
   }
 }
 
+/// Places of a rope's points at a sample, in W.
+std::vector<Vector3> places_of(const dynamics::Rope& rope, const History& history,
+                               Eigen::Index sample) {
+  std::vector<Vector3> places;
+  for (const dynamics::BodyPoint& point : rope.points()) {
+    const auto body = static_cast<std::size_t>(point.body);
+    places.push_back(point.body == dynamics::world_index
+                         ? point.p_BoQ_B
+                         : history.bodies[body - 1].X_WB(sample).apply(point.p_BoQ_B));
+  }
+  return places;
+}
+
+/// The larger share of the tensions of a rope's two ends that friction at its sheaves allows: by
+/// Euler and Eytelwein they are at most as 1 to r = exp(mu x sum of the angles of wrap), and the
+/// larger of them is r / (1 + r) of both.
+Eigen::VectorXd allowed_shares(const dynamics::Rope& rope, const History& history) {
+  Eigen::VectorXd shares(history.sample_count());
+  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+    const std::vector<Vector3> places = places_of(rope, history, i);
+    double wrap = 0;
+    for (std::size_t k = 1; k + 1 < places.size(); ++k) {
+      const Vector3 come = places[k] - places[k - 1], leave = places[k + 1] - places[k];
+      wrap += std::atan2(come.cross(leave).norm(), come.dot(leave));
+    }
+    shares[i] = 1 / (1 + std::exp(-rope.definition().sheave_friction * wrap));
+  }
+  return shares;
+}
+
 }  // namespace
 
 void add_line_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
@@ -70,7 +101,8 @@ void add_line_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) 
 void add_sheave_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   for (const LiftRope& rope : lift.model.ropes) {
     const auto index = static_cast<std::size_t>(rope.rope);
-    if (!(lift.model.system.ropes()[index].definition().sheave_friction > 0)) continue;
+    const dynamics::Rope& built = lift.model.system.ropes()[index];
+    if (!(built.definition().sheave_friction > 0)) continue;
     LiftMeasure share{.subject = rope.name,
                       .kind = "larger share",
                       .unit = "1",
@@ -88,6 +120,16 @@ void add_sheave_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures
     share.at_rest = shares(lift.static_history);
     share.in_motion = shares(lift.dynamic_history());
     measures.push_back(std::move(share));
+    // Edges on the way bend it, too, and friction of theirs is told where it touches them.
+    if (!built.edges().empty()) continue;
+    measures.push_back({.subject = rope.name,
+                        .kind = "share that friction allows",
+                        .unit = "1",
+                        .meaning =
+                            "the most that the larger share may be before the rope slips at its "
+                            "sheaves, at rest as well, where any share up to it may have been left",
+                        .at_rest = allowed_shares(built, lift.static_history),
+                        .in_motion = allowed_shares(built, lift.dynamic_history())});
   }
 }
 

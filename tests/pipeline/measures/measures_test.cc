@@ -288,6 +288,13 @@ TEST(SheaveMeasures, SharesOfAnEndlessSlingStayWithinTheFriction) {
   EXPECT_LT(share.in_motion.maxCoeff(), capstan / (1 + capstan));
   EXPECT_GT(share.in_motion.maxCoeff(), 0.5 + 1e-6);
   EXPECT_GT(lift.run.dynamic_history().energy.dissipated.tail(1)[0], 0);
+  // At rest it may have kept any share up to that of the wrap between its parts, 1 m apart below.
+  const LiftMeasure& allowed = lift.measure("R1: share that friction allows");
+  const double length = lift.run.static_history.rope("R1").unstretched_length[0] +
+                        lift.run.static_history.rope("R1").elongation[0];
+  const double wrap = std::acos(-1.0) - 2 * std::asin(0.5 / (length / 2));
+  EXPECT_NEAR(allowed.at_rest[0], 1 / (1 + std::exp(-0.1 * wrap)), 1e-4);
+  EXPECT_GT((allowed.in_motion - share.in_motion).minCoeff(), -1e-6);
 }
 
 // A sling from lug to lug over the left hook, the other lug held by the right hook too: by statics
