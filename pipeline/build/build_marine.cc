@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/panels/mirrored_bodies.h"
 #include "dynamics/marine/panels/wetted_body.h"
 #include "dynamics/marine/radiation/distant_groups.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
@@ -98,10 +99,15 @@ RadiationProblem at_draught(RadiationProblem problem, double draught) {
 
 dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
   std::vector<dynamics::WettedBody> bodies;
+  std::vector<std::vector<Vector3>> vertices_W;
   for (const RadiationProblem::Body& body : problem.bodies) {
-    bodies.push_back(make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B));
+    const dynamics::Hull& hull = body.vessel->hull;
+    bodies.push_back(make_wetted_body(hull, body.X_DB, body.p_BoR_B));
     bodies.back().name = body.name;
+    std::vector<Vector3>& vertices = vertices_W.emplace_back();
+    for (const Vector3& vertex : hull.vertices()) vertices.push_back(body.X_DB.apply(vertex));
   }
+  mirror_bodies(vertices_W, bodies);
   const dynamics::Symmetry symmetry = keep_symmetry(find_symmetry(bodies), problem.lids);
   const std::vector<dynamics::WaterLine> lines = find_water_lines(bodies);
   const auto surface = make_surface_mesh(

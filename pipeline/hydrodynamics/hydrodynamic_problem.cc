@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/panels/mirrored_bodies.h"
 #include "dynamics/marine/panels/wetted_body.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/files/vessel/hull_places.h"
 #include "pipeline/formats/hull_hash.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
-#include "pipeline/hydrodynamics/mirrored_bodies.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {

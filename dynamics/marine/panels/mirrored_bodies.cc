@@ -1,16 +1,12 @@
-#include "pipeline/hydrodynamics/mirrored_bodies.h"
+#include "dynamics/marine/panels/mirrored_bodies.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-namespace blocklift::pipeline {
+namespace blocklift::dynamics {
 namespace {
 
-using dynamics::PanelMesh;
-using dynamics::Symmetry;
-using dynamics::Vector3;
-using dynamics::WettedBody;
 using Points = std::vector<Vector3>;
 
 double size_of(const Points& points) {
@@ -54,12 +50,43 @@ std::optional<std::vector<std::size_t>> find_images(const std::vector<Points>& v
   return images;
 }
 
-/// The half of a mesh with centroids on the positive side, and its image.
+/// The part of a panel on the positive side of the plane of an axis, in one or two panels.
+void add_positive_part(const Panel& panel, int axis, std::vector<Panel>& panels) {
+  const double tolerance = 1e-6 * panel.diameter();
+  const auto count = static_cast<std::size_t>(panel.vertex_count);
+  Points part;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector3 &a = panel.vertices[k], &b = panel.vertices[(k + 1) % count];
+    if (a[axis] > -tolerance) part.push_back(a);
+    if (std::min(a[axis], b[axis]) > -tolerance || std::max(a[axis], b[axis]) < tolerance) continue;
+    Vector3 crossing = a + a[axis] / (a[axis] - b[axis]) * (b - a);
+    crossing[axis] = 0.0;
+    part.push_back(crossing);
+  }
+  for (std::size_t k = 1; k + 1 < part.size(); k += 2) {
+    Points piece{part[0], part[k], part[k + 1]};
+    if (k + 2 < part.size()) piece.push_back(part[k + 2]);
+    panels.push_back(make_panel(piece));
+  }
+}
+
+/// The half of a mesh on the positive side, and its image. Panels across the plane are cut.
 PanelMesh from_half(const PanelMesh& mesh, const Symmetry& plane) {
   const int axis = plane.x ? 0 : 1;
   PanelMesh half{{}, plane};
-  for (const dynamics::Panel& panel : mesh.panels) {
-    if (panel.centroid[axis] > 0.0) half.panels.push_back(panel);
+  for (const Panel& panel : mesh.panels) {
+    const double tolerance = 1e-6 * panel.diameter();
+    double lowest = 0.0, highest = 0.0;
+    for (const Vector3& vertex : panel.vertices) {
+      lowest = std::min(lowest, vertex[axis]);
+      highest = std::max(highest, vertex[axis]);
+    }
+    if (highest < tolerance) continue;
+    if (lowest > -tolerance) {
+      half.panels.push_back(panel);
+    } else {
+      add_positive_part(panel, axis, half.panels);
+    }
   }
   return expand_symmetry(half);
 }
@@ -85,7 +112,7 @@ void mirror_bodies(const std::vector<std::vector<Vector3>>& vertices_W,
       const std::size_t image = (*images)[b];
       if (image == b) mirrored[b].hull = from_half(bodies[b].hull, plane);
       if (image < b) mirrored[b].hull = image_of(bodies[image].hull, plane);
-      // Panels across the plane would be lost, or doubled.
+      // What lies in the plane would be lost, or doubled.
       same &= std::abs(mirrored[b].hull.total_area() - bodies[b].hull.total_area()) <
               1e-5 * bodies[b].hull.total_area();
     }
@@ -93,4 +120,4 @@ void mirror_bodies(const std::vector<std::vector<Vector3>>& vertices_W,
   }
 }
 
-}  // namespace blocklift::pipeline
+}  // namespace blocklift::dynamics

@@ -1,24 +1,17 @@
-#include "pipeline/hydrodynamics/mirrored_bodies.h"
+#include "dynamics/marine/panels/mirrored_bodies.h"
 
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "dynamics/marine/panels/wetted_body.h"
 
-namespace blocklift::pipeline {
+namespace blocklift::dynamics {
 namespace {
-
-using dynamics::Hull;
-using dynamics::Panel;
-using dynamics::Pose;
-using dynamics::Symmetry;
-using dynamics::Vector3;
-using dynamics::WettedBody;
 
 using Vertices = std::vector<std::vector<Vector3>>;
 
-Hull barge() {
-  return dynamics::make_barge({.length = 40, .breadth = 20, .depth = 6}, {8, 4, 3, 2}, "barge");
+Hull small_barge(int along = 8) {
+  return make_barge({.length = 40, .breadth = 20, .depth = 6}, {along, 4, 3, 2}, "barge");
 }
 
 struct Placed {
@@ -40,8 +33,8 @@ void divide_a_panel(WettedBody& body) {
     const Panel panel = body.hull.panels[k];
     if (panel.vertex_count != 4 || panel.centroid.y() < 1.0 || panel.centroid.x() < 1.0) continue;
     const auto& v = panel.vertices;
-    body.hull.panels[k] = dynamics::make_panel(std::vector<Vector3>{v[0], v[1], v[2]});
-    body.hull.panels.push_back(dynamics::make_panel(std::vector<Vector3>{v[0], v[2], v[3]}));
+    body.hull.panels[k] = make_panel(std::vector<Vector3>{v[0], v[1], v[2]});
+    body.hull.panels.push_back(make_panel(std::vector<Vector3>{v[0], v[2], v[3]}));
     return;
   }
   FAIL() << "no panel to divide";
@@ -49,7 +42,7 @@ void divide_a_panel(WettedBody& body) {
 
 TEST(MirroredBodies, ABodyBecomesItsOwnImage) {
   Placed placed;
-  placed.add(barge(), {0, 0, -2});
+  placed.add(small_barge(), {0, 0, -2});
   EXPECT_EQ(find_symmetry(placed.bodies), (Symmetry{true, true}));
   const double volume = placed.bodies[0].hull.displaced_volume();
   divide_a_panel(placed.bodies[0]);
@@ -59,11 +52,26 @@ TEST(MirroredBodies, ABodyBecomesItsOwnImage) {
   EXPECT_NEAR(placed.bodies[0].hull.displaced_volume(), volume, 1e-9 * volume);
 }
 
+// Nine panels over the length: the middle ones lie across the plane amidships, and are cut there.
+TEST(MirroredBodies, PanelsAcrossThePlaneAreCut) {
+  Placed placed;
+  placed.add(small_barge(9), {0, 0, -2});
+  EXPECT_EQ(find_symmetry(placed.bodies), (Symmetry{false, true}));
+  const PanelMesh before = placed.bodies[0].hull;
+  mirror_bodies(placed.vertices_W, placed.bodies);
+  const PanelMesh& hull = placed.bodies[0].hull;
+  EXPECT_EQ(find_symmetry(placed.bodies), (Symmetry{true, true}));
+  EXPECT_NEAR(hull.displaced_volume(), before.displaced_volume(), 1e-9 * before.displaced_volume());
+  EXPECT_NEAR(hull.total_area(), before.total_area(), 1e-9 * before.total_area());
+  EXPECT_EQ(find_water_lines(placed.bodies).size(), 1U);
+  EXPECT_NO_THROW(PanelModel(placed.bodies, {}, {}, {true, true}));
+}
+
 // Two barges abreast: the second becomes the image of the first in y = 0, each its own in x = 0.
 TEST(MirroredBodies, TwoBodiesMirrorEachOther) {
   Placed placed;
-  placed.add(barge(), {0, -15, -2});
-  placed.add(barge(), {0, 15, -2});
+  placed.add(small_barge(), {0, -15, -2});
+  placed.add(small_barge(), {0, 15, -2});
   const double volume = placed.bodies[1].hull.displaced_volume();
   divide_a_panel(placed.bodies[1]);
   EXPECT_FALSE(find_symmetry(placed.bodies).y);
@@ -76,8 +84,8 @@ TEST(MirroredBodies, TwoBodiesMirrorEachOther) {
 // Another draught, or place: nothing is changed in the plane that has no image.
 TEST(MirroredBodies, OthersStayAsTheyAre) {
   Placed placed;
-  placed.add(barge(), {0, -15, -2});
-  placed.add(barge(), {5, 15, -2});
+  placed.add(small_barge(), {0, -15, -2});
+  placed.add(small_barge(), {5, 15, -2});
   divide_a_panel(placed.bodies[1]);
   const int count = placed.bodies[1].hull.size();
   mirror_bodies(placed.vertices_W, placed.bodies);
@@ -86,4 +94,4 @@ TEST(MirroredBodies, OthersStayAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace blocklift::pipeline
+}  // namespace blocklift::dynamics
