@@ -196,7 +196,7 @@ void RankinePart::solve_coarser(const Influence& influence, const Areas& areas,
                           const VectorXd& row_areas, const PanelClusters& columns) {
     return PanelClusters::coarsen(matrix, rows, row_areas, columns);
   };
-  const Influence coarse{
+  Influence coarse{
       coarsen(influence.S_BB, b, areas.bodies, b),  coarsen(influence.D_BB, b, areas.bodies, b),
       coarsen(influence.S_BF, b, areas.bodies, f),  coarsen(influence.D_BF, b, areas.bodies, f),
       coarsen(influence.S_FB, f, areas.surface, b), coarsen(influence.D_FB, f, areas.surface, b),
@@ -206,7 +206,7 @@ void RankinePart::solve_coarser(const Influence& influence, const Areas& areas,
   part->image_count_ = image_count_;
   part->modes_ = modes_;
   part->normal_velocities_ = b.average(areas.bodies, normal_velocities_);
-  part->reduce(coarse, {b.sum(areas.bodies), f.sum(areas.surface), areas.deep}, false);
+  part->reduce(std::move(coarse), {b.sum(areas.bodies), f.sum(areas.surface), areas.deep}, false);
   coarser_ = part;
 }
 

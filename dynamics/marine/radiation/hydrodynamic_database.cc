@@ -338,17 +338,27 @@ void require_panels_for_waves(const PanelModel& model, double frequency) {
 }
 
 double database_bytes(const PanelModel& model, const DatabaseSettings& settings) {
-  const int surface = model.surface_mesh().size();
-  const auto n = static_cast<double>(surface);
-  // The march's operator in single precision, and two Fourier integrals for each frequency.
+  const bool finite_depth = !is_deep(model.water());
+  // Two Fourier integrals for each frequency.
   const double integrals = 16.0 * static_cast<double>(settings.frequencies.size()) *
                            static_cast<double>(model.mode_count());
+  // A solution, the march's operator in single precision, and the integrals.
+  const auto bytes_of = [&](int body_panels, int surface_panels) {
+    const double n = surface_panels;
+    return rankine_part_bytes(body_panels, surface_panels, finite_depth) +
+           n * (4.0 * n + integrals);
+  };
+  const int bodies = model.body_mesh().size(), surface = model.surface_mesh().size();
+  double bytes = bytes_of(bodies, surface);
+  // The coarser solution is made beside the finer one's matrices, and stays to the end.
+  const RankineSettings rankine = rankine_settings(model, settings);
+  if (rankine.coarser) {
+    bytes += bytes_of(rankine.coarser->bodies.count, rankine.coarser->surface.count);
+  }
   // The factors that are kept, and a complex system with its factors.
-  const double bodies = model.body_mesh().size();
-  const double far_field =
-      settings.with_far_field ? 8.0 * (bodies + n) * (bodies + n) + 32.0 * n * n : 0.0;
-  return rankine_part_bytes(model.body_mesh().size(), surface, !is_deep(model.water())) +
-         n * (4.0 * n + integrals) + far_field;
+  const double n = surface, all = bodies + n;
+  if (settings.with_far_field) bytes += 8.0 * all * all + 32.0 * n * n;
+  return bytes;
 }
 
 HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSettings& settings,

@@ -84,7 +84,8 @@ struct DatabaseSettings {
 /// size.
 void require_panels_for_waves(const PanelModel& model, double frequency);
 
-/// Memory (bytes) that compute_database takes at its peak, at most.
+/// Memory (bytes) that compute_database takes at its peak, at most; with the coarser solution and
+/// the far field where they are asked for.
 double database_bytes(const PanelModel& model, const DatabaseSettings& settings);
 
 /// @throws ModelError naming everything that makes the database unusable, a line each: a number

@@ -184,6 +184,17 @@ TEST(RankineProblem, RefusesWhatDoesNotFitIntoMemory) {
   EXPECT_NEAR(rankine_part_bytes(1000, 10000, false), 8.0 * (2.5e8 + 4e7 + 2e6), 1.0);
 }
 
+TEST(RankineProblem, MemoryCountsTheCoarserSolution) {
+  const PanelModel model = make_sphere_model({});
+  DatabaseSettings settings = short_settings();
+  const double without = database_bytes(model, settings);
+  settings.with_coarser = true;
+  const double with = database_bytes(model, settings);
+  const int coarser_bodies = cluster_panels(model.body_mesh()).count;
+  EXPECT_GT(with, without + rankine_part_bytes(coarser_bodies, 0, false));
+  EXPECT_LT(with, 2.0 * without);
+}
+
 /// A cylinder of radius 1 m and draught 0.5 m, its surface meshed for 1 to 4 rad/s.
 PanelModel make_cylinder_model(int meridians) {
   const Water water{1.0, 9.80665};
