@@ -15,8 +15,8 @@
 #include "pipeline/lift/sling_lengths.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/standards/standard_assessment.h"
-#include "structure/response/accuracy.h"
-#include "structure/response/block_error.h"
+#include "structure/accuracy/accuracy.h"
+#include "structure/accuracy/block_error.h"
 
 namespace blocklift::pipeline {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/lift/stopwatch.h"
 
 namespace blocklift::pipeline {

@@ -11,7 +11,7 @@
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
 #include "structure/mesh/plate_finder.h"
-#include "structure/response/block_field.h"
+#include "structure/stress/block_field.h"
 
 namespace blocklift::pipeline {
 

@@ -8,8 +8,8 @@
 #include "pipeline/checks/checks.h"
 #include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/lift/history_assessment.h"
+#include "structure/part/padeye_model.h"
 #include "structure/practice/padeye_formulas.h"
-#include "structure/response/padeye_model.h"
 
 namespace blocklift::pipeline {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/response/stress.h"
+#include "structure/stress/stress.h"
 
 namespace blocklift::pipeline {
 

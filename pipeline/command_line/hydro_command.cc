@@ -13,7 +13,7 @@
 #include "dynamics/errors.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/foreign_hydrodynamics.h"
+#include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
 #include "pipeline/terminal/progress_bar.h"

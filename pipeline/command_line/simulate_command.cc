@@ -12,7 +12,7 @@
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/simulation/lift_simulation.h"

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/comparison/compared_blocks.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/packed_array.h"
 

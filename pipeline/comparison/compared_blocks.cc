@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/comparison/surface_mapping.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results_store.h"
 
 namespace blocklift::pipeline {

@@ -9,11 +9,11 @@
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/document.h"
-#include "pipeline/formats/results_folder.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_folder.h"
+#include "pipeline/formats/results/results_layout.h"
+#include "pipeline/formats/results/run_identity.h"
+#include "pipeline/formats/results/summary_file.h"
 #include "pipeline/formats/results_store.h"
-#include "pipeline/formats/run_identity.h"
-#include "pipeline/formats/summary_file.h"
 #include "pipeline/report/input_values.h"
 
 namespace blocklift::pipeline {

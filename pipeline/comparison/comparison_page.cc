@@ -7,7 +7,7 @@
 
 #include "pipeline/comparison/compared_blocks.h"
 #include "pipeline/comparison/comparison.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/html.h"
 #include "pipeline/report/page_data.h"

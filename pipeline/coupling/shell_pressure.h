@@ -6,7 +6,7 @@
 
 #include "dynamics/marine/loads/hull_force.h"
 #include "dynamics/simulation/history.h"
-#include "structure/response/shell_regions.h"
+#include "structure/stress/shell_regions.h"
 
 /// Pressure of the water on the shell of a block that floats, or is lowered into the water.
 namespace blocklift::pipeline {

@@ -15,7 +15,7 @@
 #include "pipeline/formats/atomic_file.h"
 
 /// Reading and writing of results.h5, an HDF5 file. This knows names, numbers and units and nothing
-/// of lifts; which datasets a result has is said in pipeline/formats/results_layout.h.
+/// of lifts; which datasets a result has is said in pipeline/formats/results/results_layout.h.
 ///
 /// Every dataset carries the attributes `units` (in UDUNITS spelling, "1" for pure numbers and ""
 /// for text) and `description`. Missing parent groups are made. Series beyond a few kilobytes are

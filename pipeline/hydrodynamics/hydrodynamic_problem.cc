@@ -12,7 +12,7 @@
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/files/vessel/hull_places.h"
-#include "pipeline/formats/hull_hash.h"
+#include "pipeline/formats/hydrodynamics/hull_hash.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
 #include "pipeline/version.h"
 

@@ -10,7 +10,7 @@
 #include "dynamics/marine/radiation/distant_groups.h"
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/files/vessel/vessel_model.h"
-#include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dynamics/marine/radiation/distant_groups.h"
-#include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {
 

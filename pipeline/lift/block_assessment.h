@@ -8,7 +8,7 @@
 
 #include "pipeline/coupling/load_mapping.h"
 #include "structure/output/surface.h"
-#include "structure/response/stress.h"
+#include "structure/stress/stress.h"
 
 namespace blocklift::pipeline {
 

@@ -12,9 +12,9 @@
 #include "structure/error.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/practice/hot_spot.h"
-#include "structure/response/block_field.h"
 #include "structure/response/line_loads.h"
 #include "structure/response/loose_block.h"
+#include "structure/stress/block_field.h"
 
 namespace blocklift::pipeline {
 

@@ -12,7 +12,7 @@
 #include "pipeline/lift/stopwatch.h"
 #include "structure/batches.h"
 #include "structure/error.h"
-#include "structure/response/block_field.h"
+#include "structure/stress/block_field.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {

@@ -7,9 +7,9 @@
 
 #include "pipeline/coupling/load_mapping.h"
 #include "pipeline/lift/block_assessment.h"
+#include "structure/envelope/block_envelope.h"
 #include "structure/practice/fatigue.h"
 #include "structure/practice/hot_spot.h"
-#include "structure/response/block_envelope.h"
 
 namespace blocklift::pipeline {
 

@@ -5,8 +5,8 @@
 
 #include "pipeline/formats/mapped_file.h"
 #include "pipeline/lift/lift_run.h"
-#include "structure/response/accuracy.h"
-#include "structure/response/stress_basis.h"
+#include "structure/accuracy/accuracy.h"
+#include "structure/envelope/stress_basis.h"
 
 namespace blocklift::pipeline {
 

@@ -9,7 +9,7 @@
 
 #include "dynamics/simulation/history.h"
 #include "pipeline/formats/json_values.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 
 namespace blocklift::pipeline {
 

@@ -32,7 +32,7 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
 /// terminal.
 std::string describe_natural_periods(const NaturalModes& modes);
 
-/// The table "natural_periods" of summary.json (pipeline/formats/results_layout.h).
+/// The table "natural_periods" of summary.json (pipeline/formats/results/results_layout.h).
 nlohmann::ordered_json natural_periods_json(const dynamics::Mechanism& mechanism,
                                             const std::vector<NaturalModes>& all);
 

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "pipeline/declaration/geometry_format.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/measurement/record.h"
 
 namespace blocklift::pipeline {

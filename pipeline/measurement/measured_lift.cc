@@ -11,7 +11,7 @@
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/quantity.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/measurement/weighing_of_results.h"
 #include "pipeline/report/input_values.h"
 

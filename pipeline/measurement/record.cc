@@ -11,7 +11,7 @@
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/document.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/series_file.h"
 
 namespace blocklift::pipeline {

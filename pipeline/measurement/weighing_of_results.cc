@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 
 namespace blocklift::pipeline {
 namespace {

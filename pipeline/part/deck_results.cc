@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/preparation.h"
+#include "pipeline/formats/results/preparation.h"
 #include "pipeline/part/deck_assessment.h"
 #include "pipeline/results/result_file.h"
 #include "pipeline/version.h"

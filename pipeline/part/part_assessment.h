@@ -10,8 +10,8 @@
 #include "structure/elasticity/natural_modes.h"
 #include "structure/mesh/files/part_reader.h"
 #include "structure/parallel/part_team.h"
+#include "structure/part/part_solution.h"
 #include "structure/practice/hot_spot.h"
-#include "structure/response/part_solution.h"
 
 namespace blocklift::pipeline {
 

@@ -5,7 +5,7 @@
 #include "pipeline/checks/padeye_assessment.h"
 #include "pipeline/files/structure/part_file.h"
 #include "structure/mesh/padeye/padeye.h"
-#include "structure/response/padeye_stress.h"
+#include "structure/part/padeye_stress.h"
 
 namespace blocklift::pipeline {
 

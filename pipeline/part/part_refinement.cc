@@ -9,7 +9,7 @@
 
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
-#include "structure/response/part_refinement.h"
+#include "structure/part/part_refinement.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/decimation.h"
 #include "structure/output/vtk_grid.h"

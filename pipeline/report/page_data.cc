@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/report/block_surface.h"
 #include "pipeline/report/decimation.h"
 #include "pipeline/report/packed_array.h"

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/preparation.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/preparation.h"
+#include "pipeline/formats/results/results_layout.h"
+#include "pipeline/formats/results/run_identity.h"
+#include "pipeline/formats/results/summary_file.h"
 #include "pipeline/formats/results_store.h"
-#include "pipeline/formats/run_identity.h"
-#include "pipeline/formats/summary_file.h"
 #include "pipeline/report/front.h"
 #include "pipeline/report/html.h"
 #include "pipeline/report/page_data.h"

@@ -10,7 +10,7 @@ namespace blocklift::pipeline {
 /// of the lift, tension histories, load tables, stress pictures, checks, accuracy, assumptions.
 /// Series are thinned so that every maximum survives. Parts that the results do not have (no
 /// dynamics, no structure) are left out of the page. What the two files hold:
-/// pipeline/formats/results_layout.h.
+/// pipeline/formats/results/results_layout.h.
 ///
 /// @return the path of the report.
 /// @throws ResultsError if one of the two files is missing, unreadable or at odds with itself.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 
 namespace blocklift::pipeline {
 

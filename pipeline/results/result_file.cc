@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/checks/loop_loads.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/results/drawn_path.h"
 #include "pipeline/version.h"

@@ -10,7 +10,7 @@
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/measures/measure.h"
 
-/// What of an assessment goes where in results.h5 (pipeline/formats/results_layout.h).
+/// What of an assessment goes where in results.h5 (pipeline/formats/results/results_layout.h).
 namespace blocklift::pipeline {
 
 /// A body as it is drawn: boxes fixed in it.

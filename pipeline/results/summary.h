@@ -6,7 +6,7 @@
 
 namespace blocklift::pipeline {
 
-/// summary.json: what pipeline/formats/results_layout.h says about it. Figures that are not known
+/// summary.json: what pipeline/formats/results/results_layout.h says about it. Figures that are not known
 /// are null, so that the file is always valid JSON.
 nlohmann::ordered_json make_summary(const Assessment& assessment);
 

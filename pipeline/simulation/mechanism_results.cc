@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/preparation.h"
-#include "pipeline/formats/results_layout.h"
-#include "pipeline/formats/run_identity.h"
+#include "pipeline/formats/results/preparation.h"
+#include "pipeline/formats/results/results_layout.h"
+#include "pipeline/formats/results/run_identity.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/summary.h"

@@ -15,7 +15,7 @@
 #include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/content_hash.h"
-#include "pipeline/formats/run_identity.h"
+#include "pipeline/formats/results/run_identity.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"

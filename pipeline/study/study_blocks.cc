@@ -26,8 +26,8 @@
 #include "pipeline/results/lift_scene.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/study_design.h"
+#include "structure/accuracy/accuracy.h"
 #include "structure/limits.h"
-#include "structure/response/accuracy.h"
 
 namespace blocklift::pipeline {
 

@@ -11,8 +11,8 @@
 #include "pipeline/files/study/study_file.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/simulation/lift_simulation.h"
-#include "structure/response/accuracy.h"
-#include "structure/response/stress_basis.h"
+#include "structure/accuracy/accuracy.h"
+#include "structure/envelope/stress_basis.h"
 
 namespace blocklift::pipeline {
 

@@ -14,7 +14,7 @@
 
 #include "pipeline/comparison/summary_figures.h"
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/preparation.h"
+#include "pipeline/formats/results/preparation.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/terminal/text_table.h"
 

@@ -9,10 +9,10 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/accuracy/block_error.h"
 #include "structure/error.h"
 #include "structure/load_cases/deck_loads.h"
 #include "structure/load_cases/deck_supports.h"
-#include "structure/response/block_error.h"
 #include "structure/space/freedom_text.h"
 #include "structure/system/assembly.h"
 #include "structure/system/held_sums.h"

@@ -7,8 +7,8 @@
 
 #include "structure/mesh/files/deck/deck.h"
 #include "structure/response/elastic_model.h"
-#include "structure/response/stress.h"
 #include "structure/rigid_body.h"
+#include "structure/stress/stress.h"
 
 namespace blocklift::structure {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "structure/elasticity/natural_modes.h"
-#include "structure/response/part_solution.h"
+#include "structure/part/part_solution.h"
 
 namespace blocklift::structure {
 

@@ -14,14 +14,14 @@
 #include <Eigen/Dense>
 
 #include "structure/batches.h"
+#include "structure/envelope/envelope.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/output/divided_cell.h"
-#include "structure/response/beam_stress.h"
-#include "structure/response/envelope.h"
-#include "structure/response/shell_stress.h"
+#include "structure/stress/beam_stress.h"
+#include "structure/stress/shell_stress.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::structure {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "structure/response/load_history.h"
+#include "structure/envelope/load_history.h"
 #include "structure/response/unit_responses.h"
 
 namespace blocklift::structure {

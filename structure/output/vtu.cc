@@ -16,8 +16,8 @@
 #include "structure/output/divided_cell.h"
 #include "structure/output/vtk_array.h"
 #include "structure/output/vtk_grid.h"
-#include "structure/response/beam_stress.h"
-#include "structure/response/shell_stress.h"
+#include "structure/stress/beam_stress.h"
+#include "structure/stress/shell_stress.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::structure {

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 
 #include "structure/parallel/part_share.h"
+#include "structure/part/part_solution.h"
 #include "structure/process_group.h"
-#include "structure/response/part_solution.h"
 
 namespace blocklift::structure {
 

@@ -15,7 +15,7 @@
 #include "structure/practice/bar_chains.h"
 #include "structure/practice/stiffener_chains.h"
 #include "structure/practice/tripping.h"
-#include "structure/response/beam_stress.h"
+#include "structure/stress/beam_stress.h"
 
 namespace blocklift::structure {
 

@@ -13,7 +13,7 @@
 #include "structure/batches.h"
 #include "structure/formulation/shell.h"
 #include "structure/response/cell_finder.h"
-#include "structure/response/shell_stress.h"
+#include "structure/stress/shell_stress.h"
 
 namespace blocklift::structure {
 

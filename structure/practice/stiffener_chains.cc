@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "structure/formulation/beam.h"
-#include "structure/response/beam_stress.h"
+#include "structure/stress/beam_stress.h"
 
 namespace blocklift::structure {
 

@@ -2,7 +2,7 @@
 // a lift's, and noise, in which no instant is near another and everything has to be evaluated.
 #include <benchmark/benchmark.h>
 
-#include "structure/response/envelope.h"
+#include "structure/envelope/envelope.h"
 #include "tests/structure/sample_history.h"
 
 namespace {

@@ -2,8 +2,8 @@
 // counters, then a load case's evaluation. Run alone on the machine; OpenBLAS takes all cores.
 #include <benchmark/benchmark.h>
 
-#include "structure/response/stress.h"
 #include "structure/response/unit_responses.h"
+#include "structure/stress/stress.h"
 #include "tests/structure/block_models.h"
 #include "tests/structure/hull_block.h"
 

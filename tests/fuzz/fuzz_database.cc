@@ -13,9 +13,9 @@
 
 #include <hdf5.h>
 
-#include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/fuzz/input_file.h"
-#include "tests/pipeline/formats/sample_database.h"
+#include "tests/pipeline/formats/hydrodynamics/sample_database.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // WAMIT's panels: read, or refused with a HullFileError that says where.
-#include "pipeline/formats/hull_file.h"
+#include "pipeline/formats/hydrodynamics/hull_file.h"
 #include "tests/fuzz/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "pipeline/formats/foreign_hydrodynamics.h"
+#include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "tests/fuzz/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "structure/response/elastic_model.h"
-#include "structure/response/shell_stress.h"
 #include "structure/response/unit_responses.h"
+#include "structure/stress/shell_stress.h"
 
 namespace blocklift::pipeline::test {
 

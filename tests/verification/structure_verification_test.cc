@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "structure/response/stress.h"
+#include "structure/stress/stress.h"
 #include "tests/structure/block_models.h"
 #include "tests/structure/hull_block.h"
 

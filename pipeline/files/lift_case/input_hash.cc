@@ -1,7 +1,7 @@
 #include "pipeline/files/lift_case/input_hash.h"
 
 #include "pipeline/formats/content_hash.h"
-#include "pipeline/formats/hull_hash.h"
+#include "pipeline/formats/hydrodynamics/hull_hash.h"
 
 namespace blocklift::pipeline {
 namespace {

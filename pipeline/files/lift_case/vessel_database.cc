@@ -11,7 +11,7 @@
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/content_hash.h"
-#include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -8,7 +8,7 @@
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "pipeline/declaration/geometry_format.h"
 #include "pipeline/files/vessel/hydrodynamic_settings.h"
-#include "pipeline/formats/hull_file.h"
+#include "pipeline/formats/hydrodynamics/hull_file.h"
 
 namespace blocklift::pipeline {
 

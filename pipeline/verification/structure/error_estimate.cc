@@ -11,7 +11,7 @@
 
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/verification/structure/structure_cases.h"
-#include "structure/response/part_error.h"
+#include "structure/part/part_error.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipeline/verification/structure/structure_cases.h"
+#include "structure/envelope/block_envelope.h"
 #include "structure/mesh/plates/shell_generator.h"
-#include "structure/response/block_envelope.h"
 #include "structure/system/matter.h"
 
 namespace blocklift::pipeline {

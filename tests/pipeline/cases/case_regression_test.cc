@@ -17,7 +17,7 @@
 
 #include "pipeline/comparison/expected_figures.h"
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/summary_file.h"
+#include "pipeline/formats/results/summary_file.h"
 #include "tests/pipeline/run_program.h"
 
 namespace blocklift::pipeline {

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 

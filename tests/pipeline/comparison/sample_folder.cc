@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "pipeline/formats/atomic_file.h"
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results_store.h"
 
 namespace blocklift::pipeline::test {

@@ -15,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/decimation.h"
 #include "pipeline/report/lift_frames.h"

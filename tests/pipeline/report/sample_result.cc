@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/formats/results_layout.h"
+#include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results_store.h"
 
 namespace blocklift::pipeline {

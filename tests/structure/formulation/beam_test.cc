@@ -8,7 +8,7 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
-#include "structure/response/beam_stress.h"
+#include "structure/stress/beam_stress.h"
 
 namespace blocklift::structure {
 namespace {

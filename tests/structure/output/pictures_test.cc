@@ -16,8 +16,8 @@
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/output/surface.h"
 #include "structure/output/vtu.h"
-#include "structure/response/shell_stress.h"
 #include "structure/response/unit_responses.h"
+#include "structure/stress/shell_stress.h"
 #include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {

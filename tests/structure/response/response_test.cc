@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
+#include "structure/accuracy/block_error.h"
 #include "structure/error.h"
-#include "structure/response/block_error.h"
 #include "structure/response/flexibility.h"
-#include "structure/response/stress.h"
 #include "structure/response/unit_responses.h"
+#include "structure/stress/stress.h"
 #include "structure/system/assembly.h"
 #include "structure/system/matter.h"
 #include "tests/structure/block_models.h"

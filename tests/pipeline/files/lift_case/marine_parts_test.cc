@@ -10,7 +10,7 @@
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_mechanism.h"
-#include "pipeline/formats/hydrodynamic_database_file.h"
+#include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/pipeline/sample_lift.h"
 
 namespace blocklift::pipeline {

@@ -16,7 +16,7 @@
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/part_reader.h"
 #include "structure/output/part_files.h"
-#include "structure/response/part_solution.h"
+#include "structure/part/part_solution.h"
 
 namespace blocklift::structure {
 namespace {

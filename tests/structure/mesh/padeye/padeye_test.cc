@@ -8,7 +8,7 @@
 
 #include "structure/error.h"
 #include "structure/mesh/files/part_reader.h"
-#include "structure/response/padeye_model.h"
+#include "structure/part/padeye_model.h"
 
 namespace blocklift::structure {
 namespace {

@@ -10,8 +10,8 @@
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/elastic_model.h"
-#include "structure/response/stress.h"
 #include "structure/response/unit_responses.h"
+#include "structure/stress/stress.h"
 
 namespace blocklift::structure {
 namespace {

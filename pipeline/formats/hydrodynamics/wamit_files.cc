@@ -1,0 +1,379 @@
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using dynamics::HydrodynamicDatabase;
+using dynamics::modes_per_body;
+using Eigen::MatrixXd;
+
+constexpr double two_pi = 2.0 * std::numbers::pi;
+
+fs::path with_ending(const fs::path& name, const char* ending) { return name.string() + ending; }
+
+bool is_rotation(Eigen::Index mode) { return mode % modes_per_body >= 3; }
+/// 0 for displacements, 1 mixed, 2 for rotations.
+int rotations(Eigen::Index i, Eigen::Index j) {
+  return (is_rotation(i) ? 1 : 0) + (is_rotation(j) ? 1 : 0);
+}
+
+/// A line of numbers with its place.
+struct Line {
+  int number;
+  std::vector<double> values;
+};
+
+class TextFile {
+ public:
+  explicit TextFile(fs::path path) : path_(std::move(path)) {}
+
+  [[noreturn]] void fail(int line, const std::string& what) const {
+    throw HydrodynamicFileError(fmt::format("{}:{}: {}", path_.string(), line, what));
+  }
+
+  /// Lines of numbers; a first line that is text is a heading.
+  std::vector<Line> lines() const {
+    std::ifstream stream(path_);
+    if (!stream) throw HydrodynamicFileError(path_.string() + ": cannot be opened");
+    std::vector<Line> lines;
+    std::string text;
+    for (int number = 1; std::getline(stream, text); ++number) {
+      std::istringstream words(text);
+      Line line{number, {}};
+      std::string word;
+      while (words >> word) {
+        std::optional<double> value = parse(word);
+        if (!value && number == 1) break;
+        if (!value) fail(number, "\"" + word + "\" is no number");
+        if (!std::isfinite(*value)) fail(number, "\"" + word + "\" is not finite");
+        line.values.push_back(*value);
+      }
+      if (!line.values.empty()) lines.push_back(std::move(line));
+    }
+    if (lines.empty()) throw HydrodynamicFileError(path_.string() + ": holds no numbers");
+    return lines;
+  }
+
+  void require_columns(const Line& line, std::size_t fewest, const char* what) const {
+    if (line.values.size() >= fewest) return;
+    fail(line.number, fmt::format("{} numbers where {} are due", line.values.size(), what));
+  }
+
+  /// Mode from its number in the file.
+  Eigen::Index mode(const Line& line, std::size_t column) const {
+    const double number = line.values[column];
+    if (number != std::floor(number) || number < 1.0 || number > 6000.0) {
+      fail(line.number, fmt::format("{} is no mode: whole numbers from 1 are due", number));
+    }
+    return static_cast<Eigen::Index>(number) - 1;
+  }
+
+ private:
+  static std::optional<double> parse(const std::string& word) {
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (end == word.c_str() || *end != '\0') return std::nullopt;
+    return value;
+  }
+
+  fs::path path_;
+};
+
+/// Frequencies in rad/s by the periods that the file has.
+struct Periods {
+  std::map<double, std::size_t, std::greater<>> index;  ///< by period, longest first
+
+  void take(double period) {
+    if (period > 0.0) index.emplace(period, 0);
+  }
+  std::vector<double> frequencies() {
+    std::vector<double> result;
+    for (auto& [period, place] : index) {
+      place = result.size();
+      result.push_back(two_pi / period);
+    }
+    return result;
+  }
+};
+
+void read_radiation(const fs::path& path, const WamitScales& scales, Periods& periods,
+                    HydrodynamicDatabase& database) {
+  const TextFile file(path);
+  const std::vector<Line> lines = file.lines();
+  Eigen::Index modes = modes_per_body;
+  for (const Line& line : lines) {
+    file.require_columns(line, 4, "period, two modes, added mass and damping");
+    periods.take(line.values[0]);
+    modes = std::max({modes, file.mode(line, 1) + 1, file.mode(line, 2) + 1});
+  }
+  const Eigen::Index bodies = (modes + modes_per_body - 1) / modes_per_body;
+  modes = modes_per_body * bodies;
+  // Each body has a line at each period, or a few lines would ask for any memory.
+  const std::size_t periods_of_all = std::max<std::size_t>(periods.index.size(), 1);
+  if (static_cast<std::size_t>(bodies) * periods_of_all > lines.size())
+    throw HydrodynamicFileError(
+        fmt::format("{}: {} lines are too few for the {} periods and {} bodies that they name",
+                    path.string(), lines.size(), periods.index.size(), bodies));
+  for (Eigen::Index b = 0; b < bodies; ++b) {
+    database.body_names.push_back("body" + std::to_string(b + 1));
+    database.reference_points.emplace_back(0, 0, 0);
+    database.displaced_volumes.push_back(0.0);
+  }
+  database.frequencies = periods.frequencies();
+  database.added_mass.assign(database.frequencies.size(), MatrixXd::Zero(modes, modes));
+  database.damping = database.added_mass;
+  std::vector<int> entries(database.frequencies.size(), 0);
+  for (const Line& line : lines) {
+    const double period = line.values[0];
+    if (period < 0.0) continue;
+    const Eigen::Index i = file.mode(line, 1), j = file.mode(line, 2);
+    const double scale = scales.water.density * std::pow(scales.length, 3 + rotations(i, j));
+    if (period == 0.0) {
+      if (database.infinite_added_mass.size() == 0) {
+        database.infinite_added_mass = MatrixXd::Zero(modes, modes);
+      }
+      database.infinite_added_mass(i, j) = scale * line.values[3];
+      continue;
+    }
+    file.require_columns(line, 5, "period, two modes, added mass and damping");
+    const std::size_t k = periods.index.at(period);
+    database.added_mass[k](i, j) = scale * line.values[3];
+    database.damping[k](i, j) = scale * database.frequencies[k] * line.values[4];
+    ++entries[k];
+  }
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    if (entries[k] == *std::max_element(entries.begin(), entries.end())) continue;
+    throw HydrodynamicFileError(
+        fmt::format("{}: {} coefficients at the period {} s, more at others: lines are missing",
+                    path.string(), entries[k], two_pi / database.frequencies[k]));
+  }
+}
+
+void read_excitation(const fs::path& path, const WamitScales& scales, const Periods& periods,
+                     HydrodynamicDatabase& database) {
+  const TextFile file(path);
+  const std::vector<Line> lines = file.lines();
+  std::map<double, std::size_t> headings;
+  for (const Line& line : lines) {
+    file.require_columns(line, 7, "period, heading, mode, modulus, phase, real and imaginary part");
+    headings.emplace(line.values[1], 0);
+  }
+  for (auto& [heading, place] : headings) {
+    place = database.headings.size();
+    database.headings.push_back(heading * degree);
+  }
+  const Eigen::Index modes = database.mode_count();
+  const auto columns = static_cast<Eigen::Index>(headings.size());
+  database.diffraction.assign(database.frequencies.size(), Eigen::MatrixXcd::Zero(modes, columns));
+  std::set<std::pair<std::size_t, std::size_t>> found;
+  for (const Line& line : lines) {
+    const auto period = periods.index.find(line.values[0]);
+    if (period == periods.index.end()) {
+      file.fail(line.number,
+                fmt::format("the period {} s is not among those of the .1 file", line.values[0]));
+    }
+    const Eigen::Index i = file.mode(line, 2);
+    if (i >= modes) file.fail(line.number, "a mode that the .1 file does not have");
+    const double scale = scales.water.density * scales.water.gravity *
+                         std::pow(scales.length, is_rotation(i) ? 3 : 2);
+    const std::size_t h = headings.at(line.values[1]);
+    database.diffraction[period->second](i, static_cast<Eigen::Index>(h)) = {
+        scale * line.values[5], scale * line.values[6]};
+    found.emplace(period->second, h);
+  }
+  if (found.size() == database.frequencies.size() * headings.size()) return;
+  throw HydrodynamicFileError(
+      fmt::format("{}: excitation for {} of {} periods and headings: frequencies are missing",
+                  path.string(), found.size(), database.frequencies.size() * headings.size()));
+}
+
+/// The file of mean drift forces that tells most; none if there is none of use.
+std::optional<fs::path> find_mean_drift(const fs::path& name, int bodies) {
+  // A control surface, pressure, or momentum far away, which does not tell bodies apart.
+  for (const char* ending : {".7", ".9", ".8"}) {
+    if (bodies > 1 && ending == std::string_view(".8")) continue;
+    if (fs::path path = with_ending(name, ending); fs::exists(path)) return path;
+  }
+  return std::nullopt;
+}
+
+void read_mean_drift(const fs::path& path, const WamitScales& scales, const Periods& periods,
+                     HydrodynamicDatabase& database) {
+  const TextFile file(path);
+  const Eigen::Index modes = database.mode_count();
+  const auto columns = static_cast<Eigen::Index>(database.headings.size());
+  database.mean_drift.assign(database.frequencies.size(), MatrixXd::Zero(modes, columns));
+  std::set<std::pair<std::size_t, Eigen::Index>> found;
+  for (const Line& line : file.lines()) {
+    file.require_columns(line, 7, "period, two headings, mode, modulus, phase, real part");
+    // Two waves that cross drift a body otherwise than each alone; that is not kept.
+    if (line.values[1] != line.values[2]) continue;
+    const auto period = periods.index.find(line.values[0]);
+    const auto heading = std::find_if(
+        database.headings.begin(), database.headings.end(),
+        [&](double known) { return std::abs(known - line.values[1] * degree) < 1e-9; });
+    if (period == periods.index.end() || heading == database.headings.end()) {
+      file.fail(line.number,
+                fmt::format("period {} s and heading {} degrees are not among those of the .1 and "
+                            ".3 files",
+                            line.values[0], line.values[1]));
+    }
+    const Eigen::Index mode = file.mode(line, 3);
+    if (mode >= modes) file.fail(line.number, "a mode that the .1 file does not have");
+    const auto h = static_cast<Eigen::Index>(heading - database.headings.begin());
+    const double scale = scales.water.density * scales.water.gravity *
+                         std::pow(scales.length, is_rotation(mode) ? 2 : 1);
+    database.mean_drift[period->second](mode, h) = scale * line.values[6];
+    found.emplace(period->second, h);
+  }
+  if (found.size() == database.frequencies.size() * database.headings.size()) return;
+  throw HydrodynamicFileError(fmt::format(
+      "{}: mean drift for {} of {} periods and headings: lines are missing", path.string(),
+      found.size(), database.frequencies.size() * database.headings.size()));
+}
+
+std::string mean_drift_text(const HydrodynamicDatabase& database) {
+  const double scale = database.water.density * database.water.gravity;
+  std::string text;
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const MatrixXd D = database.mean_drift[k] / scale;
+    for (Eigen::Index h = 0; h < D.cols(); ++h) {
+      const double heading = database.headings[h] / degree;
+      for (Eigen::Index i = 0; i < D.rows(); ++i) {
+        text += fmt::format(
+            "{:23.16E} {:23.16E} {:23.16E} {:5d} {:23.16E} {:23.16E} {:23.16E} {:23.16E}\n",
+            two_pi / database.frequencies[k], heading, heading, i + 1, std::abs(D(i, h)),
+            D(i, h) < 0.0 ? 180.0 : 0.0, D(i, h), 0.0);
+      }
+    }
+  }
+  return text;
+}
+
+void read_stiffness(const fs::path& path, const WamitScales& scales,
+                    HydrodynamicDatabase& database) {
+  const TextFile file(path);
+  const Eigen::Index modes = database.mode_count();
+  database.hydrostatic_stiffness = MatrixXd::Zero(modes, modes);
+  for (const Line& line : file.lines()) {
+    file.require_columns(line, 3, "two modes and a stiffness");
+    const Eigen::Index i = file.mode(line, 0), j = file.mode(line, 1);
+    if (i >= modes || j >= modes) file.fail(line.number, "a mode that the .1 file does not have");
+    database.hydrostatic_stiffness(i, j) = scales.water.density * scales.water.gravity *
+                                           std::pow(scales.length, 2 + rotations(i, j)) *
+                                           line.values[2];
+  }
+}
+
+std::string radiation_text(const HydrodynamicDatabase& database) {
+  const double rho = database.water.density;
+  const Eigen::Index modes = database.mode_count();
+  std::string text;
+  for (Eigen::Index i = 0; i < modes; ++i) {
+    for (Eigen::Index j = 0; j < modes; ++j) {
+      text += fmt::format("{:23.16E} {:5d} {:5d} {:23.16E}\n", 0.0, i + 1, j + 1,
+                          database.infinite_added_mass(i, j) / rho);
+    }
+  }
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const double w = database.frequencies[k];
+    for (Eigen::Index i = 0; i < modes; ++i) {
+      for (Eigen::Index j = 0; j < modes; ++j) {
+        text +=
+            fmt::format("{:23.16E} {:5d} {:5d} {:23.16E} {:23.16E}\n", two_pi / w, i + 1, j + 1,
+                        database.added_mass[k](i, j) / rho, database.damping[k](i, j) / (rho * w));
+      }
+    }
+  }
+  return text;
+}
+
+std::string excitation_text(const HydrodynamicDatabase& database) {
+  const double scale = database.water.density * database.water.gravity;
+  std::string text;
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const Eigen::MatrixXcd X = database.excitation(k) / scale;
+    for (Eigen::Index h = 0; h < X.cols(); ++h) {
+      for (Eigen::Index i = 0; i < X.rows(); ++i) {
+        text += fmt::format("{:23.16E} {:23.16E} {:5d} {:23.16E} {:23.16E} {:23.16E} {:23.16E}\n",
+                            two_pi / database.frequencies[k], database.headings[h] / degree, i + 1,
+                            std::abs(X(i, h)), std::arg(X(i, h)) / degree, X(i, h).real(),
+                            X(i, h).imag());
+      }
+    }
+  }
+  return text;
+}
+
+std::string stiffness_text(const HydrodynamicDatabase& database) {
+  const double scale = database.water.density * database.water.gravity;
+  std::string text;
+  for (Eigen::Index i = 0; i < database.mode_count(); ++i) {
+    for (Eigen::Index j = 0; j < database.mode_count(); ++j) {
+      text += fmt::format("{:5d} {:5d} {:23.16E}\n", i + 1, j + 1,
+                          database.hydrostatic_stiffness(i, j) / scale);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales) {
+  HydrodynamicDatabase database;
+  database.water = scales.water;
+  Periods periods;
+  read_radiation(with_ending(name, ".1"), scales, periods, database);
+  const Eigen::Index modes = database.mode_count();
+  database.diffraction.assign(database.frequencies.size(), Eigen::MatrixXcd::Zero(modes, 0));
+  if (const fs::path path = with_ending(name, ".3"); fs::exists(path)) {
+    read_excitation(path, scales, periods, database);
+  }
+  if (const auto path = find_mean_drift(name, database.body_count());
+      path && !database.headings.empty()) {
+    read_mean_drift(*path, scales, periods, database);
+  }
+  database.froude_krylov.assign(database.frequencies.size(),
+                                Eigen::MatrixXcd::Zero(modes, database.headings.size()));
+  if (const fs::path path = with_ending(name, ".hst"); fs::exists(path)) {
+    read_stiffness(path, scales, database);
+  }
+  try {
+    add_retardation(database);
+    if (database.infinite_added_mass.size() == 0) add_infinite_added_mass(database);
+    require_sound(database);
+  } catch (const dynamics::ModelError& error) {
+    throw HydrodynamicFileError(name.string() + ": " + error.what());
+  }
+  return database;
+}
+
+void write_wamit(const fs::path& name, const HydrodynamicDatabase& database) {
+  write_file(with_ending(name, ".1"), radiation_text(database));
+  if (!database.headings.empty()) write_file(with_ending(name, ".3"), excitation_text(database));
+  if (!database.mean_drift.empty()) {
+    write_file(with_ending(name, database.body_count() == 1 ? ".8" : ".9"),
+               mean_drift_text(database));
+  }
+  if (database.hydrostatic_stiffness.size() > 0) {
+    write_file(with_ending(name, ".hst"), stiffness_text(database));
+  }
+}
+
+}  // namespace blocklift::pipeline

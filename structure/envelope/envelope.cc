@@ -1,0 +1,218 @@
+#include "structure/envelope/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "structure/batches.h"
+#include "structure/envelope/envelope_search.h"
+#include "structure/error.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+constexpr int batch_size = 64;  // points: their unit responses stay in the cache
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Responses of a batch to the history's coordinates, `rows` rows a point.
+Rows responses_of(const LoadHistory& history, const UnitResponsesAt& responses, int first,
+                  int count, int rows) {
+  const Eigen::MatrixXd units = responses(first, count);
+  if (units.rows() != rows * count || units.cols() != history.modes().rows())
+    throw ModelError("unit responses do not fit the history: " + std::to_string(units.rows()) +
+                     " x " + std::to_string(units.cols()) + " for " + std::to_string(count) +
+                     " points and " + std::to_string(history.modes().rows()) + " unit loads");
+  Rows result = units * history.modes();
+  if (!result.allFinite())
+    throw ModelError("a unit response is not a number, near point " + std::to_string(first));
+  return result;
+}
+
+PointExtremes sized(int points) {
+  return {Eigen::VectorXd::Zero(points), Eigen::VectorXi::Zero(points)};
+}
+
+// No principal stress reaches infinity: none is looked for.
+StressFound von_mises_above(double known) {
+  StressFound floor;
+  floor.von_mises.value = known;
+  floor.largest_principal.value = std::numeric_limits<double>::infinity();
+  floor.minus_smallest_principal.value = std::numeric_limits<double>::infinity();
+  return floor;
+}
+
+void keep(PointExtremes& extremes, int point, const Found& found, double sign = 1) {
+  extremes.value[point] = sign * found.value;
+  extremes.instant[point] = found.instant;
+}
+
+}  // namespace
+
+StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
+                                    const UnitResponsesAt& stress, int threads) {
+  StressEnvelope envelope{sized(points), sized(points), sized(points)};
+  in_batches(points, batch_size, threads, [&](int first, int count) {
+    const Rows rows = responses_of(history, stress, first, count, 6);
+    SearchWorkspace workspace(history);
+    for (int i = 0; i < count; ++i) {
+      const StressFound found =
+          search_stress(history, rows.data() + 6L * i * rows.cols(), workspace);
+      keep(envelope.von_mises, first + i, found.von_mises);
+      keep(envelope.largest_principal, first + i, found.largest_principal);
+      keep(envelope.smallest_principal, first + i, found.minus_smallest_principal, -1);
+    }
+  });
+  return envelope;
+}
+
+PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
+                                      const UnitResponsesAt& stress, int threads) {
+  const StressFound floor = von_mises_above(-std::numeric_limits<double>::infinity());
+  PointExtremes extremes = sized(points);
+  in_batches(points, batch_size, threads, [&](int first, int count) {
+    const Rows rows = responses_of(history, stress, first, count, 6);
+    SearchWorkspace workspace(history);
+    for (int i = 0; i < count; ++i)
+      keep(extremes, first + i,
+           search_stress(history, rows.data() + 6L * i * rows.cols(), workspace, floor).von_mises);
+  });
+  return extremes;
+}
+
+void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
+                     const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads) {
+  const int runs = static_cast<int>(begin.size()) - 1;
+  in_batches(runs, 16, threads, [&](int first, int count) {
+    const int from = begin[first], points = begin[first + count] - from;
+    if (points == 0) return;
+    const Rows rows = responses_of(history, stress, from, points, 6);
+    SearchWorkspace workspace(history);
+    for (int run = first; run < first + count; ++run) {
+      StressFound found = von_mises_above(largest[run]);
+      for (int point = begin[run]; point < begin[run + 1]; ++point)
+        found = search_stress(history, rows.data() + 6L * (point - from) * rows.cols(), workspace,
+                              found);
+      largest[run] = found.von_mises.value;
+    }
+  });
+}
+
+namespace {
+
+// Larger, or as large at an earlier point: whatever the threads have done, the result is the same.
+void merge(LargestValue& into, const Found& found, int point) {
+  if (into.point < 0 || found.value > into.value ||
+      (found.value == into.value && point < into.point))
+    into = {found.value, point, found.instant};
+}
+
+// Just below what is known, so that equals are found and merged by their places.
+Found as_floor(const LargestValue& largest) {
+  if (largest.point < 0) return {};
+  return {std::nextafter(largest.value, -std::numeric_limits<double>::infinity()), -1};
+}
+
+}  // namespace
+
+LargestStresses find_largest_stresses(const LoadHistory& history, int points,
+                                      const UnitResponsesAt& stress, int sets,
+                                      const std::function<int(int)>& set_of, int threads) {
+  // Within, the smallest principal stress stands with the opposite sign.
+  LargestStresses all;
+  all.von_mises.resize(sets);
+  std::mutex updating;
+  in_batches(points, batch_size, threads, [&](int first, int count) {
+    const Rows rows = responses_of(history, stress, first, count, 6);
+    SearchWorkspace workspace(history);
+    LargestStresses known;
+    {
+      const std::lock_guard lock(updating);
+      known = all;
+    }
+    for (int i = 0; i < count; ++i) {
+      LargestValue& in_set = known.von_mises[set_of(first + i)];
+      const StressFound floor{as_floor(in_set), as_floor(known.largest_principal),
+                              as_floor(known.smallest_principal)};
+      const StressFound found =
+          search_stress(history, rows.data() + 6L * i * rows.cols(), workspace, floor);
+      const auto raise = [&](LargestValue& known_one, const Found& one) {
+        if (one.instant >= 0) merge(known_one, one, first + i);
+      };
+      raise(in_set, found.von_mises);
+      raise(known.largest_principal, found.largest_principal);
+      raise(known.smallest_principal, found.minus_smallest_principal);
+    }
+    const std::lock_guard lock(updating);
+    const auto raise = [](LargestValue& into, const LargestValue& from) {
+      if (from.point >= 0) merge(into, {from.value, from.instant}, from.point);
+    };
+    for (std::size_t set = 0; set < known.von_mises.size(); ++set)
+      raise(all.von_mises[set], known.von_mises[set]);
+    raise(all.largest_principal, known.largest_principal);
+    raise(all.smallest_principal, known.smallest_principal);
+  });
+  all.smallest_principal.value = -all.smallest_principal.value;
+  return all;
+}
+
+namespace {
+
+/// The largest over batches of points.
+/// @param search (first point, count, what is known, which it raises).
+template <class Search>
+LargestValue find_largest(int points, int threads, const Search& search) {
+  LargestValue all;
+  std::mutex updating;
+  in_batches(points, batch_size, threads, [&](int first, int count) {
+    LargestValue known;
+    {
+      const std::lock_guard lock(updating);
+      known = all;
+    }
+    search(first, count, known);
+    const std::lock_guard lock(updating);
+    if (known.point >= 0) merge(all, {known.value, known.instant}, known.point);
+  });
+  return all;
+}
+
+}  // namespace
+
+LargestValue find_largest_in_plane(const LoadHistory& history, int points,
+                                   const UnitResponsesAt& stress, int threads) {
+  return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
+    const Rows in_plane = responses_of(history, stress, first, count, 3);
+    SearchWorkspace workspace(history);
+    Rows rows = Rows::Zero(6, in_plane.cols());
+    for (int i = 0; i < count; ++i) {
+      rows.topRows<2>() = in_plane.middleRows<2>(3L * i);
+      rows.row(3) = in_plane.row(3L * i + 2);
+      const Found found =
+          search_stress(history, rows.data(), workspace, von_mises_above(as_floor(known).value))
+              .von_mises;
+      if (found.instant >= 0) merge(known, found, first + i);
+    }
+  });
+}
+
+LargestValue find_largest_displacement(const LoadHistory& history, int points,
+                                       const UnitResponsesAt& displacement, int threads) {
+  return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
+    const Rows rows = responses_of(history, displacement, first, count, 3);
+    SearchWorkspace workspace(history);
+    for (int i = 0; i < count; ++i) {
+      const Found found = search_displacement(history, rows.data() + 3L * i * rows.cols(),
+                                              workspace, as_floor(known));
+      if (found.instant >= 0) merge(known, found, first + i);
+    }
+  });
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,310 @@
+#include "structure/part/part_solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "structure/elasticity/part_unknowns.h"
+#include "structure/elasticity/rigid_freedom.h"
+#include "structure/error.h"
+#include "structure/mesh/element_shape.h"
+#include "structure/part/part_error.h"
+#include "structure/stopwatch.h"
+#include "structure/stress_tensor.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+void require_supported(const PartModel& model, const std::vector<FixedUnknown>& fixed) {
+  const std::vector<std::string> motions = find_rigid_freedom(model, fixed).motions;
+  if (motions.empty()) return;
+  constexpr std::size_t most_named = 12;
+  std::string text = "the supports leave the part free to move:";
+  for (std::size_t i = 0; i < std::min(motions.size(), most_named); ++i)
+    text += "\n    " + motions[i];
+  if (motions.size() > most_named) text += "\n    ...";
+  throw ModelError(text);
+}
+
+// A load that goes straight into the supports, where nothing else moves them, strains nothing.
+void require_straining(const Eigen::VectorXd& load, const std::vector<FixedUnknown>& fixed) {
+  Eigen::VectorXd free = load;
+  bool is_moved = false;
+  for (const FixedUnknown& unknown : fixed) {
+    free[unknown.unknown] = 0;
+    is_moved = is_moved || unknown.value != 0;
+  }
+  constexpr double rounding = 1e-12;
+  if (is_moved || load.isZero(0) || free.norm() > rounding * load.norm()) return;
+  throw ModelError(
+      "the loads act on supported nodes alone, along the axes that are held: they go straight into "
+      "the supports and strain nothing");
+}
+
+// The averages as recover_part_stress; of_solids: what each solid says at its nodes.
+PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
+                   std::vector<StressColumns>& of_solids) {
+  PartStress stress;
+  std::map<std::pair<int, int>, int> known;  // (node, material)
+  std::vector<int> shares;
+  const int solids = static_cast<int>(model.mesh.solids.size());
+  for (int solid = 0; solid < solids; ++solid) {
+    const int element = model.mesh.solids[solid];
+    const ElementKind& kind = model.mesh.kind(element);
+    of_solids.push_back(part_stresses(model, solid, kind.gradients_at_nodes, displacement));
+    stress.first_of.push_back(static_cast<int>(stress.point_of.size()));
+    for (int i = 0; i < kind.nodes; ++i) {
+      const int node = model.mesh.node(element, i);
+      const auto [entry, is_new] = known.try_emplace({node, model.material_of_solid[solid]},
+                                                     static_cast<int>(stress.node.size()));
+      if (is_new) {
+        stress.node.push_back(node);
+        shares.push_back(0);
+      }
+      stress.point_of.push_back(entry->second);
+      ++shares[entry->second];
+    }
+  }
+  stress.averaged.setZero(6, stress.node.size());
+  for (int solid = 0; solid < solids; ++solid)
+    for (Eigen::Index i = 0; i < of_solids[solid].cols(); ++i) {
+      const int point = stress.point_of[stress.first_of[solid] + static_cast<int>(i)];
+      stress.averaged.col(point) += of_solids[solid].col(i) / shares[point];
+    }
+  return stress;
+}
+
+// Of columns at the points of a stress, those at the nodes of a solid.
+StressColumns at_nodes_of(int solid, int nodes, const PartStress& stress,
+                          const StressColumns& at_points) {
+  StressColumns result(6, nodes);
+  for (int i = 0; i < nodes; ++i)
+    result.col(i) = at_points.col(stress.point_of[stress.first_of[solid] + i]);
+  return result;
+}
+
+PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
+                           const std::vector<StressColumns>& of_solids, const PartError& error,
+                           std::string name, const std::vector<int>& solids) {
+  PartGroupResult result;
+  result.group = std::move(name);
+  for (const int solid : solids) {
+    const int element = model.mesh.solids[solid];
+    for (int i = 0; i < model.mesh.kind(element).nodes; ++i) {
+      const int node = model.mesh.node(element, i);
+      const double averaged = von_mises(solution.stress.averaged.col(
+          solution.stress.point_of[solution.stress.first_of[solid] + i]));
+      if (averaged > result.von_mises) {
+        result.von_mises = averaged;
+        result.point = model.mesh.nodes.col(node);
+      }
+      const double raw = von_mises(of_solids[solid].col(i));
+      if (raw > result.raw_von_mises) {
+        result.raw_von_mises = raw;
+        result.raw_point = model.mesh.nodes.col(node);
+      }
+      result.displacement =
+          std::max(result.displacement, solution.displacement.segment<3>(3 * node).norm());
+    }
+  }
+  result.estimated_error = error.relative(solids);
+  for (const int solid : solids)
+    for (int i = 0; i < model.mesh.kind(model.mesh.solids[solid]).nodes; ++i) {
+      const int point = solution.stress.point_of[solution.stress.first_of[solid] + i];
+      if (von_mises(solution.stress.averaged.col(point)) == result.von_mises)
+        result.von_mises_error =
+            std::max(result.von_mises_error,
+                     von_mises(of_solids[solid].col(i) - error.recovered.col(point)));
+    }
+  return result;
+}
+
+void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_solids,
+                 PartSolution& solution) {
+  PartError error = estimate_part_error(model, solution.stress, solution.displacement);
+  solution.strain_energy = error.squared_norm.sum() / 2;
+  std::map<int, int> solid_of_element;
+  std::vector<int> all;
+  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
+    solid_of_element[model.mesh.solids[solid]] = solid;
+    all.push_back(solid);
+  }
+  solution.all = largest_of(model, solution, of_solids, error, "all", all);
+  solution.estimated_error = solution.all.estimated_error;
+  Eigen::Index worst = 0;
+  error.squared_error.maxCoeff(&worst);
+  solution.worst_point = model.mesh.centre(model.mesh.solids[worst]);
+  for (const PartGroup& group : model.mesh.groups) {
+    if (group.dimension != 3) continue;
+    std::vector<int> solids;
+    for (const int element : group.elements) solids.push_back(solid_of_element.at(element));
+    solution.groups.push_back(largest_of(model, solution, of_solids, error, group.name, solids));
+  }
+  solution.squared_error = std::move(error.squared_error);
+  solution.recovered = std::move(error.recovered);
+}
+
+void find_balance(const PartModel& model, const Eigen::VectorXd& load,
+                  const std::vector<FixedUnknown>& fixed, const std::vector<int>& support_of,
+                  const Eigen::VectorXd& forces, PartSolution& solution) {
+  solution.applied = resultant(model.mesh.nodes, load);
+  solution.reactions.assign(model.supports.size(), {});
+  double force_sum = 0, moment_sum = 0;
+  const auto add_magnitude = [&](const Vector3& place, const Vector3& force) {
+    force_sum += force.norm();
+    moment_sum += place.norm() * force.norm();
+  };
+  for (Eigen::Index node = 0; node < model.mesh.nodes.cols(); ++node)
+    add_magnitude(model.mesh.nodes.col(node), load.segment<3>(3 * node));
+  solution.load_magnitude = force_sum;
+  Vector3 force = solution.applied.force, moment = solution.applied.moment;
+  for (std::size_t i = 0; i < support_of.size(); ++i) {  // idle nodes come after and bear nothing
+    const Vector3 place = model.mesh.nodes.col(fixed[i].unknown / 3);
+    const Vector3 reaction = forces[i] * Vector3::Unit(fixed[i].unknown % 3);
+    Wrench& of_support = solution.reactions[support_of[i]];
+    of_support.force += reaction;
+    of_support.moment += place.cross(reaction);
+    force += reaction;
+    moment += place.cross(reaction);
+    add_magnitude(place, reaction);
+  }
+  solution.force_residual = force_sum > 0 ? force.norm() / force_sum : 0;
+  solution.moment_residual = moment_sum > 0 ? moment.norm() / moment_sum : 0;
+}
+
+}  // namespace
+
+StressColumns part_stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
+                            const Eigen::VectorXd& displacement) {
+  const int element = model.mesh.solids[solid];
+  const Material& material = model.materials[model.material_of_solid[solid]];
+  const Eigen::Matrix3Xd places = model.mesh.places(element);
+  Eigen::Matrix3Xd moved(3, places.cols());
+  for (int i = 0; i < places.cols(); ++i)
+    moved.col(i) = displacement.segment<3>(3 * model.mesh.node(element, i));
+  StressColumns result(6, gradients.rows() / 3);
+  for (Eigen::Index q = 0; q < result.cols(); ++q) {
+    const auto by_unit = gradients.middleRows<3>(3 * q);
+    const Eigen::Matrix3d inverse = (places * by_unit.transpose()).inverse();
+    result.col(q) = stress_of_gradient(material, (moved * by_unit.transpose()) * inverse);
+  }
+  return result;
+}
+
+PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement) {
+  std::vector<StressColumns> of_solids;
+  return recover(model, displacement, of_solids);
+}
+
+PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<FixedUnknown>& fixed,
+                                   const Eigen::VectorXd& load) {
+  PartDisplacement result;
+  SolverAccount& account = result.account;
+  Stopwatch watch;
+  const PartUnknowns unknowns(model.mesh);
+  SparseLower stiffness = assemble_part_stiffness(model, unknowns);
+  account.assembly_s = watch.lap();
+  ConstrainedSystem system(std::move(stiffness), unknowns.to_unknowns(fixed));
+  account.factor_bytes = system.factor_bytes();
+  system.factorise();
+  account.factorisation_s = watch.lap();
+  const Eigen::VectorXd forces = unknowns.to_unknowns(load);
+  const Eigen::VectorXd found = system.solve(forces);
+  const Eigen::VectorXd held = system.reactions(found, forces);
+  result.displacement = unknowns.to_freedoms(found);
+  result.reactions.setZero(fixed.size());
+  Eigen::Index next = 0;
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    if (unknowns.of(fixed[i].unknown) >= 0)
+      result.reactions[i] = held[next++];
+    else
+      result.displacement[fixed[i].unknown] = fixed[i].value;
+  }
+  account.solve_s = watch.lap();
+  account.name = "Cholesky factorisation by CHOLMOD";
+  return result;
+}
+
+PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
+  check_part_mesh(model.mesh);
+  std::vector<int> support_of;
+  std::vector<FixedUnknown> fixed = part_supports(model, support_of);
+  require_supported(model, fixed);
+  fixed = with_idle_nodes(model, std::move(fixed));
+  PartSolution solution;
+  const Eigen::VectorXd load = part_load(model);
+  require_straining(load, fixed);
+  PartDisplacement solved = solver(model, fixed, load);
+  solution.displacement = std::move(solved.displacement);
+  solution.solver = std::move(solved.account);
+  find_balance(model, load, fixed, support_of, solved.reactions, solution);
+  Stopwatch watch;
+  std::vector<StressColumns> of_solids;
+  solution.stress = recover(model, solution.displacement, of_solids);
+  find_maxima(model, of_solids, solution);
+  solution.recovery_s = watch.lap();
+  return solution;
+}
+
+Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(displacement.size());
+  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
+    const int element = model.mesh.solids[solid];
+    const ElementKind& kind = model.mesh.kind(element);
+    const StressColumns stress = part_stresses(model, solid, kind.gradients, displacement);
+    const Eigen::Matrix3Xd places = model.mesh.places(element);
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const auto by_unit = kind.gradients.middleRows<3>(3 * q);
+      const Eigen::Matrix3d jacobian = places * by_unit.transpose();
+      const Eigen::Matrix3Xd gradients = jacobian.inverse().transpose() * by_unit;
+      const auto s = stress.col(q);
+      Eigen::Matrix3d tensor;
+      tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+      const Eigen::Matrix3Xd shares = kind.weights[q] * jacobian.determinant() * tensor * gradients;
+      for (int i = 0; i < kind.nodes; ++i)
+        forces.segment<3>(3 * model.mesh.node(element, i)) += shares.col(i);
+    }
+  }
+  return forces;
+}
+
+PartProbe probe_part(const PartModel& model, const PartSolution& solution, const Vector3& point) {
+  PartProbe probe;
+  probe.point = point;
+  std::map<int, std::unique_ptr<ElementShape>> shapes;  // by kind
+  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
+    const int element = model.mesh.solids[solid];
+    const Eigen::Matrix3Xd places = model.mesh.places(element);
+    // Curved sides may stand out of the box of the nodes a little.
+    const Vector3 lower = places.rowwise().minCoeff(), upper = places.rowwise().maxCoeff();
+    const Vector3 slack = Vector3::Constant(0.1 * (upper - lower).maxCoeff());
+    if ((point - lower + slack).minCoeff() < 0 || (upper + slack - point).minCoeff() < 0) continue;
+    auto& shape = shapes[model.mesh.elements[element].kind];
+    if (!shape) shape = std::make_unique<ElementShape>(model.mesh.kind(element));
+    Vector3 xi;
+    if (!shape->locate(places, point, 1e-6, xi)) continue;
+    const Eigen::VectorXd values = shape->values(xi);
+    probe.inside = true;
+    const auto nodes = static_cast<int>(values.size());
+    const PartStress& stress = solution.stress;
+    probe.stress = at_nodes_of(solid, nodes, stress, stress.averaged) * values;
+    probe.von_mises_error =
+        von_mises(at_nodes_of(solid, nodes, stress, solution.recovered) * values - probe.stress);
+    for (int i = 0; i < values.size(); ++i)
+      probe.displacement +=
+          values[i] * solution.displacement.segment<3>(3 * model.mesh.node(element, i));
+    break;
+  }
+  return probe;
+}
+
+}  // namespace blocklift::structure

@@ -1,0 +1,416 @@
+#include "structure/stress/squares.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "structure/batches.h"
+#include "structure/formulation/shell.h"
+#include "structure/large_pages.h"
+#include "structure/response/cell_finder.h"
+#include "structure/stress_tensor.h"
+
+namespace blocklift::structure {
+
+namespace {
+
+constexpr double largest_spacing = 0.5;  // m, between squares
+constexpr double corner_reach = 3;       // squares from a singular vertex
+constexpr double beside_weld = 0.75;     // squares from a centre: those that touch it
+constexpr int contiguous = 4;            // squares one behind the other from a corner
+
+/// Gauss points on [0, 1].
+constexpr std::array<double, 4> side_points{0.06943184420297371, 0.33000947820757187,
+                                            0.6699905217924281, 0.9305681557970263};
+constexpr std::array<double, 4> side_weights{0.17392742256872693, 0.32607257743127307,
+                                             0.32607257743127307, 0.17392742256872693};
+
+/// A point of the outline with what multiplies the motion there: weight times the outward normal.
+struct ContourPoint {
+  Vector3 place;
+  Eigen::Vector2d normal;  ///< in e_1, e_2, times the length that the point stands for
+};
+
+std::array<ContourPoint, 16> contour(const Square& square) {
+  std::array<ContourPoint, 16> points;
+  const double half = square.size / 2;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double s = square.size * side_points[i] - half, w = square.size * side_weights[i];
+    points[i] = {square.centre_B + s * square.e_1 - half * square.e_2, {0, -w}};
+    points[4 + i] = {square.centre_B + s * square.e_1 + half * square.e_2, {0, w}};
+    points[8 + i] = {square.centre_B - half * square.e_1 + s * square.e_2, {-w, 0}};
+    points[12 + i] = {square.centre_B + half * square.e_1 + s * square.e_2, {w, 0}};
+  }
+  return points;
+}
+
+ShellPlace place_of(const FieldEdge& edge, double s) {
+  for (const FieldEdge::Piece& piece : edge.pieces) {
+    if (s <= piece.length || &piece == &edge.pieces.back())
+      return {piece.shell,
+              piece.begin + std::clamp(s / piece.length, 0.0, 1.0) * (piece.end - piece.begin)};
+    s -= piece.length;
+  }
+  return {};
+}
+
+Vector3 normal_of(const Mesh& mesh, const ShellPlace& place) {
+  const Shell& shell = mesh.shells[place.shell];
+  const Eigen::Vector2d inward = place.xi + 0.01 * (Eigen::Vector2d(0.5, 0.5) - place.xi);
+  const double step = 1e-3;
+  const Vector3 g_1 = position(mesh, shell, inward + Eigen::Vector2d(step, 0)) -
+                      position(mesh, shell, inward - Eigen::Vector2d(step, 0));
+  const Vector3 g_2 = position(mesh, shell, inward + Eigen::Vector2d(0, step)) -
+                      position(mesh, shell, inward - Eigen::Vector2d(0, step));
+  return g_1.cross(g_2).normalized();
+}
+
+/// Distances from both ends of an edge at which squares begin: one behind the other at the ends,
+/// ever farther apart towards the middle.
+std::vector<double> starts_along(double length, double size) {
+  std::vector<double> starts;
+  const double room = length - size;
+  if (room < -1e-9 * size) return starts;
+  double s = 0, gap = size;
+  for (int i = 0; s <= room / 2 + 1e-9; ++i) {
+    starts.push_back(s);
+    starts.push_back(room - s);
+    if (i >= contiguous) gap = std::min(1.5 * gap, largest_spacing);
+    s += gap;
+  }
+  std::sort(starts.begin(), starts.end());
+  const auto last = std::unique(starts.begin(), starts.end(),
+                                [&](double a, double b) { return b - a < 0.1 * size; });
+  starts.erase(last, starts.end());
+  return starts;
+}
+
+/// Numbered places in cubes, found by the box that holds them.
+class PlaceGrid {
+ public:
+  explicit PlaceGrid(double cube) : cube_(cube) {}
+
+  void add(const Vector3& place, int number) { cubes_[cube_of(place)].push_back(number); }
+  /// Visits all places in the box, and more about it.
+  template <typename Visit>
+  void visit(const Vector3& lower, const Vector3& upper, const Visit& visit_one) const {
+    const Cube first = cube_of(lower), last = cube_of(upper);
+    for (long x = first[0]; x <= last[0]; ++x)
+      for (long y = first[1]; y <= last[1]; ++y)
+        for (long z = first[2]; z <= last[2]; ++z) {
+          const auto found = cubes_.find({x, y, z});
+          if (found == cubes_.end()) continue;
+          for (const int number : found->second) visit_one(number);
+        }
+  }
+
+ private:
+  using Cube = std::array<long, 3>;
+  struct Hash {
+    std::size_t operator()(const Cube& cube) const {
+      std::size_t hash = 0;
+      for (const long i : cube) hash = hash * 1000003 + static_cast<std::size_t>(i);
+      return hash;
+    }
+  };
+  Cube cube_of(const Vector3& place) const {
+    return {std::lround(std::floor(place.x() / cube_)), std::lround(std::floor(place.y() / cube_)),
+            std::lround(std::floor(place.z() / cube_))};
+  }
+
+  double cube_;
+  std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
+};
+
+/// The squares of one field.
+class SquarePlacer {
+ public:
+  SquarePlacer(const Mesh& mesh, const FieldWalker& walker, double size)
+      : mesh_(mesh), walker_(walker), size_(size) {}
+
+  std::vector<Square> place(const PlateField& field) {
+    squares_.clear();
+    for (const auto& outline : field.outlines)
+      for (const FieldEdge& edge : outline) along(field, edge);
+    between(field);
+    if (squares_.empty()) smaller(field);
+    return std::move(squares_);
+  }
+
+ private:
+  bool lies_inside(const Square& square, const ShellPlace& start) const {
+    const auto points = contour(square);
+    return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
+      const auto found = walker_.find(point.place, start);
+      return found &&
+             (position(mesh_, mesh_.shells[found->shell], found->xi) - point.place).norm() <
+                 0.2 * square.size;
+    });
+  }
+
+  /// A square with one side on an edge, from s on. @returns false if it does not fit in.
+  bool put_on_edge(const PlateField& field, const FieldEdge& edge, double s, double size) {
+    const ShellPlace begin = place_of(edge, s), middle = place_of(edge, s + size / 2),
+                     end = place_of(edge, s + size);
+    const auto at_place = [&](const ShellPlace& p) {
+      return position(mesh_, mesh_.shells[p.shell], p.xi);
+    };
+    const auto shell = std::find(field.shells.begin(), field.shells.end(), middle.shell);
+    const double side = field.is_flipped[shell - field.shells.begin()] ? -1 : 1;
+    Square square;
+    square.size = size;
+    square.shell = middle.shell;
+    square.region = mesh_.shells[middle.shell].region;
+    square.e_1 = (at_place(end) - at_place(begin)).normalized();
+    const Vector3 normal = side * normal_of(mesh_, middle);
+    square.e_1 = (square.e_1 - normal * normal.dot(square.e_1)).normalized();
+    square.e_2 = normal.cross(square.e_1);
+    // On a curved edge either the chord or the tangent has the square inside.
+    for (const Vector3& base :
+         {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
+      square.centre_B = base + 0.5 * size * square.e_2;
+      if (!lies_inside(square, middle)) continue;
+      squares_.push_back(square);
+      return true;
+    }
+    return false;
+  }
+
+  void along(const PlateField& field, const FieldEdge& edge) {
+    for (const double s : starts_along(edge.length, size_)) put_on_edge(field, edge, s, size_);
+  }
+
+  /// A field that has no room for a whole square.
+  void smaller(const PlateField& field) {
+    for (double size = size_ / 2; size > size_ / 20; size /= 2)
+      for (const auto& outline : field.outlines)
+        for (const FieldEdge& edge : outline) {
+          const double s = 0.5 * (edge.length - size);
+          if (s >= 0 && put_on_edge(field, edge, s, size)) return;
+        }
+  }
+
+  void between(const PlateField& field) {
+    // A lattice that hangs on the first corner of the outline.
+    const FieldEdge& first = field.outlines.front().front();
+    const ShellPlace origin = place_of(first, 0);
+    const Vector3 begin = position(mesh_, mesh_.shells[origin.shell], origin.xi);
+    const ShellPlace next = place_of(first, first.length);
+    Vector3 e_1 = position(mesh_, mesh_.shells[next.shell], next.xi) - begin;
+    const Vector3 normal = normal_of(mesh_, origin);
+    e_1 = (e_1 - normal * normal.dot(e_1)).normalized();
+    if (!e_1.allFinite()) return;
+    const Vector3 e_2 = normal.cross(e_1);
+    Eigen::Array2d lower = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Array2d upper = -lower;
+    for (const int shell : field.shells)
+      for (const int vertex : mesh_.shells[shell].vertices) {
+        const Vector3 arm = mesh_.vertices[vertex] - begin;
+        const Eigen::Array2d in_plane(arm.dot(e_1), arm.dot(e_2));
+        lower = lower.min(in_plane);
+        upper = upper.max(in_plane);
+      }
+    ShellPlace start = origin;
+    const auto first_step = [](double low) { return std::ceil(low / largest_spacing + 0.01); };
+    for (double j = first_step(lower[1]); j * largest_spacing < upper[1]; ++j)
+      for (double i = first_step(lower[0]); i * largest_spacing < upper[0]; ++i) {
+        const Vector3 wanted = begin + largest_spacing * (i * e_1 + j * e_2);
+        const auto found = walker_.find(wanted, start);
+        if (!found) continue;
+        start = *found;
+        Square square;
+        square.size = size_;
+        square.shell = found->shell;
+        square.region = mesh_.shells[found->shell].region;
+        square.centre_B = position(mesh_, mesh_.shells[found->shell], found->xi);
+        const Vector3 here = normal_of(mesh_, *found);
+        square.e_1 = (e_1 - here * here.dot(e_1)).normalized();
+        square.e_2 = here.cross(square.e_1);
+        if (lies_inside(square, *found)) squares_.push_back(square);
+      }
+  }
+
+  const Mesh& mesh_;
+  const FieldWalker& walker_;
+  double size_;
+  std::vector<Square> squares_;
+};
+
+/// Tells the squares near vertices without a limit of the stress, and which of them touch a weld.
+class SiteMarker {
+ public:
+  SiteMarker(const Mesh& mesh, const PlateFields& fields, double size, std::vector<Square>& squares)
+      : mesh_(mesh), fields_(fields), size_(size), squares_(squares) {}
+
+  void mark_corners() {
+    const double reach = corner_reach * size_;
+    PlaceGrid corners(reach);
+    for (const int vertex : fields_.singular_vertices) corners.add(mesh_.vertices[vertex], vertex);
+    PlaceGrid at_corners(reach);
+    for (std::size_t s = 0; s < squares_.size(); ++s) {
+      Square& square = squares_[s];
+      const Vector3 around = Vector3::Constant(reach);
+      corners.visit(square.centre_B - around, square.centre_B + around, [&](int vertex) {
+        if ((square.centre_B - mesh_.vertices[vertex]).norm() <= reach)
+          square.site = SquareSite::corner;
+      });
+      if (square.at_corner()) at_corners.add(square.centre_B, static_cast<int>(s));
+    }
+    mark_welds(at_corners);
+  }
+
+ private:
+  /// Squares near corners that touch a joint between plates or a stiffener.
+  void mark_welds(const PlaceGrid& at_corners) {
+    const auto mark = [&](const Vector3& begin, const Vector3& end) {
+      const Vector3 way = end - begin, around = Vector3::Constant(beside_weld * size_);
+      if (!(way.squaredNorm() > 0)) return;
+      at_corners.visit(begin.cwiseMin(end) - around, begin.cwiseMax(end) + around, [&](int s) {
+        Square& square = squares_[s];
+        const Vector3 off = square.centre_B - begin;
+        const double share = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
+        if ((off - share * way).norm() < beside_weld * square.size)
+          square.site = SquareSite::welded_corner;
+      });
+    };
+    for (const PlateField& field : fields_.fields)
+      for (const auto& outline : field.outlines)
+        for (const FieldEdge& edge : outline)
+          if (!edge.is_free) for_each_stretch(edge, mark);
+    for (const Beam& beam : mesh_.beams)
+      mark(mesh_.vertices[beam.vertices[0]], mesh_.vertices[beam.vertices[1]]);
+  }
+
+  /// Calls visit(begin, end) for straight stretches of an edge.
+  template <typename Visit>
+  void for_each_stretch(const FieldEdge& edge, const Visit& visit) const {
+    constexpr int of_curved = 4;
+    for (const FieldEdge::Piece& piece : edge.pieces) {
+      const Shell& shell = mesh_.shells[piece.shell];
+      const int parts = shell.curvature < 0 ? 1 : of_curved;
+      const auto place_at = [&](int i) {
+        const double share = static_cast<double>(i) / parts;
+        return position(mesh_, shell, piece.begin + share * (piece.end - piece.begin));
+      };
+      for (int i = 0; i < parts; ++i) visit(place_at(i), place_at(i + 1));
+    }
+  }
+
+  const Mesh& mesh_;
+  const PlateFields& fields_;
+  double size_;
+  std::vector<Square>& squares_;
+};
+
+}  // namespace
+
+std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
+                                  const FieldWalker& walker, double size) {
+  std::vector<std::vector<Square>> of_fields(fields.fields.size());
+  in_batches(static_cast<int>(of_fields.size()), 1, 0, [&](int field, int) {
+    of_fields[field] = SquarePlacer(mesh, walker, size).place(fields.fields[field]);
+  });
+  std::vector<Square> squares;
+  for (const std::vector<Square>& of_field : of_fields)
+    squares.insert(squares.end(), of_field.begin(), of_field.end());
+  SiteMarker(mesh, fields, size, squares).mark_corners();
+  return squares;
+}
+
+CheckedStress::CheckedStress(const ElasticModel& model,
+                             const Eigen::Ref<const Eigen::MatrixXd>& motions, double size,
+                             int threads) {
+  const PlateFields fields = find_fields(model.mesh());
+  const FieldWalker walker(model.mesh(), fields);
+  squares_ = place_squares(model.mesh(), fields, walker, size);
+  evaluate(model, walker, motions, threads);
+}
+
+CheckedStress::CheckedStress(const ElasticModel& model,
+                             const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                             std::vector<Square> squares, int threads)
+    : squares_(std::move(squares)) {
+  const PlateFields fields = find_fields(model.mesh());
+  evaluate(model, FieldWalker(model.mesh(), fields), motions, threads);
+}
+
+void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walker,
+                             const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads) {
+  const Space& space = model.space();
+  const CellFinder cells(space);
+  // A node's six freedoms of all motions lie together.
+  auto by_rows = make_large<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      motions.rows(), motions.cols());
+  in_batches(static_cast<int>(motions.rows()), 4096, threads, [&](int first, int count) {
+    by_rows.middleRows(first, count) = motions.middleRows(first, count);
+  });
+  const Eigen::Index columns = motions.cols();
+  components_.setZero(3 * static_cast<Eigen::Index>(squares_.size()), columns);
+  bending_ = components_;
+  in_batches(static_cast<int>(squares_.size()), 64, threads, [&](int first, int count) {
+    Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> moved(6, columns);
+    Eigen::MatrixXd strain(3, columns), curvature(3, columns);
+    for (int s = first; s < first + count; ++s) {
+      const Square& square = squares_[s];
+      const Vector3 normal = square.e_1.cross(square.e_2);
+      const Shell& shell = model.mesh().shells[square.shell];
+      const ShellSection& section = model.mesh().section_of(shell);
+      // The section's offset is along the shell's own normal.
+      const double side =
+          normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
+      strain.setZero();
+      curvature.setZero();
+      ShellPlace start{square.shell, {0.5, 0.5}};
+      for (const ContourPoint& point : contour(square)) {
+        const auto found = walker.find(point.place, start);
+        if (!found) continue;  // place_squares has seen that all are there
+        const CellPlace cell = cells.find(*found);
+        const Eigen::VectorXd values = space.shell_values(cell.xi);
+        const int* nodes = space.shell_nodes(cell.cell);
+        moved.setZero();
+        for (int i = 0; i < space.nodes_per_shell(); ++i)
+          moved += values[i] * by_rows.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
+        const Eigen::RowVectorXd u_1 = square.e_1.transpose() * moved.topRows<3>(),
+                                 u_2 = square.e_2.transpose() * moved.topRows<3>();
+        // e . (theta x n) = theta . (n x e)
+        const Eigen::RowVectorXd t_1 = normal.cross(square.e_1).transpose() * moved.bottomRows<3>(),
+                                 t_2 = normal.cross(square.e_2).transpose() * moved.bottomRows<3>();
+        const auto add = [&](Eigen::MatrixXd& sum, const auto& a, const auto& b) {
+          sum.row(0) += point.normal[0] * a;
+          sum.row(1) += point.normal[1] * b;
+          sum.row(2) += point.normal[1] * a + point.normal[0] * b;
+        };
+        add(strain, u_1, u_2);
+        add(curvature, t_1, t_2);
+      }
+      const double area = square.size * square.size;
+      const auto law = shell_stiffness_law(model.mesh(), shell, square.e_1, square.e_2);
+      const Eigen::Matrix3d membrane = law.block<3, 3>(membrane_11, membrane_11),
+                            coupling = side * law.block<3, 3>(membrane_11, curvature_11),
+                            bending = law.block<3, 3>(curvature_11, curvature_11);
+      const double t = section.thickness;
+      strain += side * section.offset * curvature;
+      components_.middleRows<3>(3 * s) = (membrane * strain + coupling * curvature) / (area * t);
+      bending_.middleRows<3>(3 * s) =
+          (coupling * strain + bending * curvature) * (6 / (area * t * t));
+    }
+  });
+}
+
+Eigen::VectorXd CheckedStress::von_mises(const Eigen::VectorXd& factors) const {
+  const Eigen::VectorXd stress = components_ * factors;
+  Eigen::VectorXd result(static_cast<Eigen::Index>(squares_.size()));
+  for (Eigen::Index s = 0; s < result.size(); ++s) {
+    const double a = stress[3 * s], b = stress[3 * s + 1], c = stress[3 * s + 2];
+    result[s] = std::sqrt(a * a - a * b + b * b + 3 * c * c);
+  }
+  return result;
+}
+
+}  // namespace blocklift::structure

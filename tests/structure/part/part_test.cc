@@ -1,0 +1,390 @@
+// Parts on any mesh: elements of each kind, loads, supports, what is refused.
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include <Eigen/Dense>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "structure/elasticity/part_unknowns.h"
+#include "structure/error.h"
+#include "structure/mesh/element_shape.h"
+#include "structure/mesh/files/part_reader.h"
+#include "structure/output/part_files.h"
+#include "structure/parallel/part_share.h"
+#include "structure/part/part_solution.h"
+
+namespace blocklift::structure {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Kinds of elements that a box is meshed with.
+enum class Shape { hexahedra, wedges, tetrahedra };
+
+/// A box [0, a] x [0, b] x [0, c] meshed through a .geo file; its faces are named "x0", "x1", ...,
+/// the whole is "box". The circle's middle is a point that no element has.
+PartMesh box(Shape shape, int order, const Vector3& size, const std::array<int, 3>& counts,
+             PartReading reading = {}) {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("blocklift-part-" + std::to_string(::getpid()) + ".geo");
+  std::ofstream file(path);
+  file << "Point(9) = {-1, -1, -1};\nPoint(1) = {0, 0, 0};\nPoint(2) = {" << size.x()
+       << ", 0, 0};\nPoint(3) = {" << size.x() << ", " << size.y() << ", 0};\nPoint(4) = {0, "
+       << size.y() << ", 0};\n"
+       << "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};\n"
+       << "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+       << "Transfinite Curve{1, 3} = " << counts[0] + 1
+       << "; Transfinite Curve{2, 4} = " << counts[1] + 1 << "; Transfinite Surface{1};\n"
+       << (shape == Shape::hexahedra ? "Recombine Surface{1};\n" : "") << "out[] = Extrude{0, 0, "
+       << size.z() << "}{ Surface{1}; Layers{" << counts[2] << "};"
+       << (shape == Shape::tetrahedra ? "" : " Recombine;") << " };\n"
+       << "Physical Volume(\"box\") = {out[1]};\nPhysical Surface(\"z0\") = {1};\n"
+       << "Physical Surface(\"z1\") = {out[0]};\nPhysical Surface(\"y0\") = {out[2]};\n"
+       << "Physical Surface(\"x1\") = {out[3]};\nPhysical Surface(\"y1\") = {out[4]};\n"
+       << "Physical Surface(\"x0\") = {out[5]};\nPhysical Curve(\"edge\") = {1};\n";
+  file.close();
+  reading.element_order = order;
+  PartMesh mesh = read_part_mesh(path.string(), reading);
+  std::filesystem::remove(path);
+  return mesh;
+}
+
+const Material mild_steel{"steel", 206e9, 0.3, 7850, 235e6};
+
+PartModel part(PartMesh mesh) {
+  PartModel model;
+  model.mesh = std::move(mesh);
+  model.materials = {mild_steel};
+  model.material_of_solid.assign(model.mesh.solids.size(), 0);
+  return model;
+}
+
+/// Moves nodes off the boundary of the box at random, and mid-edge nodes out of their middles.
+void distort(PartMesh& mesh, const Vector3& size, double amount) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> by(-amount, amount);
+  for (Eigen::Index n = 0; n < mesh.nodes.cols(); ++n) {
+    auto x = mesh.nodes.col(n);
+    if (x.minCoeff() < 1e-9 || (size - x).minCoeff() < 1e-9) continue;
+    x += Vector3(by(random), by(random), by(random));
+  }
+}
+
+class Kinds : public ::testing::TestWithParam<std::tuple<Shape, int>> {};
+
+// The patch test: a linear displacement given on the boundary is found inside, to rounding, and
+// with it a constant stress. Isoparametric elements of any shape must pass it (Irons).
+TEST_P(Kinds, PassThePatchTestWhenDistorted) {
+  const Vector3 size(1, 0.8, 0.6);
+  const auto [shape, order] = GetParam();
+  PartModel model = part(box(shape, order, size, {3, 3, 3}));
+  distort(model.mesh, size, order == 1 ? 0.05 : 0.02);
+  ASSERT_NO_THROW(check_part_mesh(model.mesh));
+  Eigen::Matrix3d gradient;
+  gradient << 1e-3, 2e-4, -3e-4, 5e-4, -7e-4, 1e-4, -2e-4, 4e-4, 6e-4;
+  const Vector3 shift(1e-4, -2e-4, 3e-4);
+  std::vector<FixedUnknown> fixed;
+  Eigen::VectorXd exact(3 * model.mesh.nodes.cols());
+  const std::vector<int> body = connected_bodies(model.mesh);
+  for (int n = 0; n < model.mesh.nodes.cols(); ++n) {
+    const Vector3 x = model.mesh.nodes.col(n);
+    exact.segment<3>(3 * n) = gradient * x + shift;
+    if (body[n] >= 0 && x.minCoeff() > 1e-9 && (size - x).minCoeff() > 1e-9) continue;
+    for (int a = 0; a < 3; ++a) fixed.push_back({3 * n + a, exact[3 * n + a]});
+  }
+  const Eigen::VectorXd found =
+      solve_by_cholesky(model, fixed, Eigen::VectorXd::Zero(exact.size())).displacement;
+  EXPECT_LT((found - exact).norm(), 1e-12 * exact.norm());
+}
+
+// Gmsh's tables of shape functions are those of our own polynomials through the same nodes.
+TEST_P(Kinds, ShapeFunctionsAgreeWithGmsh) {
+  const auto [shape, order] = GetParam();
+  const PartMesh mesh = box(shape, order, Vector3(1, 1, 1), {1, 1, 1});
+  const ElementKind& kind = mesh.kind(mesh.solids[0]);
+  const ElementShape own(kind);
+  for (Eigen::Index q = 0; q < kind.rule.cols(); ++q) {
+    const Vector3 xi = kind.rule.col(q);
+    EXPECT_LT((own.values(xi) - kind.values.row(q).transpose()).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT(
+        (own.gradients(xi).transpose() - kind.gradients.middleRows<3>(3 * q)).cwiseAbs().maxCoeff(),
+        1e-11);
+  }
+}
+
+// Faces by a box are those of the mesh's own group: the same load. Inner faces never count.
+TEST_P(Kinds, FacesAndPointsAreChosenByPlace) {
+  const auto [shape, order] = GetParam();
+  const Vector3 size(1, 0.8, 0.6);
+  PartReading reading;
+  reading.faces = {{"top", Vector3(0, 0, 0.6), size},
+                   {"upper", Vector3(0, 0, 0.3), size},
+                   {"none", Vector3(0.1, 0.1, 0.1), Vector3(0.2, 0.7, 0.5)}};
+  reading.points = {{"corner", size}, {"nowhere", Vector3(1, 0.8, 0.7)}};
+  PartModel model = part(box(shape, order, size, {2, 2, 2}, reading));
+  const auto load_on = [&](const std::string& group, SurfaceLoad::Kind kind) {
+    model.surface_loads = {{"load", group, kind, 2e6, Vector3(1e3, 2e3, 3e3)}};
+    return part_load(model);
+  };
+  for (const auto kind : {SurfaceLoad::Kind::pressure, SurfaceLoad::Kind::force}) {
+    const Eigen::VectorXd own = load_on("z1", kind);
+    EXPECT_LT((load_on("top", kind) - own).norm(), 1e-12 * own.norm());
+  }
+  const auto faces = [&](const char* group) {
+    return model.mesh.find_group(group)->elements.size();
+  };
+  EXPECT_EQ(faces("upper"),
+            faces("z1") + (faces("x0") + faces("x1") + faces("y0") + faces("y1")) / 2);
+  EXPECT_EQ(faces("none"), 0u);
+  EXPECT_EQ(faces("nowhere"), 0u);
+  ASSERT_EQ(faces("corner"), 1u);
+  const int corner = model.mesh.node(model.mesh.find_group("corner")->elements[0], 0);
+  EXPECT_EQ(Vector3(model.mesh.nodes.col(corner)), size);
+  reading.faces = {{"box", Vector3::Zero(), size}};
+  EXPECT_THROW(box(shape, order, size, {2, 2, 2}, reading), ModelError);
+}
+
+// A bar pulled at its end: stress F/A everywhere, elongation F L / (E A), reaction -F.
+TEST_P(Kinds, PulledBarIsExact) {
+  const Vector3 size(2, 0.3, 0.2);
+  const auto [shape, order] = GetParam();
+  PartModel model = part(box(shape, order, size, {4, 1, 1}));
+  const double force = 1.2e6, area = 0.06;
+  model.supports = {{"root", "x0", {true, false, false}, Vector3::Zero()},
+                    {"side", "y0", {false, true, false}, Vector3::Zero()},
+                    {"bottom", "z0", {false, false, true}, Vector3::Zero()}};
+  SurfaceLoad pull{"pull", "x1", SurfaceLoad::Kind::force, 0, Vector3(force / 2, 0, 0)};
+  SurfaceLoad suction{"suction", "x1", SurfaceLoad::Kind::pressure, -force / 2 / area,
+                      Vector3::Zero()};
+  model.surface_loads = {pull, suction};
+  const PartSolution solution = solve_part(model);
+  for (Eigen::Index p = 0; p < solution.stress.averaged.cols(); ++p) {
+    EXPECT_NEAR(solution.stress.averaged(0, p), force / area, 1e-8 * force / area);
+    EXPECT_LT(solution.stress.averaged.col(p).tail<5>().norm(), 1e-8 * force / area);
+  }
+  EXPECT_NEAR(solution.reactions[0].force.x(), -force, 1e-9 * force);
+  EXPECT_LT(solution.force_residual, 1e-12);
+  EXPECT_LT(solution.moment_residual, 1e-12);
+  EXPECT_LT(solution.estimated_error, 1e-8);
+  EXPECT_NEAR(solution.strain_energy,
+              force * force * size.x() / (2 * mild_steel.youngs_modulus * area),
+              1e-8 * solution.strain_energy);
+  const PartProbe end = probe_part(model, solution, Vector3(2, 0.11, 0.07));
+  EXPECT_TRUE(end.inside);
+  EXPECT_NEAR(end.displacement.x(), force * 2 / (mild_steel.youngs_modulus * area), 1e-12);
+  EXPECT_NEAR(end.stress[0], force / area, 1e-8 * force / area);
+  EXPECT_FALSE(probe_part(model, solution, Vector3(2.1, 0.1, 0.1)).inside);
+}
+
+// Each process fills whole rows of the stiffness from what it holds, and each solid is somebody's
+// own.
+TEST_P(Kinds, SharesOfProcessesMakeUpTheWhole) {
+  const auto [shape, order] = GetParam();
+  PartModel model = part(box(shape, order, Vector3(2, 0.3, 0.2), {4, 2, 1}));
+  const Eigen::Index unknowns = 3 * model.mesh.nodes.cols();
+  const PartUnknowns numbering(model.mesh);
+  const Eigen::MatrixXd whole = numbering.to_freedoms(
+      assemble_part_stiffness(model, numbering, 1).selfadjointView<Eigen::Lower>() *
+      numbering.to_unknowns(Eigen::MatrixXd::Identity(unknowns, unknowns)));
+  const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(unknowns, 0, 1);
+  const PartDistribution distribution(model, 3);
+  std::size_t solids = 0;
+  for (int process = 0; process < 3; ++process) {
+    Packet packet;
+    distribution.share(process, {{0, 0.1}}, load).put_into(packet);
+    const PartShare share = PartShare::from(packet);
+    solids += static_cast<std::size_t>(share.own_solids);
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3 * (share.end_row - share.first_row), unknowns);
+    for (int solid = 0; solid < static_cast<int>(share.model.mesh.solids.size()); ++solid) {
+      const Eigen::MatrixXd own = part_element_stiffness(share.model, solid);
+      const auto node = [&](int i) {
+        return static_cast<std::size_t>(share.model.mesh.node(share.model.mesh.solids[solid], i));
+      };
+      for (int i = 0; i < own.rows() / 3; ++i) {
+        const int row = share.row_of_node[node(i)] - share.first_row;
+        if (row < 0 || row >= share.end_row - share.first_row) continue;
+        for (int j = 0; j < own.cols() / 3; ++j)
+          rows.block<3, 3>(3 * row, 3 * share.node_in_whole[node(j)]) +=
+              own.block<3, 3>(3 * i, 3 * j);
+      }
+    }
+    for (int row = share.first_row; row < share.end_row; ++row) {
+      const int at = 3 * distribution.node_of_row()[row];
+      const int here = 3 * (row - share.first_row);
+      EXPECT_LT((rows.middleRows<3>(here) - whole.middleRows<3>(at)).norm(), 1e-12 * whole.norm());
+      EXPECT_EQ(share.load.segment<3>(here), load.segment<3>(at));
+    }
+  }
+  EXPECT_EQ(solids, model.mesh.solids.size());
+  EXPECT_THROW(PartDistribution(model, 1000), ModelError);
+}
+
+// Loads on all material: their resultants are those of the body, whatever the mesh.
+TEST_P(Kinds, BodyLoadsHaveTheirResultants) {
+  const Vector3 size(2, 0.3, 0.2);
+  const auto [shape, order] = GetParam();
+  PartModel model = part(box(shape, order, size, {4, 1, 1}));
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  const double mass = 7850 * size.prod(), omega = 3;
+  EXPECT_NEAR(find_part_mass(model).mass, mass, 1e-9 * mass);
+  model.body_loads = {{"weight", Vector3(0, 0, -9.81), Vector3::Zero(), Vector3::Zero()},
+                      {"spin", Vector3::Zero(), Vector3(0, 0, omega), Vector3(-1, 0.15, 0)}};
+  const PartSolution solution = solve_part(model);
+  EXPECT_NEAR(solution.reactions[0].force.z(), mass * 9.81, 1e-8 * mass * 9.81);
+  // Centrifugal: m omega^2 times the distance of the centre from the axis, 1 + 1 m.
+  EXPECT_NEAR(solution.reactions[0].force.x(), -mass * omega * omega * 2, 1e-8 * mass * 18);
+  EXPECT_NEAR(solution.reactions[0].force.y(), 0, 1e-8 * mass * 18);
+}
+
+INSTANTIATE_TEST_SUITE_P(Part, Kinds,
+                         ::testing::Combine(::testing::Values(Shape::hexahedra, Shape::wedges,
+                                                              Shape::tetrahedra),
+                                            ::testing::Values(1, 2)));
+
+// A cantilever of quadratic hexahedra under an end load: Timoshenko's deflection within 0.5 %.
+// Without Poisson's effect, which the root would hinder and the beam's theory does not know.
+TEST(Part, CantileverBends) {
+  PartModel model = part(box(Shape::hexahedra, 2, Vector3(2, 0.1, 0.2), {10, 1, 2}));
+  model.materials[0].poisson_ratio = 0;
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  model.surface_loads = {{"tip", "x1", SurfaceLoad::Kind::force, 0, Vector3(0, 0, -1e4)}};
+  const PartSolution solution = solve_part(model);
+  const double inertia = 0.1 * std::pow(0.2, 3) / 12, shear_area = 5.0 / 6 * 0.02;
+  const double deflection = 1e4 * 8 / (3 * mild_steel.youngs_modulus * inertia) +
+                            1e4 * 2 / (model.materials[0].shear_modulus() * shear_area);
+  const double found = -probe_part(model, solution, Vector3(2, 0.05, 0.1)).displacement.z();
+  EXPECT_NEAR(found, deflection, 0.005 * deflection);
+  EXPECT_GT(solution.estimated_error, 0);
+  EXPECT_LT(solution.estimated_error, 0.2);
+}
+
+TEST(Part, MaterialsMeetWithoutAveraging) {
+  PartModel model = part(box(Shape::hexahedra, 2, Vector3(2, 0.3, 0.2), {4, 1, 1}));
+  model.materials.push_back({"soft", mild_steel.youngs_modulus / 2, 0, 1000, 100e6});
+  model.materials[0].poisson_ratio = 0;
+  for (std::size_t s = 0; s < model.mesh.solids.size(); ++s)
+    model.material_of_solid[s] = model.mesh.centre(model.mesh.solids[s]).x() < 1 ? 0 : 1;
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  // A given elongation: the force is that of two springs in series, the stress the same in both.
+  model.supports.push_back({"end", "x1", {true, false, false}, Vector3(3e-4, 0, 0)});
+  const PartSolution solution = solve_part(model);
+  const double stress = 3e-4 / (1 / mild_steel.youngs_modulus + 2 / mild_steel.youngs_modulus);
+  EXPECT_NEAR(solution.all.raw_von_mises, stress, 1e-8 * stress);
+  EXPECT_NEAR(solution.reactions[1].force.x(), stress * 0.06, 1e-8 * stress);
+  EXPECT_GT(static_cast<Eigen::Index>(solution.stress.node.size()), 0);
+  EXPECT_LT(solution.estimated_error, 1e-8);
+}
+
+std::string error_of(const PartModel& model) {
+  try {
+    solve_part(model);
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Part, LoadsThatStrainNothingAreRefused) {
+  PartModel model = part(box(Shape::hexahedra, 1, Vector3(2, 1, 1), {2, 1, 1}));
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  model.surface_loads = {{"push", "x0", SurfaceLoad::Kind::force, 0, Vector3(0, 1e4, 0)}};
+  EXPECT_THAT(error_of(model), HasSubstr("strain nothing"));
+  // A support that moves strains the part, whatever the load.
+  model.supports.push_back({"end", "x1", {true, true, true}, Vector3(1e-4, 0, 0)});
+  EXPECT_EQ(error_of(model), "");
+  model.supports.pop_back();
+  model.surface_loads.push_back({"tip", "x1", SurfaceLoad::Kind::force, 0, Vector3(1, 0, 0)});
+  EXPECT_EQ(error_of(model), "");
+}
+
+TEST(Part, RigidMotionsThatAreLeftAreNamed) {
+  PartModel model = part(box(Shape::hexahedra, 1, Vector3(2, 1, 1), {2, 1, 1}));
+  EXPECT_THAT(error_of(model),
+              ::testing::AllOf(HasSubstr("free to move"), HasSubstr("translation along x"),
+                               HasSubstr("rotation about z")));
+  model.supports = {{"bottom", "z0", {false, false, true}, Vector3::Zero()}};
+  const std::string on_ice = error_of(model);
+  EXPECT_THAT(on_ice,
+              ::testing::AllOf(HasSubstr("translation along x"), HasSubstr("translation along y"),
+                               HasSubstr("rotation about z through (1, 0.5, 0.5) m")));
+  EXPECT_THAT(on_ice, ::testing::Not(HasSubstr("rotation about x")));
+  model.supports = {{"hinge", "edge", {true, true, true}, Vector3::Zero()}};
+  EXPECT_THAT(error_of(model),
+              ::testing::AllOf(HasSubstr("rotation about the axis along"), HasSubstr("(1, 0, 0)")));
+}
+
+// Two boxes that share one edge: the one that is held by it alone turns about it.
+TEST(Part, ElementsThatHangOnAnEdgeAreNamed) {
+  PartModel model = part(box(Shape::hexahedra, 1, Vector3(2, 1, 1), {2, 1, 1}));
+  // The second element's face is taken off the first one's but for its lower edge, y along.
+  PartMesh& mesh = model.mesh;
+  const int moved = mesh.centre(mesh.solids[0]).x() > 1 ? mesh.solids[0] : mesh.solids[1];
+  const auto first = static_cast<std::size_t>(mesh.elements[moved].first);
+  for (int i = 0; i < 8; ++i) {
+    const Vector3 x = mesh.nodes.col(mesh.node(moved, i));
+    if (x.x() > 1.5 || x.z() < 0.5) continue;
+    mesh.nodes.conservativeResize(Eigen::NoChange, mesh.nodes.cols() + 1);
+    mesh.nodes.rightCols<1>() = x + Vector3(0.2, 0, 0);
+    mesh.element_nodes[first + static_cast<std::size_t>(i)] =
+        static_cast<int>(mesh.nodes.cols()) - 1;
+  }
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  EXPECT_THAT(error_of(model),
+              ::testing::AllOf(HasSubstr("free to move"),
+                               HasSubstr("axis along (0, 1, 0) through (1, 0.5, 0) m"),
+                               HasSubstr("1 elements about"), HasSubstr("by an edge or a point")));
+}
+
+TEST(Part, InvertedElementsAreNamed) {
+  PartModel model = part(box(Shape::tetrahedra, 2, Vector3(1, 1, 1), {2, 2, 2}));
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  const int element = model.mesh.solids[3];
+  auto& nodes = model.mesh.element_nodes;
+  const auto first = static_cast<std::size_t>(model.mesh.elements[element].first);
+  std::swap(nodes[first], nodes[first + 1]);
+  EXPECT_THAT(error_of(model), ::testing::AllOf(HasSubstr("1 of 4"), HasSubstr("inverted"),
+                                                HasSubstr("Tetrahedron 10")));
+}
+
+TEST(Part, WhatCannotBeLoadedOrHeldIsRefused) {
+  PartModel model = part(box(Shape::hexahedra, 1, Vector3(2, 1, 1), {2, 1, 1}));
+  model.supports = {{"root", "x2", {true, true, true}, Vector3::Zero()}};
+  EXPECT_THAT(error_of(model), HasSubstr("\"x2\""));
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()},
+                    {"other", "y0", {true, true, true}, Vector3(1e-3, 0, 0)}};
+  EXPECT_THAT(error_of(model), HasSubstr("different displacements along x"));
+  model.supports.pop_back();
+  model.surface_loads = {{"press", "edge", SurfaceLoad::Kind::pressure, 1e6, Vector3::Zero()}};
+  EXPECT_THAT(error_of(model), HasSubstr("holds edges"));
+  EXPECT_THROW(read_part_mesh("/nowhere.msh", {}), ModelError);
+}
+
+TEST(Part, FilesForOtherPrograms) {
+  PartModel model = part(box(Shape::wedges, 2, Vector3(1, 1, 1), {1, 1, 1}));
+  model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
+  model.surface_loads = {{"pull", "x1", SurfaceLoad::Kind::force, 0, Vector3(1e5, 0, 0)}};
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string stem = (folder / ("blocklift-part-" + std::to_string(::getpid()))).string();
+  write_calculix(stem + ".inp", model);
+  write_part_vtu(stem + ".vtu", model, solve_part(model));
+  const auto text_of = [](const std::string& path) {
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::filesystem::remove(path);
+    return text;
+  };
+  const std::string input = text_of(stem + ".inp"), fields = text_of(stem + ".vtu");
+  for (const char* needed : {"TYPE=C3D15", "*ELASTIC\n206000000000, 0.3", "*BOUNDARY", "*CLOAD"})
+    EXPECT_THAT(input, HasSubstr(needed));
+  for (const char* needed : {"Name=\"displacement\"", "Name=\"stress\"", "</VTKFile>"})
+    EXPECT_THAT(fields, HasSubstr(needed));
+}
+
+}  // namespace
+}  // namespace blocklift::structure
