@@ -20,7 +20,7 @@ Matrix make_large(Eigen::Index rows, Eigen::Index columns) {
   return matrix;
 }
 
-/// Likewise, of zeros.
+/// The same of zeros.
 inline Eigen::MatrixXd make_large_zero(Eigen::Index rows, Eigen::Index columns) {
   Eigen::MatrixXd matrix = make_large(rows, columns);
   matrix.setZero();

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -13,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/load_cases/deck_loads.h"
 #include "structure/load_cases/deck_supports.h"
+#include "structure/response/loose_block.h"
 #include "structure/space/freedom_text.h"
 #include "structure/system/assembly.h"
 #include "structure/system/held_sums.h"
@@ -34,10 +37,40 @@ std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets)
   return supports;
 }
 
-[[noreturn]] void refuse_loose(const Space& space, const DeckLoadCase& load_case, int unknown) {
-  const int freedom = freedom_of(space, unknown);
-  throw ModelError(fmt::format("the supports of {} leave a part free to move: nothing resists {}",
-                               name_of(load_case), describe_freedom(space, freedom)));
+/// Says where what the supports leave free moves most.
+[[noreturn]] void refuse_loose(const Space& space, const DeckLoadCase& load_case, int freedom) {
+  throw ModelError(
+      fmt::format("the supports of {} leave a part free to move, and nothing resists; most of all "
+                  "it moves {}",
+                  name_of(load_case), describe_freedom(space, freedom)));
+}
+
+/// The same where a factorisation failed: how it moves is found first.
+[[noreturn]] void refuse_loose(const Space& space, const DeckLoadCase& load_case,
+                               std::vector<HeldSum> sums, int unknown, int threads) {
+  for (HeldSum& sum : sums) sum.value = 0;
+  const auto factorise = [&](SparseLower stiffness) -> SolveEquations {
+    auto system = std::make_shared<HeldSystem>(std::move(stiffness), sums);
+    system->factorise();
+    return [system](const Eigen::MatrixXd& loads) { return system->solve(loads); };
+  };
+  const Eigen::VectorXd motion = find_free_motion(space, factorise, threads);
+  refuse_loose(space, load_case,
+               motion.size() > 0 ? most_moved_freedom(space, motion) : freedom_of(space, unknown));
+}
+
+/// Rounding may leave a mechanism some stiffness, and what loads it moves then by any distance.
+/// Loads have not done twice the strain energy then, as they have where the equations are solved
+/// (Clapeyron's theorem). What moves no further than each load would move its own unknown, all
+/// others held, is rounding where supports take the loads at once.
+void check_energy(const HeldSystem& system, const Eigen::VectorXd& diagonal,
+                  const Eigen::VectorXd& acting, const Eigen::VectorXd& by_loads,
+                  const std::function<void()>& refuse) {
+  constexpr double most = 1e-3;  // rounding leaves 1e-4 where the condition is 1e12
+  const double work = acting.dot(by_loads), twice = 2 * system.energy(by_loads);
+  const double least =
+      (diagonal.array() > 0).select(acting.array().square() / diagonal.array(), 0.0).sum();
+  if (std::abs(work - twice) > most * std::max(std::abs(work), least)) refuse();
 }
 
 /// The place on the line between a direction's holders at which their shares balance.
@@ -97,7 +130,10 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   const Space& space = model.space();
   const std::vector<HeldDirection> directions =
       find_held_directions(space, supports_of(deck, sets));
-  HeldSystem system(assemble_stiffness(space, threads), as_sums(space, directions));
+  const std::vector<HeldSum> sums = as_sums(space, directions);
+  SparseLower stiffness = assemble_stiffness(space, threads);
+  const Eigen::VectorXd diagonal = stiffness.diagonal();
+  HeldSystem system(std::move(stiffness), sums);
   try {
     system.factorise();
   } catch (const LooseUnknown& loose) {
@@ -105,13 +141,14 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
       for (const int load_case : cases) result.skipped.push_back({load_case, false});
       return;
     }
-    refuse_loose(space, deck.load_cases[cases.front()], loose.unknown);
+    refuse_loose(space, deck.load_cases[cases.front()], sums, loose.unknown, threads);
   }
   Eigen::MatrixXd loads(model.freedoms(), static_cast<Eigen::Index>(cases.size()));
   for (std::size_t c = 0; c < cases.size(); ++c)
     loads.col(c) = load_of(model, deck, deck.load_cases[cases[c]]);
   const Eigen::MatrixXd acting = space.reduce(loads);
   const Eigen::MatrixXd unknowns = system.solve(acting);
+  const Eigen::VectorXd unloaded = system.solve(Eigen::VectorXd::Zero(acting.rows()));
   const Eigen::MatrixXd forces = system.reactions(unknowns, acting);
   const Eigen::MatrixXd motions = space.expand(unknowns);
   for (std::size_t c = 0; c < cases.size(); ++c) {
@@ -121,6 +158,9 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     solution.motion = motions.col(column);
     solution.reactions = reactions_at(space, directions, forces.col(column));
     solution.strain_energy = system.energy(unknowns.col(column));
+    check_energy(system, diagonal, acting.col(column), unknowns.col(column) - unloaded, [&] {
+      refuse_loose(space, deck.load_cases[cases[c]], most_moved_freedom(space, solution.motion));
+    });
     solution.estimated_error = estimate_block_error(model, solution.motion, threads).relative;
     sum_up(space, loads.col(column), solution);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -10,7 +11,6 @@
 
 #include "structure/space/freedom_text.h"
 #include "structure/system/assembly.h"
-#include "structure/system/sparse_matrix.h"
 
 namespace blocklift::structure {
 
@@ -64,20 +64,42 @@ Motion against_most(const Space& space, Motion motion) {
 
 }  // namespace
 
+Eigen::VectorXd find_free_motion(const Space& space, const FactoriseHeld& factorise, int threads) {
+  constexpr double raised = 1e-10;
+  constexpr int steps = 3;
+  SparseLower stiffness = assemble_stiffness(space, threads);
+  const Eigen::VectorXd diagonal = stiffness.diagonal();
+  for (Eigen::Index i = 0; i < stiffness.cols(); ++i) stiffness.coeffRef(i, i) *= 1 + raised;
+  try {
+    const SolveEquations solve = factorise(std::move(stiffness));
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> any(-1, 1);
+    Eigen::VectorXd motion =
+        Eigen::VectorXd::NullaryExpr(diagonal.size(), [&] { return any(random); });
+    for (int step = 0; step < steps; ++step) {
+      motion = solve(diagonal.cwiseProduct(motion));
+      motion /= motion.cwiseAbs().maxCoeff();
+    }
+    return space.expand(motion);
+  } catch (const ModelError&) {
+    return {};
+  }
+}
+
+int most_moved_freedom(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& motion) {
+  const Eigen::Map<const Motion> of_nodes(motion.data(), 6, motion.size() / 6);
+  Eigen::Index node = 0, turning = 0, direction = 0;
+  const double moved = of_nodes.topRows<3>().colwise().norm().maxCoeff(&node);
+  const double turned = of_nodes.bottomRows<3>().colwise().norm().maxCoeff(&turning);
+  const bool spins = moved < 1e-6 * turned * size_of(space);
+  if (spins) node = turning;
+  of_nodes.col(node).segment<3>(spins ? 3 : 0).cwiseAbs().maxCoeff(&direction);
+  return static_cast<int>(6 * node + (spins ? 3 : 0) + direction);
+}
+
 void refuse_mechanism(const Space& space, const Eigen::VectorXd& motion) {
   const Motion of_nodes =
       against_most(space, Eigen::Map<const Motion>(motion.data(), 6, motion.size() / 6));
-  Eigen::Index node = 0, turning = 0;
-  const double moved = of_nodes.topRows<3>().colwise().norm().maxCoeff(&node);
-  const double turned = of_nodes.bottomRows<3>().colwise().norm().maxCoeff(&turning);
-  // A bar that spins about its axis moves no node.
-  const bool spins = moved < 1e-6 * turned * size_of(space);
-  if (spins) node = turning;
-  Eigen::Index direction = 0;
-  if (spins)
-    of_nodes.col(node).tail<3>().cwiseAbs().maxCoeff(&direction);
-  else
-    of_nodes.col(node).head<3>().cwiseAbs().maxCoeff(&direction);
   const auto vertices = static_cast<int>(space.mesh().vertices.size());
   Motion of_vertices(6, vertices);
   for (int v = 0; v < vertices; ++v) {
@@ -85,33 +107,21 @@ void refuse_mechanism(const Space& space, const Eigen::VectorXd& motion) {
     of_vertices.col(v).setZero();
     if (of >= 0) of_vertices.col(v) = of_nodes.col(of);
   }
-  throw LooseBlock(
-      describe_mechanism(space, static_cast<int>(6 * node + (spins ? 3 : 0) + direction)),
-      std::move(of_vertices));
+  const int freedom = most_moved_freedom(space, of_nodes.reshaped());
+  throw LooseBlock(describe_mechanism(space, freedom), std::move(of_vertices));
 }
 
 void refuse_mechanism(const Space& space, const std::vector<FixedUnknown>& support,
                       const LooseUnknown& loose, int threads) {
-  constexpr double raised = 1e-10;
-  constexpr int steps = 3;
-  SparseLower stiffness = assemble_stiffness(space, threads);
-  const Eigen::VectorXd diagonal = stiffness.diagonal();
-  for (Eigen::Index i = 0; i < stiffness.cols(); ++i) stiffness.coeffRef(i, i) *= 1 + raised;
-  Eigen::VectorXd motion;
-  try {
-    ConstrainedSystem equations(std::move(stiffness), support);
-    equations.factorise();
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> any(-1, 1);
-    motion = Eigen::VectorXd::NullaryExpr(diagonal.size(), [&] { return any(random); });
-    for (int step = 0; step < steps; ++step) {
-      motion = equations.solve(diagonal.cwiseProduct(motion));
-      motion /= motion.cwiseAbs().maxCoeff();
-    }
-  } catch (const ModelError&) {
+  const auto factorise = [&](SparseLower stiffness) -> SolveEquations {
+    auto equations = std::make_shared<ConstrainedSystem>(std::move(stiffness), support);
+    equations->factorise();
+    return [equations](const Eigen::MatrixXd& loads) { return equations->solve(loads); };
+  };
+  const Eigen::VectorXd motion = find_free_motion(space, factorise, threads);
+  if (motion.size() == 0)
     throw LooseBlock(describe_mechanism(space, freedom_of(space, loose.unknown)), {});
-  }
-  refuse_mechanism(space, space.expand(motion));
+  refuse_mechanism(space, motion);
 }
 
 }  // namespace blocklift::structure

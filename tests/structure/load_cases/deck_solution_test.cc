@@ -278,18 +278,33 @@ TEST(DeckSolution, TrianglesHaveTheStressOfSquares) {
   }
 }
 
-TEST(DeckSolution, TellsWhatSupportsLeaveFree) {
-  const Deck deck = test::nastran(
-      "SOL 101\nCEND\nSUBCASE 4\n SPC = 1\n LOAD = 2\nBEGIN BULK\n"
-      "GRID,1,,0.,0.,0.\nGRID,2,,3.,0.,0.\n"
-      "CBAR,1,1,1,2,0.,1.,0.\nPBAR,1,1,0.01,1.-5,1.-5,2.-5\nMAT1,1,2.+11,,0.3,7850.\n"
-      "SPC1,1,123,1\nFORCE,2,2,,100.,0.,1.,0.\nENDDATA\n");
+std::string why_not_solved(const Deck& deck) {
   try {
     solved(deck);
-    FAIL() << "a bar that turns about its end was solved";
   } catch (const ModelError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("the supports of case 4 leave a part free"));
+    return error.what();
   }
+  return "solved";
+}
+
+// Three bars in a row that turn about their first end, by themselves and by way of a rigid link:
+// the message has the end that moves most, whatever the others may be moved by.
+TEST(DeckSolution, TellsWhatSupportsLeaveFree) {
+  const auto bars = [](const std::string& cards) {
+    return test::nastran(
+        "SOL 101\nCEND\nSUBCASE 4\n SPC = 1\n LOAD = 2\nBEGIN BULK\n"
+        "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,2.,0.,0.\nGRID,4,,4.,0.,0.\n"
+        "CBAR,1,1,1,2,0.,1.,0.\nCBAR,2,1,2,3,0.,1.,0.\nCBAR,3,1,3,4,0.,1.,0.\n"
+        "PBAR,1,1,0.01,1.-5,1.-5,2.-5\nMAT1,1,2.+11,,0.3,7850.\n"
+        "FORCE,2,2,,100.,0.,1.,0.\n" +
+        cards + "ENDDATA\n");
+  };
+  for (const std::string support : {"SPC1,1,12345,1\n", "SPC1,1,2345,1\nSPC,1,1,1,0.002\n",
+                                    "GRID,9,,0.,0.,0.5\nRBE2,5,1,123456,9\nSPC1,1,12345,9\n"})
+    EXPECT_THAT(why_not_solved(bars(support)),
+                ::testing::AllOf(::testing::HasSubstr("the supports of case 4 leave a part free"),
+                                 ::testing::HasSubstr("at (4, 0, 0) m, displacement along y")))
+        << support;
 }
 
 // The same in Abaqus' words: clamped at one end, a force and a moment at the other.
