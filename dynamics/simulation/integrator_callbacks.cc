@@ -15,16 +15,6 @@ namespace {
 // Were it more, a change would be found at the beginning of the next step.
 constexpr double reach_of_errors = 100;
 
-// Of a turn-over by two goliaths with tolerances from 1e-4 to 1e-7 the method took 5 to 20 % fewer
-// steps where it went no further than order 4, with 1e-8 as many, with smaller ones more: loads swing
-// with little damping, and there order 5 is not stable.
-constexpr double least_tolerance_of_order_4 = 1e-7;
-
-// In steps: the matrix is that of the instants before, and Newton's method is as quick with it. Where
-// it is not, it is made anew.
-constexpr long longest_without_factorisation = 40;
-constexpr long longest_without_jacobian = 100;
-
 }  // namespace
 
 // What a callback returns to CVODES.
@@ -165,10 +155,6 @@ void Integrator::set_up_cvode() {
   linear_solver_ = sundials::make_direct_solver(this, solve_newton, context_);
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(cvode_, newton_matrix), "CVodeSetLinSysFn");
-  check(CVodeSetLSetupFrequency(cvode_, longest_without_factorisation), "CVodeSetLSetupFrequency");
-  check(CVodeSetJacEvalFrequency(cvode_, longest_without_jacobian), "CVodeSetJacEvalFrequency");
-  if (settings_.relative_tolerance >= least_tolerance_of_order_4)
-    check(CVodeSetMaxOrd(cvode_, 4), "CVodeSetMaxOrd");
   if (projection_->is_needed()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
   if (events_.count() > 0) {
     check(CVodeRootInit(cvode_, events_.count(), event_values), "CVodeRootInit");

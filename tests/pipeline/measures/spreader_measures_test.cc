@@ -100,7 +100,8 @@ TEST(SpreaderMeasures, CompressionAtRestIsThatOfTheTriangle) {
   EXPECT_NEAR(lift.measure("B1: compression").at_rest[0], H, 1e-6 * H);
   const double M = H * 0.2 + bar * gravity * 4 / 8;
   EXPECT_NEAR(lift.measure("B1: bending moment").at_rest[0], M, 1e-5 * M);
-  const structure::Column column = lift.lift_case.find_spreader("B1")->column();
+  const SpreaderInCase& own = *lift.lift_case.find_spreader("B1");
+  const structure::Column column = own.column();
   EXPECT_NEAR(lift.measure("B1: share of the resistance").at_rest[0],
               structure::column_utilisation(
                   column, {lift.measure("B1: compression").at_rest[0], {M, 0}}, 1.5),
@@ -135,7 +136,8 @@ TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
   const std::vector<Check> checks = check_measures(lift.lift_case, lift.run, lift.measures);
   ASSERT_EQ(checks.size(), 2U);
   EXPECT_EQ(checks[0].name, "spreader B1: compression against buckling load / 1.5");
-  const structure::Column column = lift.lift_case.find_spreader("B1")->column();
+  const SpreaderInCase& own = *lift.lift_case.find_spreader("B1");
+  const structure::Column column = own.column();
   EXPECT_NEAR(checks[0].limit, structure::buckling_resistance(column) / 1.5, 1e-6);
   EXPECT_TRUE(checks[0].pass);
   EXPECT_EQ(checks[1].name, "spreader B1: compression with bending, times 1.5");
@@ -147,15 +149,16 @@ TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
 TEST(SpreaderMeasures, BorneLoadIsWhereTheColumnFails) {
   const BarLift& lift = plain_lift();
   const LiftSpreader& bar = lift.run.model.spreaders.front();
-  const structure::Column column = lift.lift_case.find_spreader("B1")->column();
+  const SpreaderInCase& own = *lift.lift_case.find_spreader("B1");
+  const structure::Column column = own.column();
   const double hung = hung_load(bar, lift.run.static_history)[0];
   EXPECT_NEAR(hung, 10e3 * gravity, 1e-6 * hung);
-  const double borne = borne_load(column, bar, lift.run.static_history);
+  const double borne = borne_load(own, bar, lift.run.static_history);
   const structure::ColumnForces forces{lift.measure("B1: compression").at_rest[0],
                                        {lift.measure("B1: bending moment").at_rest[0], 0}};
   EXPECT_NEAR(structure::column_utilisation(column, forces, borne / hung), 1, 1e-3);
   EXPECT_LT(structure::column_utilisation(column, forces, borne / hung / 2), 0.5);
-  EXPECT_LT(borne_load(column, bar, lift.run.dynamic_history()), borne * 1.01);
+  EXPECT_LT(borne_load(own, bar, lift.run.dynamic_history()), borne * 1.01);
 }
 
 // Two tiers: the hook bears a short bar, from whose ends a long one hangs; all plumb but the top.

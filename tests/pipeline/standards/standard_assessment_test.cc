@@ -84,7 +84,7 @@ TEST(StandardAssessment, WorksASlingStepByStep) {
 TEST(StandardAssessment, HoldsASpreaderAsALiftPoint) {
   LiftFacts facts = two_slings();
   facts.spreader_factor = 1.5;
-  facts.spreaders.push_back({"B1", facts.slings[0].load, {}, 2, 1500e3, 1500e3});
+  facts.spreaders.push_back({"B1", facts.slings[0].load, {}, 2, false, 1500e3, 1500e3});
   const StandardAssessment result = assess_standard(by_nd_0027(), facts);
   const Chain& spreader = chain_of(result, "spreader B1");
   EXPECT_NEAR(spreader.standard, 825.825e3, 1e-6);
