@@ -155,7 +155,7 @@ TEST(RiggingStockTest, HoldsSpreadersToTheirResistance) {
   ASSERT_EQ(diagnostics.to_text(), "");
   EXPECT_NEAR(stock->spreaders[0].utilisation(2), 0.4014, 3e-4);
   EXPECT_THAT(complaints_about_stock(with(bar, "200 kN", "600 kN")),
-              HasSubstr("b: under its working load, times 2, the bar bears"));
+              HasSubstr("b: under its working load, times 2, it bears"));
   EXPECT_THAT(complaints_about_stock(with(bar, "sling_angle: 45 deg", "sling_angle: 95 deg")),
               HasSubstr("sling_angle"));
 }
