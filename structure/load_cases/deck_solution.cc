@@ -49,8 +49,8 @@ std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets)
 [[noreturn]] void refuse_loose(const Space& space, const DeckLoadCase& load_case,
                                std::vector<HeldSum> sums, int unknown, int threads) {
   for (HeldSum& sum : sums) sum.value = 0;
-  const auto factorise = [&](SparseLower stiffness) -> SolveEquations {
-    auto system = std::make_shared<HeldSystem>(std::move(stiffness), sums);
+  const auto factorise = [&](const SparseLower& stiffness) -> SolveEquations {
+    auto system = std::make_shared<HeldSystem>(stiffness, sums);
     system->factorise();
     return [system](const Eigen::MatrixXd& loads) { return system->solve(loads); };
   };
@@ -131,9 +131,13 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   const std::vector<HeldDirection> directions =
       find_held_directions(space, supports_of(deck, sets));
   const std::vector<HeldSum> sums = as_sums(space, directions);
-  SparseLower stiffness = assemble_stiffness(space, threads);
-  const Eigen::VectorXd diagonal = stiffness.diagonal();
-  HeldSystem system(std::move(stiffness), sums);
+  Eigen::VectorXd diagonal;
+  const auto assemble = [&] {
+    SparseLower stiffness = assemble_stiffness(space, threads);
+    diagonal = stiffness.diagonal();
+    return stiffness;
+  };
+  HeldSystem system(assemble(), sums);
   try {
     system.factorise();
   } catch (const LooseUnknown& loose) {

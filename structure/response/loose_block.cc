@@ -71,7 +71,7 @@ Eigen::VectorXd find_free_motion(const Space& space, const FactoriseHeld& factor
   const Eigen::VectorXd diagonal = stiffness.diagonal();
   for (Eigen::Index i = 0; i < stiffness.cols(); ++i) stiffness.coeffRef(i, i) *= 1 + raised;
   try {
-    const SolveEquations solve = factorise(std::move(stiffness));
+    const SolveEquations solve = factorise(stiffness);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> any(-1, 1);
     Eigen::VectorXd motion =
@@ -113,8 +113,8 @@ void refuse_mechanism(const Space& space, const Eigen::VectorXd& motion) {
 
 void refuse_mechanism(const Space& space, const std::vector<FixedUnknown>& support,
                       const LooseUnknown& loose, int threads) {
-  const auto factorise = [&](SparseLower stiffness) -> SolveEquations {
-    auto equations = std::make_shared<ConstrainedSystem>(std::move(stiffness), support);
+  const auto factorise = [&](const SparseLower& stiffness) -> SolveEquations {
+    auto equations = std::make_shared<ConstrainedSystem>(SparseLower(stiffness), support);
     equations->factorise();
     return [equations](const Eigen::MatrixXd& loads) { return equations->solve(loads); };
   };

@@ -29,7 +29,7 @@ class LooseBlock : public ModelError {
 /// Solves for load vectors, a column each.
 using SolveEquations = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& loads)>;
 /// Factorises a stiffness with what holds it.
-using FactoriseHeld = std::function<SolveEquations(SparseLower stiffness)>;
+using FactoriseHeld = std::function<SolveEquations(const SparseLower& stiffness)>;
 
 /// A motion that nothing resists where a factorisation failed, by any factor (freedoms): inverse
 /// iteration on a stiffness that is raised by 1e-10 of its diagonal, which grows what nothing

@@ -226,7 +226,7 @@ TEST_F(SweepCommand, RefusesFiguresThatTheLiftDoesNotHave) {
       weight);
   const Outcome outcome = run("sweep study.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("study.yaml:3:44: error: the lift's summary has no figure "
+  EXPECT_THAT(outcome.err, HasSubstr("study.yaml:3:42: error: the lift's summary has no figure "
                                      "\"ropes.R1.max_static_tensio_N\"\n"
                                      "    did you mean \"ropes.R1.max_static_tension_N\"?"));
   EXPECT_FALSE(fs::exists("out"));
