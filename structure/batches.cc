@@ -14,6 +14,7 @@ namespace blocklift::structure {
 void in_batches(int count, int batch_size, int threads,
                 const std::function<void(int first, int count)>& work) {
   if (threads <= 0) threads = usable_threads();
+  threads = std::min(threads, (count + batch_size - 1) / batch_size);
   std::atomic<int> next{0};
   std::exception_ptr failure;
   int failed = count;  // first number of the lowest batch that has failed

@@ -231,7 +231,7 @@ int EquilibriumSolver::Implementation::jacobian_callback(N_Vector u, N_Vector, S
   }
 }
 
-// SUNDIALS' own dense factorisation takes four times as long.
+// SUNDIALS' own dense factorisation takes 5 times as long with 20 unknowns, 11 times with 80.
 int EquilibriumSolver::Implementation::factorise_callback(SUNLinearSolver solver, SUNMatrix J) {
   constexpr int singular = 1;  // recoverable
   auto& self = *static_cast<Implementation*>(solver->content);

@@ -215,7 +215,9 @@ structure::StressBasis stress_basis_in(std::shared_ptr<const MappedFile> file) {
   KeptValuesReader values(file->bytes());
   std::int64_t rows = 0, columns = 0;
   values(rows, columns);
-  if (rows < 0 || columns < 0) throw std::runtime_error("the stress that was kept has no size");
+  const auto most = static_cast<std::int64_t>(file->bytes().size() / sizeof(double));
+  if (rows < 0 || columns < 0 || (columns > 0 && rows > most / columns))
+    throw std::runtime_error("the stress that was kept is larger than its file");
   const auto* first = static_cast<const double*>(
       values.in_place(sizeof(double) * static_cast<std::size_t>(rows * columns)));
   std::vector<structure::Square> squares;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/measures/place_at.h"
 #include "structure/batches.h"
 
 namespace blocklift::pipeline {
@@ -85,11 +86,6 @@ struct RopePiece {
   std::string name;
   dynamics::BodyPoint from, to;
 };
-
-Pose pose_at(const History& history, BodyIndex body, Eigen::Index sample) {
-  if (body == dynamics::world_index) return Pose::identity();
-  return history.bodies[body - 1].X_WB(sample);
-}
 
 /// Samples that are looked at: the ends, and others as evenly as can be.
 std::vector<Eigen::Index> chosen_samples(Eigen::Index count) {

@@ -6,6 +6,7 @@
 
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/measures/chart_derating.h"
+#include "pipeline/measures/place_at.h"
 
 namespace blocklift::pipeline {
 
@@ -46,10 +47,6 @@ class MeasureGroup {
   const LiftRun& lift_;
   std::vector<LiftMeasure> measures_;
 };
-
-Pose pose_of(const History& history, BodyIndex body, Eigen::Index sample) {
-  return body == dynamics::world_index ? Pose::identity() : history.bodies[body - 1].X_WB(sample);
-}
 
 /// A point of a crane's body, or of its base, as a point of the dynamics.
 dynamics::BodyPoint body_point(const CraneInCase& crane, const dynamics::Mechanism& mechanism,
@@ -106,12 +103,12 @@ void add_hook_measures(const CraneInCase& crane, const ChartFactor& derated, con
   group.fill(
       [&](const History& history, Eigen::Index sample, Eigen::VectorXd& values) {
         const auto place = [&](const dynamics::BodyPoint& point) {
-          return pose_of(history, point.body, sample).apply(point.p_BoQ_B);
+          return place_at(history, point, sample);
         };
         const auto& rope = history.ropes[hoist.rope];
         const Vector3 pull = hook_pull(rope, hoist.hook_is_first).row(sample);
         const Vector3 centre = place(from);
-        const double radius = (pose_of(history, hoist.hook, sample).p - centre).head<2>().norm();
+        const double radius = (pose_at(history, hoist.hook, sample).p - centre).head<2>().norm();
         Vector3 outwards = place(sheave) - centre;
         outwards.z() = 0;
         values.setZero();
@@ -215,7 +212,7 @@ void add_stand_measures(const CraneInCase& crane, const LiftRun& lift,
   }
   group.fill(
       [&](const History& history, Eigen::Index sample, Eigen::VectorXd& values) {
-        const Pose X_WS = pose_of(history, standing, sample);
+        const Pose X_WS = pose_at(history, standing, sample);
         Wrench sum;
         for (const BodyIndex body : bodies) {
           const Wrench one = demand(mechanism.body(body).inertia, history.bodies[body - 1], sample,

@@ -4,16 +4,13 @@
 #include <limits>
 #include <variant>
 
+#include "pipeline/measures/place_at.h"
+
 namespace blocklift::pipeline {
 
 namespace {
 
 using dynamics::History;
-
-Vector3 place(const History& history, const dynamics::BodyPoint& point, Eigen::Index sample) {
-  if (point.body == dynamics::world_index) return point.p_BoQ_B;
-  return history.bodies[point.body - 1].X_WB(sample).apply(point.p_BoQ_B);
-}
 
 double tension(const History& history, int rope, Eigen::Index sample) {
   return history.ropes[rope].tension[sample];
@@ -26,12 +23,13 @@ class MissedAt {
 
   double operator()(const dynamics::KeptHeight& wish) {
     const double height =
-        place(history_, wish.point, sample).z() - place(history_, wish.reference, sample).z();
+        place_at(history_, wish.point, sample).z() - place_at(history_, wish.reference, sample).z();
     if (std::isnan(difference_)) difference_ = wish.difference.value_or(height);
     return height - difference_;
   }
   double operator()(const dynamics::KeptPlumb& wish) const {
-    const Vector3 d = place(history_, wish.head, sample) - place(history_, wish.target, sample);
+    const Vector3 d =
+        place_at(history_, wish.head, sample) - place_at(history_, wish.target, sample);
     return d.head<2>().norm();
   }
   double operator()(const dynamics::KeptTension& wish) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/rope/mooring_line.h"
+#include "pipeline/measures/place_at.h"
 
 namespace blocklift::pipeline {
 
@@ -65,12 +66,8 @@ void add_lines(const LiftRun& lift, const char* kind, const char* meaning,
 std::vector<Vector3> places_of(const dynamics::Rope& rope, const History& history,
                                Eigen::Index sample) {
   std::vector<Vector3> places;
-  for (const dynamics::BodyPoint& point : rope.points()) {
-    const auto body = static_cast<std::size_t>(point.body);
-    places.push_back(point.body == dynamics::world_index
-                         ? point.p_BoQ_B
-                         : history.bodies[body - 1].X_WB(sample).apply(point.p_BoQ_B));
-  }
+  for (const dynamics::BodyPoint& point : rope.points())
+    places.push_back(place_at(history, point, sample));
   return places;
 }
 

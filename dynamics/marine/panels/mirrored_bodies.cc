@@ -77,9 +77,9 @@ PanelMesh from_half(const PanelMesh& mesh, const Symmetry& plane) {
   for (const Panel& panel : mesh.panels) {
     const double tolerance = 1e-6 * panel.diameter();
     double lowest = 0.0, highest = 0.0;
-    for (const Vector3& vertex : panel.vertices) {
-      lowest = std::min(lowest, vertex[axis]);
-      highest = std::max(highest, vertex[axis]);
+    for (int k = 0; k < panel.vertex_count; ++k) {
+      lowest = std::min(lowest, panel.vertices[k][axis]);
+      highest = std::max(highest, panel.vertices[k][axis]);
     }
     if (highest < tolerance) continue;
     if (lowest > -tolerance) {
