@@ -13,23 +13,16 @@
 #include "dynamics/simulation/jacobian.h"
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"
+#include "tests/dynamics/rope/balance.h"
 
 namespace blocklift::dynamics {
 namespace {
 
 using std::numbers::pi;
+using test::imbalance_of;
+using test::standard_gravity;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-constexpr double standard_gravity = 9.80665;
-
-// From a sample on, J.
-double imbalance_of(const EnergyHistory& e, Eigen::Index from = 0) {
-  const Eigen::ArrayXd energy = e.kinetic + e.gravity + e.elastic;
-  const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.outside_work - e.dissipated;
-  const Eigen::ArrayXd lacking = energy - work;
-  return (lacking - lacking[from]).tail(lacking.size() - from).abs().maxCoeff();
-}
 
 // A rope from a winch, level, over an edge of the world along y, down to a weight: a quarter turn.
 struct QuarterTurn {
@@ -217,7 +210,7 @@ TEST(EdgeFriction, BrakesADrum) {
 }
 
 // A block on a sling round its two lower edges, obliquely, from a hook to another.
-struct Cradle {
+struct ObliqueCradle {
   double radius = 0.0, friction = 0.15, hook_at = 1.5;
   double apart = 3.0;  // of the two hooks along the edges, m
   double damping_time = 0.02;
@@ -263,7 +256,7 @@ struct Cradle {
 
 // At one instant of an oblique and turning block.
 struct Instant {
-  explicit Instant(const Cradle& of)
+  explicit Instant(const ObliqueCradle& of)
       : cradle(of),
         ropes{Rope(of.mechanism, of.rope())},
         path(make_rope_path(ropes)),
@@ -287,7 +280,7 @@ struct Instant {
     split.divide(ropes[0], kinematics, path, load);
     return load;
   }
-  const Cradle& cradle;
+  const ObliqueCradle& cradle;
   std::vector<Rope> ropes;
   RopePath path;
   Kinematics kinematics;
@@ -299,7 +292,7 @@ struct Instant {
 // a sharp edge over those of a round one that is too small to matter.
 TEST(EdgeFriction, WrapIsTheCurvatureOfTheHelix) {
   for (const double radius : {0.0, 0.4}) {
-    const Cradle cradle{.radius = radius, .apart = 6.0};
+    const ObliqueCradle cradle{.radius = radius, .apart = 6.0};
     Instant instant(cradle);
     instant.divide_at(0.0);
     for (const std::size_t bend : {0U, 1U}) {
@@ -330,7 +323,7 @@ TEST(EdgeFriction, WrapIsTheCurvatureOfTheHelix) {
 TEST(EdgeFriction, RatesAreThoseOfTheLengths) {
   for (const double radius : {0.0, 0.4}) {
     for (const bool slips : {false, true}) {
-      const Cradle cradle{.radius = radius, .damping_time = 0.0};
+      const ObliqueCradle cradle{.radius = radius, .damping_time = 0.0};
       Instant instant(cradle);
       instant.divide_at(0.0);
       if (slips) {
@@ -363,7 +356,7 @@ TEST(EdgeFriction, RatesAreThoseOfTheLengths) {
 TEST(EdgeFriction, EnergyCloses) {
   for (const double radius : {0.0, 0.3}) {
     for (const double damping_time : {0.0, 0.02}) {
-      const Cradle cradle{
+      const ObliqueCradle cradle{
           .radius = radius, .hook_at = 0.4, .apart = 1.0, .damping_time = damping_time};
       const LiftSystem lift = cradle.build(1.5);
       Eigen::VectorXd v(6);
@@ -429,7 +422,7 @@ TEST(EdgeFriction, EnergyClosesWhereItTouchesAndLeaves) {
 // Hardly any friction is none.
 TEST(EdgeFriction, VanishesWithTheCoefficient) {
   const auto run = [](double friction) {
-    const Cradle cradle{.radius = 0.3, .friction = friction, .hook_at = 0.4, .apart = 1.0};
+    const ObliqueCradle cradle{.radius = 0.3, .friction = friction, .hook_at = 0.4, .apart = 1.0};
     const LiftSystem lift = cradle.build(1.0);
     Eigen::VectorXd v(6);
     v << 0.05, -0.02, 0.04, 0.3, -0.5, 0.1;
@@ -443,7 +436,7 @@ TEST(EdgeFriction, VanishesWithTheCoefficient) {
 TEST(EdgeFriction, AllocatesNothing) {
   if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not counted in this build";
   for (const double radius : {0.0, 0.3}) {
-    const Cradle cradle{.radius = radius};
+    const ObliqueCradle cradle{.radius = radius};
     const LiftSystem lift = cradle.build(1.0);
     LiftWorkspace w(lift);
     Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
@@ -471,7 +464,7 @@ TEST(EdgeFriction, AllocatesNothing) {
 // Newton's matrix: exact but for what is small by the strain, and by the damping.
 TEST(EdgeFriction, JacobianIsThatOfTheForces) {
   for (const double radius : {0.0, 0.4}) {
-    const Cradle cradle{.radius = radius};
+    const ObliqueCradle cradle{.radius = radius};
     const LiftSystem lift = cradle.build(1.0);
     LiftWorkspace w(lift);
     Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size()), q(7), v(6);
@@ -495,7 +488,7 @@ TEST(EdgeFriction, JacobianIsThatOfTheForces) {
 }
 
 TEST(EdgeFriction, RefusesWhatHasNoMeaning) {
-  const Cradle cradle{.friction = -0.1};
+  const ObliqueCradle cradle{.friction = -0.1};
   EXPECT_THAT([&] { Rope(cradle.mechanism, cradle.rope()); },
               ThrowsMessage<ModelError>(HasSubstr("edge \"port\" has the friction")));
 }

@@ -14,15 +14,16 @@
 #include "dynamics/simulation/jacobian.h"
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"
+#include "tests/dynamics/rope/balance.h"
 
 namespace blocklift::dynamics {
 namespace {
 
 using std::numbers::pi;
+using test::imbalance_of;
+using test::standard_gravity;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-constexpr double standard_gravity = 9.80665;
 
 // Friction by which parallel parts of a rope carry that share, and the rest of 100 %.
 double friction_for_share(double larger) { return std::log(larger / (1.0 - larger)) / pi; }
@@ -91,12 +92,6 @@ struct Tensions {
 Tensions tensions(const IntegrationResult& run) {
   const RopeHistory& rope = run.history.ropes[0];
   return {rope.first_force.rowwise().norm(), rope.last_force.rowwise().norm()};
-}
-
-double imbalance_of(const EnergyHistory& e) {
-  const Eigen::ArrayXd energy = e.kinetic + e.gravity + e.elastic;
-  const Eigen::ArrayXd work = e.drive_work + e.winch_work + e.outside_work - e.dissipated;
-  return (energy - energy[0] - work).abs().maxCoeff();
 }
 
 // A path of 3-4-5 and 5-12-13 triangles, the angle of its turn, and tensions by hand.

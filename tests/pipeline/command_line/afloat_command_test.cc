@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -44,7 +45,7 @@ class AfloatCommand : public ::testing::Test {
   std::string complaint(const std::string& command, const std::string& from,
                         const std::string& to) const {
     folder_.write("pair.yaml", with(pair, from, to));
-    const Outcome outcome = test::run_program(BLOCKLIFT_EXECUTABLE, command + " pair.yaml");
+    const Outcome outcome = test::run_blocklift(command + " pair.yaml");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
     return outcome.err;
   }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -18,15 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Outcome;
+using test::run_blocklift;
 using test::TemporaryFolder;
 using test::text_of_file;
 using test::with;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Outcome run(const std::string& arguments) {
-  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-}
 
 /// The small lift's files in a folder of their own, to be changed at will.
 class AssessCommand : public ::testing::Test {
@@ -53,7 +51,7 @@ class AssessCommand : public ::testing::Test {
 };
 
 TEST_F(AssessCommand, WritesResultsAndSaysWhereTheReportIs) {
-  const Outcome outcome = run("assess lift");
+  const Outcome outcome = run_blocklift("assess lift");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, testing::MatchesRegex(test::only_progress));
   EXPECT_THAT(outcome.out, HasSubstr("verdict: pass\n"));
@@ -72,7 +70,7 @@ TEST_F(AssessCommand, DividesTheSameCellsWithAnyNumberOfThreads) {
   nlohmann::json summaries[2];
   for (const int i : {0, 1}) {
     const std::string threads = std::to_string(i + 1);
-    ASSERT_EQ(run("assess lift --threads " + threads + " -o " + threads).exit_code, 0);
+    ASSERT_EQ(run_blocklift("assess lift --threads " + threads + " -o " + threads).exit_code, 0);
     summaries[i] = nlohmann::json::parse(text_of_file(threads + "/summary.json"));
   }
   const auto& one = summaries[0]["structure"]["accuracy"]["steps"];
@@ -87,19 +85,19 @@ TEST_F(AssessCommand, DividesTheSameCellsWithAnyNumberOfThreads) {
 }
 
 TEST_F(AssessCommand, KeepsWithinItsLimits) {
-  const Outcome late = run("assess lift --time 0.3 -o out");
+  const Outcome late = run_blocklift("assess lift --time 0.3 -o out");
   EXPECT_EQ(late.exit_code, 1);
   EXPECT_THAT(late.err, HasSubstr("blocklift: error: stopped after 0.3 s, the limit of --time; "));
-  const Outcome large = run("assess lift --memory 0.001 -o out");
+  const Outcome large = run_blocklift("assess lift --memory 0.001 -o out");
   EXPECT_EQ(large.exit_code, 2);
   EXPECT_THAT(large.err, HasSubstr("whose stiffness needs more than "));
   EXPECT_TRUE(written().empty());
-  EXPECT_EQ(run("assess lift --threads 0").exit_code, 2);
-  EXPECT_EQ(run("assess lift --memory 8 --time 600 -o out").exit_code, 0);
+  EXPECT_EQ(run_blocklift("assess lift --threads 0").exit_code, 2);
+  EXPECT_EQ(run_blocklift("assess lift --memory 8 --time 600 -o out").exit_code, 0);
 }
 
 TEST_F(AssessCommand, PutsResultsWhereItIsTold) {
-  const Outcome outcome = run("assess lift/case.yaml --output 'my lifts/first'");
+  const Outcome outcome = run_blocklift("assess lift/case.yaml --output 'my lifts/first'");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("report: my lifts/first/report.html\n"));
   EXPECT_TRUE(fs::exists("my lifts/first/results.h5"));
@@ -107,7 +105,7 @@ TEST_F(AssessCommand, PutsResultsWhereItIsTold) {
 }
 
 TEST_F(AssessCommand, SaysLittleOrMoreOrKeepsALog) {
-  const Outcome quiet = run("assess lift -q --log run.log");
+  const Outcome quiet = run_blocklift("assess lift -q --log run.log");
   EXPECT_EQ(quiet.exit_code, 0) << quiet.err;
   EXPECT_TRUE(quiet.out.ends_with("\nverdict: pass\n")) << quiet.out;
   EXPECT_THAT(quiet.out, Not(HasSubstr("R1")));
@@ -119,21 +117,21 @@ TEST_F(AssessCommand, SaysLittleOrMoreOrKeepsALog) {
     EXPECT_THAT(log, HasSubstr(entry));
 
   change("case.yaml", "rope_safety_factor: 5", "rope_safety_facto: 5");
-  const Outcome wrong = run("validate lift -v --log run.log");
+  const Outcome wrong = run_blocklift("validate lift -v --log run.log");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, HasSubstr("crane model \"gantry\" is lift/gantry/crane.yaml\n"));
   EXPECT_TRUE(text_of_file("run.log").starts_with(log));
   EXPECT_THAT(text_of_file("run.log"), HasSubstr("has no key \"rope_safety_facto\""));
 
-  EXPECT_EQ(run("assess lift -q -v").exit_code, 2);
-  const Outcome nowhere = run("assess lift --log /proc/nowhere/log");
+  EXPECT_EQ(run_blocklift("assess lift -q -v").exit_code, 2);
+  const Outcome nowhere = run_blocklift("assess lift --log /proc/nowhere/log");
   EXPECT_EQ(nowhere.exit_code, 2);
   EXPECT_THAT(nowhere.err, HasSubstr("the log \"/proc/nowhere/log\" cannot be written"));
 }
 
 TEST_F(AssessCommand, KeepsToEightyColumns) {
   for (const char* const arguments : {"assess lift", "simulate lift"}) {
-    std::istringstream lines(run(arguments).out);
+    std::istringstream lines(run_blocklift(arguments).out);
     for (std::string line; std::getline(lines, line);)
       EXPECT_LE(line.size(), 80U) << arguments << ": " << line;
     fs::remove_all("results");
@@ -142,7 +140,7 @@ TEST_F(AssessCommand, KeepsToEightyColumns) {
 
 TEST_F(AssessCommand, TellsALiftThatFailsByItsExitCode) {
   change("case.yaml", "rope_safety_factor: 5", "rope_safety_factor: 1000");
-  const Outcome outcome = run("assess lift -o out");
+  const Outcome outcome = run_blocklift("assess lift -o out");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("verdict: FAIL\n"));
   EXPECT_THAT(outcome.out,
@@ -155,7 +153,7 @@ TEST_F(AssessCommand, TellsALiftThatFailsByItsExitCode) {
 TEST_F(AssessCommand, WritesNothingOnBadInput) {
   change("case.yaml", "to: L3", "to: L9");
   change("gantry/crane.yaml", "mass: 6 t", "mass: -6 t");
-  const Outcome outcome = run("assess lift");
+  const Outcome outcome = run_blocklift("assess lift");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err, HasSubstr("lift/case.yaml:12:27: error: rope R3 ends at lug \"L9\""));
@@ -163,7 +161,7 @@ TEST_F(AssessCommand, WritesNothingOnBadInput) {
   EXPECT_THAT(outcome.err, HasSubstr("mass \"-6 t\" must be at least 0"));
   EXPECT_THAT(outcome.err, HasSubstr("2 errors\n"));
   EXPECT_TRUE(written().empty());
-  EXPECT_EQ(run("assess nowhere").exit_code, 2);
+  EXPECT_EQ(run_blocklift("assess nowhere").exit_code, 2);
   EXPECT_TRUE(written().empty());
 }
 
@@ -177,7 +175,7 @@ TEST_F(AssessCommand, SaysWhatDoesNotHang) {
          "from: {body: load, point: [0 m, 3 m, 5 m]}, to: L3");
   change("case.yaml", "from: C1.right, to: L4",
          "from: {body: load, point: [4 m, 3 m, 5 m]}, to: L4");
-  const Outcome outcome = run("assess lift");
+  const Outcome outcome = run_blocklift("assess lift");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.out, "");
   EXPECT_THAT(outcome.err,
@@ -189,23 +187,23 @@ TEST_F(AssessCommand, SaysWhatDoesNotHang) {
 }
 
 TEST_F(AssessCommand, ARunThatFailsLeavesEarlierResultsAlone) {
-  ASSERT_EQ(run("assess lift -o out").exit_code, 0);
+  ASSERT_EQ(run_blocklift("assess lift -o out").exit_code, 0);
   const auto before = written();
   // A centre of mass that no outfitting can make is found only with the mesh.
   change("block.yaml", "centre_of_mass: [2.05 m, 1.48 m, 0.75 m]",
          "centre_of_mass: [2.05 m, 1.48 m, 1.9 m]");
-  const Outcome outcome = run("assess lift -o out");
+  const Outcome outcome = run_blocklift("assess lift -o out");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("density would be negative"));
   EXPECT_EQ(written(), before);
 }
 
 TEST_F(AssessCommand, ASecondRunReplacesTheFirst) {
-  ASSERT_EQ(run("assess lift -o out").exit_code, 0);
+  ASSERT_EQ(run_blocklift("assess lift -o out").exit_code, 0);
   change("case.yaml", "by: -0.6 m", "by: -0.5 m");
   folder_.write("out/notes.txt", "mine");
   const std::string before = text_of_file("out/summary.json");
-  ASSERT_EQ(run("assess lift -o out").exit_code, 0);
+  ASSERT_EQ(run_blocklift("assess lift -o out").exit_code, 0);
   const auto first = nlohmann::json::parse(before);
   const auto second = nlohmann::json::parse(text_of_file("out/summary.json"));
   EXPECT_NE(first["ropes"], second["ropes"]);
@@ -214,8 +212,8 @@ TEST_F(AssessCommand, ASecondRunReplacesTheFirst) {
 }
 
 TEST_F(AssessCommand, TheSameCaseGivesTheSameFigures) {
-  ASSERT_EQ(run("assess lift -o first").exit_code, 0);
-  ASSERT_EQ(run("assess lift -o second").exit_code, 0);
+  ASSERT_EQ(run_blocklift("assess lift -o first").exit_code, 0);
+  ASSERT_EQ(run_blocklift("assess lift -o second").exit_code, 0);
   const auto first = nlohmann::json::parse(text_of_file("first/summary.json"));
   const auto second = nlohmann::json::parse(text_of_file("second/summary.json"));
   EXPECT_EQ(first["ropes"], second["ropes"]);
@@ -225,7 +223,7 @@ TEST_F(AssessCommand, TheSameCaseGivesTheSameFigures) {
 
 TEST_F(AssessCommand, AnOutputThatIsAFileIsRefusedBeforeTheRun) {
   folder_.write("taken", "a file");
-  const Outcome outcome = run("assess lift --output taken");
+  const Outcome outcome = run_blocklift("assess lift --output taken");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.err,
             "blocklift: error: the results cannot go into \"taken\": it is a file; "
@@ -234,23 +232,23 @@ TEST_F(AssessCommand, AnOutputThatIsAFileIsRefusedBeforeTheRun) {
 }
 
 TEST_F(AssessCommand, ReportIsMadeFromTheResultsAlone) {
-  ASSERT_EQ(run("assess lift -o out").exit_code, 0);
+  ASSERT_EQ(run_blocklift("assess lift -o out").exit_code, 0);
   fs::rename("lift", "gone");
   fs::create_directory("elsewhere");
   for (const char* file : {"results.h5", "summary.json"})
     fs::copy(fs::path("out") / file, fs::path("elsewhere") / file);
-  const Outcome outcome = run("report elsewhere");
+  const Outcome outcome = run_blocklift("report elsewhere");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "report: elsewhere/report.html\n");
   const std::string page = text_of_file("elsewhere/report.html");
   EXPECT_GT(page.size(), 100'000u);
   EXPECT_THAT(page.substr(0, 2000), HasSubstr("small-lift"));
-  ASSERT_EQ(run("report elsewhere").exit_code, 0);
+  ASSERT_EQ(run_blocklift("report elsewhere").exit_code, 0);
   EXPECT_EQ(text_of_file("elsewhere/report.html"), page);
 }
 
 TEST_F(AssessCommand, ReportOfNothingSaysWhatIsMissing) {
-  const Outcome outcome = run("report lift");
+  const Outcome outcome = run_blocklift("report lift");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("lift/summary.json: error: there is no such file"));
   EXPECT_THAT(outcome.err, HasSubstr("lift/results.h5: error: there is no such file"));
@@ -259,7 +257,7 @@ TEST_F(AssessCommand, ReportOfNothingSaysWhatIsMissing) {
 
 // The README's five lines, and then every dataset.
 TEST_F(AssessCommand, ResultsAreReadableInPython) {
-  ASSERT_EQ(run("assess lift -o out").exit_code, 0);
+  ASSERT_EQ(run_blocklift("assess lift -o out").exit_code, 0);
   folder_.write("read.py", R"(import h5py
 results = h5py.File("out/results.h5")
 tension = results["dynamic/ropes/R1/tension"]
@@ -288,20 +286,20 @@ print(count > 60)
 }
 
 TEST_F(AssessCommand, TellsWrongUseByItsExitCode) {
-  const Outcome unknown = run("asess lift");
+  const Outcome unknown = run_blocklift("asess lift");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(unknown.err,
             "blocklift: error: there is no command \"asess\"\n"
             "    the commands are assess, compare, expect, new, simulate, validate, stress, hydro, "
             "report, "
             "rig, sweep, measured, ... (14 in all); did you mean \"assess\"?\n");
-  const Outcome option = run("assess lift --fast");
+  const Outcome option = run_blocklift("assess lift --fast");
   EXPECT_EQ(option.exit_code, 2);
   EXPECT_THAT(option.err, HasSubstr("--fast"));
-  EXPECT_EQ(run("assess").exit_code, 2);
-  EXPECT_EQ(run("assess lift --output").exit_code, 2);
-  EXPECT_EQ(run("report").exit_code, 2);
-  EXPECT_EQ(run("assess --help").exit_code, 0);
+  EXPECT_EQ(run_blocklift("assess").exit_code, 2);
+  EXPECT_EQ(run_blocklift("assess lift --output").exit_code, 2);
+  EXPECT_EQ(run_blocklift("report").exit_code, 2);
+  EXPECT_EQ(run_blocklift("assess --help").exit_code, 0);
   EXPECT_TRUE(written().empty());
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -15,14 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Outcome;
+using test::run_blocklift;
 using test::TemporaryFolder;
 using test::text_of_file;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-Outcome run(const std::string& arguments) {
-  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-}
 
 // A weight on a spring.
 constexpr auto mechanism = R"(mechanism: spring
@@ -63,7 +61,7 @@ loads:
 TEST(FullDisk, EndsWithAMessageAndEarlierResultsStay) {
   const TemporaryFolder folder;
   folder.write("mechanism.yaml", mechanism);
-  ASSERT_EQ(run("simulate mechanism.yaml -o results").exit_code, 0);
+  ASSERT_EQ(run_blocklift("simulate mechanism.yaml -o results").exit_code, 0);
   const std::string before = text_of_file("results/summary.json");
   for (const char* blocks : {"1", "8", "40", "100"}) {
     const Outcome outcome =
@@ -94,7 +92,7 @@ TEST(Output, ThatCannotBeWrittenIsRefusedBeforeTheWork) {
   folder.write("file", "");
   for (const std::string& place :
        {std::string("/proc/blocklift"), std::string("file/below"), std::string(300, 'x')}) {
-    const Outcome outcome = run("simulate mechanism.yaml -o " + place);
+    const Outcome outcome = run_blocklift("simulate mechanism.yaml -o " + place);
     EXPECT_EQ(outcome.exit_code, 2) << place;
     EXPECT_THAT(outcome.err, HasSubstr("results cannot be written here")) << place;
   }
@@ -105,7 +103,7 @@ TEST(Output, AVerdictIsNotLostToASimulation) {
   const TemporaryFolder folder;
   folder.write("mechanism.yaml", mechanism);
   folder.write("lift/summary.json", R"({"case": "lift", "verdict": "pass"})");
-  const Outcome outcome = run("simulate mechanism.yaml -o lift");
+  const Outcome outcome = run_blocklift("simulate mechanism.yaml -o lift");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("lift: error: the folder holds the assessment of a lift"));
   EXPECT_EQ(nlohmann::json::parse(text_of_file("lift/summary.json"))["verdict"], "pass");
@@ -114,11 +112,11 @@ TEST(Output, AVerdictIsNotLostToASimulation) {
 TEST(Report, IsNotMadeOfTwoRuns) {
   const TemporaryFolder folder;
   folder.write("mechanism.yaml", mechanism);
-  ASSERT_EQ(run("simulate mechanism.yaml -o one").exit_code, 0);
-  ASSERT_EQ(run("simulate mechanism.yaml -o other").exit_code, 0);
-  EXPECT_EQ(run("report one").exit_code, 0);
+  ASSERT_EQ(run_blocklift("simulate mechanism.yaml -o one").exit_code, 0);
+  ASSERT_EQ(run_blocklift("simulate mechanism.yaml -o other").exit_code, 0);
+  EXPECT_EQ(run_blocklift("report one").exit_code, 0);
   fs::copy_file("other/summary.json", "one/summary.json", fs::copy_options::overwrite_existing);
-  const Outcome outcome = run("report one");
+  const Outcome outcome = run_blocklift("report one");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("results.h5 and summary.json are of different runs"));
 }
@@ -134,7 +132,7 @@ initial:
   velocities: {a: [0 m/s, 0 m/s, 0 m/s, 0 rad/s, 1.5e8 rad/s, 1 rad/s]}
 simulate: {duration: 10 s, relative_tolerance: 1e-6}
 )");
-  const Outcome outcome = run("simulate mechanism.yaml -o results");
+  const Outcome outcome = run_blocklift("simulate mechanism.yaml -o results");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err,
               AllOf(HasSubstr("failed at t = "), HasSubstr("something moves far too fast")));
@@ -150,7 +148,7 @@ load_table: {direction: [0, 0, 1], static: {L1: 1 t}, dynamic: {L1: 1 t}}
   folder.write("plate.yaml", "kind: block\nmass: much\n");
   folder.write("one.yaml", "case: one" + shared);
   folder.write("other.yaml", "case: other" + shared);
-  const Outcome outcome = run("validate one.yaml other.yaml");
+  const Outcome outcome = run_blocklift("validate one.yaml other.yaml");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.out, "");
 }
@@ -164,7 +162,7 @@ mass: 1640 t
 centre_of_mass: [0 m, 0 m, 3 m]
 radii_of_gyration: [6 m, 11 m, 11 m]
 )");
-  const Outcome outcome = run("validate vessel.yaml");
+  const Outcome outcome = run_blocklift("validate vessel.yaml");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("vessel.yaml:1:1: error: a hull of 40 x 20 x 100000 m"),
                                  HasSubstr("1.2e+07 panels")));
@@ -175,7 +173,7 @@ TEST(DamagedMesh, IsRefusedByItsName) {
   folder.write("part.yaml", part);
   const auto outcome_of = [&](const std::string& mesh) {
     folder.write("cube.msh", mesh);
-    return run("stress part.yaml -o results");
+    return run_blocklift("stress part.yaml -o results");
   };
   EXPECT_EQ(outcome_of(cube("2.2", sound_solid, "0 1 1")).exit_code, 0);
   const std::string bad_meshes[] = {

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/damage.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -35,9 +36,7 @@ class DamagedResultsCommand : public ::testing::Test {
     EXPECT_EQ(held.exit_code, 0) << held.err;
   }
 
-  static Outcome run(const std::string& arguments) {
-    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-  }
+  static Outcome run(const std::string& arguments) { return test::run_blocklift(arguments); }
 
   /// One of the commands on the results in `tried`, each of them once in every five calls.
   void expect_answer() {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -86,7 +87,7 @@ TEST(FailingCalls, OfASimulationLeaveEarlierResultsWhole) {
   const TemporaryFolder folder;
   folder.write("mechanism.yaml", spring);
   const std::string arguments = "simulate mechanism.yaml --csv -o results";
-  ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, arguments).exit_code, 0);
+  ASSERT_EQ(test::run_blocklift(arguments).exit_code, 0);
   EXPECT_GE(fail_in_turn({"open", "error"}, arguments, 20), 4);
   EXPECT_GE(fail_in_turn({"write", "error"}, arguments, 8), 8);
   EXPECT_GE(fail_in_turn({"write", "full"}, arguments, 8), 8);
@@ -98,7 +99,7 @@ TEST(FailingCalls, OfASimulationLeaveEarlierResultsWhole) {
 TEST(FailingCalls, OfAnAssessmentLeaveEarlierResultsWhole) {
   const TemporaryFolder folder;
   const std::string arguments = "assess '" BLOCKLIFT_SMALL_LIFT "' -o results";
-  ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, arguments).exit_code, 0);
+  ASSERT_EQ(test::run_blocklift(arguments).exit_code, 0);
   const auto before = contents_of("results");
   const std::pair<Fault, int> faults[] = {{{"rename", "error"}, 12},
                                           {{"rename", "error"}, 15},
@@ -123,7 +124,7 @@ loads:
   pull: {groups: [end], force: [600 kN, 0 kN, 0 kN]}
 )";
 
-constexpr auto bar_geometry = R"(
+constexpr auto coarse_bar_geometry = R"(
 Point(1) = {0, 0, 0}; Point(2) = {2000, 0, 0}; Point(3) = {2000, 300, 0}; Point(4) = {0, 300, 0};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
@@ -137,9 +138,9 @@ Physical Surface("end") = {out[3]};
 TEST(FailingCalls, OfAPartsStressLeaveEarlierResultsWhole) {
   const TemporaryFolder folder;
   folder.write("bar.yaml", bar);
-  folder.write("bar.geo", bar_geometry);
+  folder.write("bar.geo", coarse_bar_geometry);
   const std::string arguments = "stress bar.yaml -o results";
-  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  const Outcome whole = test::run_blocklift(arguments);
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   EXPECT_GE(fail_in_turn({"open", "error"}, arguments, 4), 2);
   EXPECT_GE(fail_in_turn({"write", "full"}, arguments, 4), 4);
@@ -154,7 +155,7 @@ TEST(FailingCalls, OfAStudyLeaveEarlierResultsWhole) {
                "study: spread\ncase: lift\nmembers: 3\nvary:\n  weight: {keys: ['block:mass'], "
                "spread: {law: normal, mean: 8 t, deviation: 0.2 t}}\n");
   const std::string arguments = "sweep study.yaml -o results";
-  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  const Outcome whole = test::run_blocklift(arguments);
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   // The members are done; the study's own files are written again.
   for (const auto& [fault, at] : {std::pair<Fault, int>{{"write", "error"}, 1},
@@ -177,7 +178,7 @@ TEST(FailingCalls, OfTheWorstMembersReportAreNoSuccess) {
                "study: spread\ncase: lift\nmembers: 2\nvary:\n  weight: {keys: ['block:mass'], "
                "spread: {law: normal, mean: 8 t, deviation: 0.2 t}}\n");
   const std::string arguments = "sweep study.yaml -o results";
-  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  const Outcome whole = test::run_blocklift(arguments);
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   // The members are done. The process that writes the report alone has so many calls.
   const auto before = contents_of("results/worst");
@@ -187,7 +188,7 @@ TEST(FailingCalls, OfTheWorstMembersReportAreNoSuccess) {
   EXPECT_TRUE(contents_of("results/worst") == before);
 }
 
-std::string pontoon(int frequencies) {
+std::string pontoon_with(int frequencies) {
   return "kind: vessel\nhull: {barge: {length: 12 m, breadth: 8 m, depth: 4 m}}\n"
          "panel_size: 1 m\nmass: 150 t\ncentre_of_mass: [0 m, 0 m, 2 m]\n"
          "radii_of_gyration: [3 m, 4 m, 4 m]\n"
@@ -198,11 +199,11 @@ std::string pontoon(int frequencies) {
 TEST(FailingCalls, OfADatabaseLeaveTheEarlierOneAndItsPage) {
   const TemporaryFolder folder;
   const std::string arguments = "hydro pontoon -o results/pontoon.h5";
-  folder.write("pontoon/vessel.yaml", pontoon(4));
-  const Outcome whole = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  folder.write("pontoon/vessel.yaml", pontoon_with(4));
+  const Outcome whole = test::run_blocklift(arguments);
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
   const auto before = contents_of("results");
-  folder.write("pontoon/vessel.yaml", pontoon(5));
+  folder.write("pontoon/vessel.yaml", pontoon_with(5));
   for (const auto& [fault, at] : {std::pair<Fault, int>{{"write", "error"}, 1},
                                   {{"write", "full"}, 4},
                                   {{"write", "error"}, 9},
@@ -217,7 +218,7 @@ TEST(FailingCalls, OfADatabaseLeaveTheEarlierOneAndItsPage) {
   const std::string page = text_of_file("results/pontoon.html");
   EXPECT_EQ(run_with({"rename", "kill"}, 2, arguments).exit_code, killed);
   EXPECT_EQ(text_of_file("results/pontoon.html"), page);
-  const Outcome again = test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
+  const Outcome again = test::run_blocklift(arguments);
   EXPECT_THAT(again.out, HasSubstr("already computed"));
   EXPECT_NE(text_of_file("results/pontoon.html"), page);
 }
@@ -248,7 +249,7 @@ int run_short_of_memory(const std::string& arguments) {
 TEST(FailingCalls, OfMemoryEndAnAssessment) {
   const TemporaryFolder folder;
   const std::string arguments = "assess '" BLOCKLIFT_SMALL_LIFT "' -o results";
-  ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, arguments).exit_code, 0);
+  ASSERT_EQ(test::run_blocklift(arguments).exit_code, 0);
   EXPECT_GE(run_short_of_memory(arguments), 3);
 }
 
@@ -257,7 +258,7 @@ void expect_one_run(int at) {
   if (fs::exists("results/summary.json") && fs::exists("results/report.html")) {
     EXPECT_THAT(text_of_file("results/report.html"), HasSubstr(run_of_summary())) << at;
   }
-  const Outcome report = test::run_program(BLOCKLIFT_EXECUTABLE, "report results");
+  const Outcome report = test::run_blocklift("report results");
   EXPECT_EQ(report.exit_code, 0) << at << ": " << report.err;
   EXPECT_FALSE(fs::exists("results/.in-preparation/moves.txt")) << at;
   EXPECT_THAT(text_of_file("results/report.html"), HasSubstr(run_of_summary())) << at;
@@ -266,9 +267,7 @@ void expect_one_run(int at) {
 TEST(Kills, BetweenAnyTwoRenamesLeaveNoMixture) {
   const TemporaryFolder folder;
   folder.write("mechanism.yaml", spring);
-  ASSERT_EQ(
-      test::run_program(BLOCKLIFT_EXECUTABLE, "simulate mechanism.yaml --csv -o results").exit_code,
-      0);
+  ASSERT_EQ(test::run_blocklift("simulate mechanism.yaml --csv -o results").exit_code, 0);
   int kills = 0;
   for (int at = 1; at < most_calls; ++at, ++kills) {
     const Outcome outcome =

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -35,7 +36,7 @@ class HydroCommand : public ::testing::Test {
   HydroCommand() { folder_.write("pontoon/vessel.yaml", pontoon); }
 
   static Outcome run(const std::string& arguments) {
-    return test::run_program(BLOCKLIFT_EXECUTABLE, "hydro " + arguments);
+    return test::run_blocklift("hydro " + arguments);
   }
   /// What is said of the pontoon's file with a passage changed.
   std::string complaint(const std::string& from, const std::string& to) const {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -31,9 +32,7 @@ class MeasuredCommand : public ::testing::Test {
                   test::with(text, "wind: {speed: 8 m/s, towards: 60 deg}\n", ""));
   }
 
-  static Outcome run(const std::string& arguments) {
-    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-  }
+  static Outcome run(const std::string& arguments) { return test::run_blocklift(arguments); }
 
   const test::TemporaryFolder folder_;
 };

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -28,9 +29,7 @@ class MeshCommand : public ::testing::Test {
     fs::copy(fs::path(BLOCKLIFT_TEST_CASES) / "mesh-lift", "mesh-lift",
              fs::copy_options::recursive);
   }
-  static Outcome run(const std::string& arguments) {
-    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-  }
+  static Outcome run(const std::string& arguments) { return test::run_blocklift(arguments); }
   void change(const std::string& file, const std::string& old_passage,
               const std::string& new_passage) const {
     const fs::path path = fs::path("mesh-lift") / file;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -22,7 +23,7 @@ using test::text_of_file;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Outcome on_processes(int count, const std::string& arguments) {
+Outcome stress_on_processes(int count, const std::string& arguments) {
   return test::run_command("mpirun --allow-run-as-root --oversubscribe -n " +
                            std::to_string(count) + " '" BLOCKLIFT_EXECUTABLE "' " + arguments);
 }
@@ -37,7 +38,7 @@ class ParallelStress : public ::testing::Test {
  protected:
   ParallelStress() {
     fs::copy(fs::path(BLOCKLIFT_PARTS) / "lame", "ring");
-    alone_ = summary_of(test::run_program(BLOCKLIFT_EXECUTABLE, "stress ring -o alone"), "alone");
+    alone_ = summary_of(test::run_blocklift("stress ring -o alone"), "alone");
   }
   void solve_by(const std::string& method) const {
     folder_.write("ring/part.yaml",
@@ -65,7 +66,7 @@ class ParallelStress : public ::testing::Test {
 };
 
 TEST_F(ParallelStress, TwoProcessesFindTheSameDirectly) {
-  const Outcome outcome = on_processes(2, "stress ring -o two");
+  const Outcome outcome = stress_on_processes(2, "stress ring -o two");
   const json two = summary_of(outcome, "two");
   EXPECT_THAT(outcome.out, HasSubstr("Cholesky factorisation by MUMPS, 2 processes"));
   expect_same(two);
@@ -73,7 +74,7 @@ TEST_F(ParallelStress, TwoProcessesFindTheSameDirectly) {
 
 TEST_F(ParallelStress, ThreeProcessesFindTheSameByIteration) {
   solve_by("iterative");
-  const json three = summary_of(on_processes(3, "stress ring -o three"), "three");
+  const json three = summary_of(stress_on_processes(3, "stress ring -o three"), "three");
   EXPECT_EQ(three["solver"]["processes"], 3);
   EXPECT_GT(three["solver"]["iterations"], 3);
   expect_same(three);
@@ -81,13 +82,13 @@ TEST_F(ParallelStress, ThreeProcessesFindTheSameByIteration) {
 
 TEST_F(ParallelStress, OneProcessFindsTheSameByIteration) {
   solve_by("iterative");
-  const json one = summary_of(test::run_program(BLOCKLIFT_EXECUTABLE, "stress ring -o one"), "one");
+  const json one = summary_of(test::run_blocklift("stress ring -o one"), "one");
   EXPECT_EQ(one["solver"]["name"], "conjugate gradients with algebraic multigrid");
   expect_same(one);
 }
 
 TEST_F(ParallelStress, EachProcessWritesItsPiece) {
-  ASSERT_EQ(on_processes(2, "stress ring -o two").exit_code, 0);
+  ASSERT_EQ(stress_on_processes(2, "stress ring -o two").exit_code, 0);
   EXPECT_THAT(text_of_file("two/part.pvtu"),
               AllOf(HasSubstr("Source=\"part_0.vtu\""), HasSubstr("Source=\"part_1.vtu\"")));
   int cells = 0, elements = 0;
@@ -103,14 +104,14 @@ TEST_F(ParallelStress, EachProcessWritesItsPiece) {
 }
 
 TEST_F(ParallelStress, ErrorsEndAllProcesses) {
-  const Outcome outcome = on_processes(2, "stress nowhere.yaml -o two");
+  const Outcome outcome = stress_on_processes(2, "stress nowhere.yaml -o two");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("nowhere.yaml"));
   EXPECT_FALSE(fs::exists("two"));
 }
 
 TEST_F(ParallelStress, OtherCommandsAreRefused) {
-  const Outcome outcome = on_processes(2, "validate ring");
+  const Outcome outcome = stress_on_processes(2, "validate ring");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err,
               HasSubstr("only \"blocklift stress\" and \"blocklift sweep\" run on several"));

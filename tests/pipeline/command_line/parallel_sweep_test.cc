@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -20,7 +21,7 @@ using ::testing::HasSubstr;
 constexpr const char* launcher = "mpirun --allow-run-as-root --oversubscribe ";
 constexpr const char* program = "'" BLOCKLIFT_EXECUTABLE "' ";
 
-Outcome on_processes(int count, const std::string& arguments) {
+Outcome sweep_on_processes(int count, const std::string& arguments) {
   return test::run_command(launcher + ("-n " + std::to_string(count) + " ") + program + arguments);
 }
 
@@ -42,7 +43,7 @@ class ParallelSweep : public ::testing::Test {
     folder_.write("study.yaml", "study: spread\ncase: lift\n" + lines);
   }
   static void run_alone() {
-    ASSERT_EQ(test::run_program(BLOCKLIFT_EXECUTABLE, "sweep study.yaml -o alone -q").exit_code, 0);
+    ASSERT_EQ(test::run_blocklift("sweep study.yaml -o alone -q").exit_code, 0);
   }
   static void expect_figures_of_alone(const std::string& folder) {
     EXPECT_EQ(text_of_file(folder + "/study.csv"), text_of_file("alone/study.csv"));
@@ -60,12 +61,12 @@ class ParallelSweep : public ::testing::Test {
 
 TEST_F(ParallelSweep, GivesTheSameOnAnyNumberOfProcesses) {
   run_alone();
-  const Outcome two = on_processes(2, "sweep study.yaml -o two --log two.log");
+  const Outcome two = sweep_on_processes(2, "sweep study.yaml -o two --log two.log");
   ASSERT_EQ(two.exit_code, 0) << two.err;
   EXPECT_THAT(two.out, testing::StartsWith("spread\n"));
   EXPECT_EQ(two.out.find("60 members, 0 failed"), two.out.rfind("60 members, 0 failed"));
   EXPECT_THAT(two.err, testing::MatchesRegex(test::only_progress));
-  ASSERT_EQ(on_processes(3, "sweep study.yaml -o three -q --workers 2").exit_code, 0);
+  ASSERT_EQ(sweep_on_processes(3, "sweep study.yaml -o three -q --workers 2").exit_code, 0);
   expect_figures_of_alone("two");
   expect_figures_of_alone("three");
 }
@@ -75,7 +76,7 @@ TEST_F(ParallelSweep, FindsTheStressOnSeveralProcesses) {
       "run: stress\ndesign: grid\nfigures: [structure.history.dynamic.checked_von_mises_Pa]\n"
       "vary:\n  weight: {keys: ['block:mass'], values: [8 t, 8.2 t, 8.4 t]}\n");
   run_alone();
-  ASSERT_EQ(on_processes(2, "sweep study.yaml -o two -q").exit_code, 0);
+  ASSERT_EQ(sweep_on_processes(2, "sweep study.yaml -o two -q").exit_code, 0);
   expect_figures_of_alone("two");
 }
 
@@ -85,7 +86,7 @@ TEST_F(ParallelSweep, SearchesOnSeveralProcesses) {
       "vary: {weight: {keys: ['block:mass'], between: [7 t, 9 t]}}\n"
       "subject_to: [{figure: ropes.R2.max_static_tension_N, at_most: 23 kN}]\n");
   run_alone();
-  const Outcome two = on_processes(2, "sweep study.yaml -o two -q");
+  const Outcome two = sweep_on_processes(2, "sweep study.yaml -o two -q");
   ASSERT_EQ(two.exit_code, 0) << two.err;
   expect_figures_of_alone("two");
 }
@@ -96,7 +97,7 @@ TEST_F(ParallelSweep, GoesOnAfterAProcessWasKilled) {
   EXPECT_NE(run_with_a_lost_process("").exit_code, 0);
   EXPECT_FALSE(fs::exists("out/study.json"));
   EXPECT_TRUE(fs::exists("out/members/000000.json"));
-  ASSERT_EQ(on_processes(2, "sweep study.yaml -o out -q").exit_code, 0);
+  ASSERT_EQ(sweep_on_processes(2, "sweep study.yaml -o out -q").exit_code, 0);
   expect_figures_of_alone("out");
 }
 
@@ -119,7 +120,7 @@ TEST_F(ParallelSweep, GivesALostWorkersMemberToAnother) {
 }
 
 TEST_F(ParallelSweep, SaysOnceWhatIsWrong) {
-  const Outcome outcome = on_processes(3, "sweep nowhere.yaml -o out");
+  const Outcome outcome = sweep_on_processes(3, "sweep nowhere.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 2);
   const std::string said = "nowhere.yaml: error: there is no such file";
   EXPECT_THAT(outcome.err, HasSubstr(said));

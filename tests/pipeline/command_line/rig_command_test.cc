@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/rigging/sample_stock.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -23,9 +24,7 @@ using ::testing::HasSubstr;
 class RigCommand : public ::testing::Test {
  protected:
   RigCommand() { fs::copy(BLOCKLIFT_SMALL_LIFT, "lift", fs::copy_options::recursive); }
-  static Outcome run(const std::string& arguments) {
-    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-  }
+  static Outcome run(const std::string& arguments) { return test::run_blocklift(arguments); }
   const test::TemporaryFolder folder_;
 };
 

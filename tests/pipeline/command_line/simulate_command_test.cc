@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/formats/results_store.h"
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Outcome;
+using test::run_blocklift;
 using test::TemporaryFolder;
 using test::text_of_file;
 using test::with;
@@ -28,13 +30,9 @@ using ::testing::StartsWith;
 
 const std::string samples = BLOCKLIFT_MECHANISMS;
 
-Outcome run(const std::string& arguments) {
-  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-}
-
 TEST(SimulateCommand, WritesTheSliderCrankAsItsClosedFormHasIt) {
   const TemporaryFolder folder;
-  const Outcome outcome = run("simulate " + samples + "/slider-crank --csv -o out");
+  const Outcome outcome = run_blocklift("simulate " + samples + "/slider-crank --csv -o out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_THAT(outcome.out, HasSubstr("loops: loop \"wrist_pin\", displacement along y, repeats"));
@@ -62,7 +60,8 @@ TEST(SimulateCommand, WritesTheSliderCrankAsItsClosedFormHasIt) {
 
 TEST(SimulateCommand, KeepsTheEnergyOfTheDoublePendulumAndWritesItAsCsv) {
   const TemporaryFolder folder;
-  const Outcome outcome = run("simulate " + samples + "/double-pendulum/mechanism.yaml --csv");
+  const Outcome outcome =
+      run_blocklift("simulate " + samples + "/double-pendulum/mechanism.yaml --csv");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::istringstream csv(text_of_file("results/double-pendulum/results.csv"));
   std::string line;
@@ -83,7 +82,7 @@ TEST(SimulateCommand, KeepsTheEnergyOfTheDoublePendulumAndWritesItAsCsv) {
 
 TEST(SimulateCommand, StartsTheLuffingCraneAtRestAndAccountsForItsEnergy) {
   const TemporaryFolder folder;
-  const Outcome outcome = run("simulate " + samples + "/luffing-crane");
+  const Outcome outcome = run_blocklift("simulate " + samples + "/luffing-crane");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("rope pendant: at most "));
   EXPECT_FALSE(fs::exists("results/luffing-crane/results.csv"));
@@ -117,7 +116,7 @@ joints:
   B: {kind: revolute, parent: arm, child: rod}
 simulate: {duration: 0.1 s}
 )");
-  const Outcome outcome = run("simulate mechanism.yaml -o out");
+  const Outcome outcome = run_blocklift("simulate mechanism.yaml -o out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const ResultsReader results("out/results.h5");
   const Array<double> box = results.read("/scene/bodies/arm/boxes");
@@ -141,7 +140,7 @@ TEST(SimulateCommand, RunsARobotDescription) {
   <transmission name="t"/>
 </robot>
 )");
-  const Outcome outcome = run("simulate arm.urdf");
+  const Outcome outcome = run_blocklift("simulate arm.urdf");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("note: links base have no inertia and count as massless\n"));
   EXPECT_THAT(outcome.out, HasSubstr("note: elements <transmission> play no part\n"));
@@ -151,7 +150,8 @@ TEST(SimulateCommand, RunsARobotDescription) {
 
 TEST(SimulateCommand, SimulatesALiftCaseWithoutItsStress) {
   const TemporaryFolder folder;
-  const Outcome outcome = run(std::string("simulate ") + BLOCKLIFT_SMALL_LIFT + " --csv -o out");
+  const Outcome outcome =
+      run_blocklift(std::string("simulate ") + BLOCKLIFT_SMALL_LIFT + " --csv -o out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const ResultsReader results("out/results.h5");
   EXPECT_TRUE(results.has("/static/ropes/R1/tension"));
@@ -171,7 +171,7 @@ TEST(SimulateCommand, TellsWrongInputBeforeItRuns) {
   const std::string pendulum = text_of_file(samples + "/double-pendulum/mechanism.yaml");
   folder.write("wrong.yaml", with(with(pendulum, "{joint: shoulder}", "{joint: sholder}"),
                                   "duration: 5 s", "duration: 5 m"));
-  const Outcome outcome = run("simulate wrong.yaml");
+  const Outcome outcome = run_blocklift("simulate wrong.yaml");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err,
               HasSubstr("error: duration \"5 m\" is a length; a time is due, for example"));
@@ -186,10 +186,10 @@ TEST(SimulateCommand, TellsWrongInputBeforeItRuns) {
 TEST(SimulateCommand, TellsWhatItTakes) {
   const TemporaryFolder folder;
   folder.write("rope.yaml", test::sample_rope);
-  const Outcome rope = run("simulate rope.yaml");
+  const Outcome rope = run_blocklift("simulate rope.yaml");
   EXPECT_EQ(rope.exit_code, 2);
   EXPECT_THAT(rope.err, HasSubstr("this file describes a part, which does nothing by itself"));
-  const Outcome nothing = run("simulate nothing.yaml");
+  const Outcome nothing = run_blocklift("simulate nothing.yaml");
   EXPECT_EQ(nothing.exit_code, 2);
   EXPECT_THAT(nothing.err, HasSubstr("nothing.yaml: error: there is no such file"));
 }
@@ -197,7 +197,7 @@ TEST(SimulateCommand, TellsWhatItTakes) {
 TEST(SimulateCommand, LeavesResultsAsTheyAreWhereItCannotWrite) {
   const TemporaryFolder folder;
   folder.write("out", "a file of mine");
-  const Outcome outcome = run("simulate " + samples + "/double-pendulum -o out");
+  const Outcome outcome = run_blocklift("simulate " + samples + "/double-pendulum -o out");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("results cannot be written here"));
   EXPECT_EQ(text_of_file("out"), "a file of mine");
@@ -205,8 +205,8 @@ TEST(SimulateCommand, LeavesResultsAsTheyAreWhereItCannotWrite) {
 
 TEST(SimulateCommand, ValidateTakesMechanismsToo) {
   const TemporaryFolder folder;
-  const Outcome outcome =
-      run("validate " + samples + "/luffing-crane " + samples + "/slider-crank/mechanism.yaml");
+  const Outcome outcome = run_blocklift("validate " + samples + "/luffing-crane " + samples +
+                                        "/slider-crank/mechanism.yaml");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out,
               HasSubstr("valid, mechanism luffing-crane with 3 bodies, 3 joints and 0 loops"));

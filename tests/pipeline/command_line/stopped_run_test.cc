@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -40,7 +41,7 @@ class StoppedRun : public ::testing::Test {
 };
 
 Outcome assess(const std::string& more = "") {
-  return test::run_program(BLOCKLIFT_EXECUTABLE, "assess lift -o results " + more);
+  return test::run_blocklift("assess lift -o results " + more);
 }
 
 /// Kills the program at a rename: files are kept and results come into place by renames alone.

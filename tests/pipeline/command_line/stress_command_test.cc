@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -15,14 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Outcome;
+using test::run_blocklift;
 using test::TemporaryFolder;
 using test::text_of_file;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-Outcome run(const std::string& arguments) {
-  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-}
 
 const char* const bar_geometry = R"(
 Point(1) = {0, 0, 0}; Point(2) = {2000, 0, 0}; Point(3) = {2000, 300, 0}; Point(4) = {0, 300, 0};
@@ -63,7 +61,7 @@ class StressCommand : public ::testing::Test {
     folder_.write("bar.yaml", text.replace(at, old_passage.size(), new_passage));
   }
   void expect_refused(const ::testing::Matcher<std::string>& message) const {
-    const Outcome outcome = run("stress bar.yaml");
+    const Outcome outcome = run_blocklift("stress bar.yaml");
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, message);
     EXPECT_FALSE(fs::exists("results"));
@@ -74,7 +72,7 @@ class StressCommand : public ::testing::Test {
 
 // F/A = 10 MPa and F L / (E A) = 97.1 micrometres, with Poisson's ratio 0 exact for any mesh.
 TEST_F(StressCommand, SolvesAndWritesResults) {
-  const Outcome outcome = run("stress bar.yaml --calculix");
+  const Outcome outcome = run_blocklift("stress bar.yaml --calculix");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("von Mises MPa"), HasSubstr("middle"),
                                  HasSubstr("results: results/bar")));
@@ -97,7 +95,7 @@ TEST_F(StressCommand, FindsNaturalModes) {
   std::string text = bar_part;
   text.erase(text.find("supports:"));
   folder_.write("bar.yaml", text + "modes: 8\n");
-  const Outcome outcome = run("stress bar.yaml");
+  const Outcome outcome = run_blocklift("stress bar.yaml");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("natural mode"), HasSubstr("rigid motion")));
   EXPECT_TRUE(fs::is_regular_file("results/bar/modes.vtu"));
@@ -118,7 +116,7 @@ TEST_F(StressCommand, RefinesUntilTheAccuracyIsMet) {
   text.replace(text.find("groups: [end], force: [600 kN, 0 kN, 0 kN]"), 42,
                "gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]");
   folder_.write("bar.yaml", text);
-  const Outcome outcome = run("stress bar.yaml");
+  const Outcome outcome = run_blocklift("stress bar.yaml");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
   const auto& steps = summary["refinement"];
@@ -140,7 +138,7 @@ TEST_F(StressCommand, ExtrapolatesToAWeldToe) {
   text +=
       "hot_spots:\n  toe: {toe: [0.5 m, 0.3 m, 0.1 m], direction: [1, 0, 0], thickness: 200 mm}\n";
   folder_.write("bar.yaml", text);
-  const Outcome outcome = run("stress bar.yaml");
+  const Outcome outcome = run_blocklift("stress bar.yaml");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("hot spot"));
   const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
@@ -179,7 +177,7 @@ supports: {base: {groups: [base]}}
 loads:
   pin: {groups: [hole], bearing: {force: [30 kN, 100 kN, -5 kN], axis: [0, 0, 1], point: [0 m, 0 m, 0 m]}}
 )");
-  const Outcome outcome = run("stress eye.yaml");
+  const Outcome outcome = run_blocklift("stress eye.yaml");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(text_of_file("results/eye/summary.json"));
   const auto& force = summary["reactions"]["base"]["force_N"];
@@ -229,14 +227,14 @@ TEST_F(StressCommand, LoadsOfNoOrTwoKindsAreRefused) {
 
 TEST_F(StressCommand, WeightNeedsADensity) {
   change("density: 7850 kg/m^3, ", "");
-  EXPECT_EQ(run("stress bar.yaml").exit_code, 0);
+  EXPECT_EQ(run_blocklift("stress bar.yaml").exit_code, 0);
   std::string text = text_of_file("bar.yaml");
   text += "  weight: {gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]}\n";
   const std::string probes =
       text.substr(text.find("probes:"), text.rfind("  weight") - text.find("probes:"));
   text.erase(text.find("probes:"), probes.size());
   folder_.write("bar.yaml", text + probes);
-  const Outcome outcome = run("stress bar.yaml");
+  const Outcome outcome = run_blocklift("stress bar.yaml");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("no density"));
 }
@@ -255,13 +253,13 @@ TEST_F(StressCommand, FacesAreChosenByBoxes) {
   std::string text = text_of_file("bar.yaml");
   text.replace(text.find("groups: [root]"), 14, "groups: [left]");
   folder_.write("bar.yaml", text);
-  const Outcome outcome = run("stress bar.yaml");
+  const Outcome outcome = run_blocklift("stress bar.yaml");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
   EXPECT_NEAR(summary["reactions"]["root"]["force_N"][0], -600e3, 1e-3);
   text.replace(text.find("to: [0 m, 0.3 m"), 15, "to: [0 m, 0.1 m");
   folder_.write("bar.yaml", text);
-  const Outcome missed = run("stress bar.yaml -o elsewhere");
+  const Outcome missed = run_blocklift("stress bar.yaml -o elsewhere");
   EXPECT_EQ(missed.exit_code, 2);
   EXPECT_THAT(missed.err, AllOf(HasSubstr("bar.yaml:3:"),
                                 HasSubstr("no outer face of the part lies in the box"),
@@ -275,14 +273,14 @@ TEST_F(StressCommand, RefinesWhereTheStressIsChecked) {
   std::string text = text_of_file("bar.yaml");
   text.replace(text.find("at: [1 m, 0.1 m, 0.1 m]"), 23, "at: [1 m, 0.3 m, 0.1 m]");
   folder_.write("bar.yaml", text + "checked_stress: {accuracy: 4 %, probes: [middle]}\n");
-  const Outcome outcome = run("stress bar.yaml");
+  const Outcome outcome = run_blocklift("stress bar.yaml");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
   const double exact = 60e3 * 1 * 6 / (0.2 * 0.3 * 0.3);
   EXPECT_NEAR(summary["probes"]["middle"]["stress_Pa"]["xx"], exact, 0.04 * exact);
   EXPECT_LT(summary["refinement"].back()["checked_error"], 0.04);
   folder_.write("bar.yaml", text + "checked_stress: {accuracy: 4 %, probes: [axis]}\n");
-  const Outcome line = run("stress bar.yaml -o elsewhere");
+  const Outcome line = run_blocklift("stress bar.yaml -o elsewhere");
   EXPECT_EQ(line.exit_code, 2);
   EXPECT_THAT(line.err, HasSubstr("there is no point probe \"axis\""));
 }
@@ -301,7 +299,7 @@ loads:
 // the force.
 TEST_F(StressCommand, APadeyeHasItsHandFormulaeBesideIt) {
   folder_.write("eye.yaml", padeye_part);
-  const Outcome outcome = run("stress eye.yaml");
+  const Outcome outcome = run_blocklift("stress eye.yaml");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("hand formula"), HasSubstr("cheek plates")));
   const auto summary = nlohmann::json::parse(text_of_file("results/eye/summary.json"));
@@ -318,7 +316,7 @@ TEST_F(StressCommand, PadeyesThatDoNotFitAreRefused) {
     std::string text = padeye_part;
     text.replace(text.find(from), from.size(), to);
     folder_.write("eye.yaml", text);
-    const Outcome outcome = run("stress eye.yaml");
+    const Outcome outcome = run_blocklift("stress eye.yaml");
     EXPECT_EQ(outcome.exit_code, 2);
     return outcome.err;
   };
@@ -331,7 +329,7 @@ TEST_F(StressCommand, PadeyesThatDoNotFitAreRefused) {
 }
 
 TEST_F(StressCommand, IsValidated) {
-  const Outcome outcome = run("validate bar.yaml");
+  const Outcome outcome = run_blocklift("validate bar.yaml");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("valid, part bar with"));
 }

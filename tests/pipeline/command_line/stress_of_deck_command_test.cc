@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -18,9 +19,7 @@ using test::text_of_file;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-Outcome stress(const std::string& arguments) {
-  return test::run_program(BLOCKLIFT_EXECUTABLE, "stress " + arguments);
-}
+Outcome stress(const std::string& arguments) { return test::run_blocklift("stress " + arguments); }
 
 const char* const strip_block = R"(
 kind: block

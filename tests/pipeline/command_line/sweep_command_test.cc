@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/sling_over_edge_lift.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -34,9 +35,7 @@ class SweepCommand : public ::testing::Test {
   void write_study(const std::string& lines) const {
     folder_.write("study.yaml", "study: spread\ncase: lift\n" + lines);
   }
-  static Outcome run(const std::string& arguments) {
-    return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-  }
+  static Outcome run(const std::string& arguments) { return test::run_blocklift(arguments); }
   static nlohmann::json figure(const std::string& folder, const std::string& name) {
     const auto study = nlohmann::json::parse(text_of_file(folder + "/study.json"));
     for (const auto& one : study["figures"])

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -13,14 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::Outcome;
+using test::run_blocklift;
 using test::SampleLift;
 using test::TemporaryFolder;
 using test::with;
-
-/// Runs the program in the working directory.
-Outcome run(const std::string& arguments) {
-  return test::run_program(BLOCKLIFT_EXECUTABLE, arguments);
-}
 
 std::size_t files_in(const fs::path& folder) {
   std::size_t count = 0;
@@ -31,7 +28,7 @@ std::size_t files_in(const fs::path& folder) {
 TEST(ValidateCommand, TakesTheShippedCases) {
   for (const auto& folder : fs::directory_iterator(BLOCKLIFT_CASES)) {
     if (!fs::exists(folder.path() / "case.yaml")) continue;
-    const Outcome outcome = run("validate '" + folder.path().string() + "'");
+    const Outcome outcome = run_blocklift("validate '" + folder.path().string() + "'");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
   }
@@ -40,7 +37,8 @@ TEST(ValidateCommand, TakesTheShippedCases) {
 TEST(ValidateCommand, SaysWhatIsInASoundFile) {
   const TemporaryFolder folder;
   SampleLift().write(folder);
-  const Outcome outcome = run("validate . gantry/crane.yaml plate.yaml gantry/ropes/tackle.yaml");
+  const Outcome outcome =
+      run_blocklift("validate . gantry/crane.yaml plate.yaml gantry/ropes/tackle.yaml");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.err, "");
   EXPECT_EQ(outcome.out,
@@ -55,7 +53,7 @@ TEST(ValidateCommand, WarnsOfDoubtfulValues) {
   SampleLift lift;
   lift.block = with(lift.block, "206 GPa", "0.2 GPa");
   lift.write(folder);
-  const Outcome outcome = run("validate .");
+  const Outcome outcome = run_blocklift("validate .");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("warning: Material steel has a Young's modulus of 0.2 GPa"),
             std::string::npos)
@@ -70,7 +68,7 @@ TEST(ValidateCommand, SaysEverythingThatIsWrongAndWritesNothing) {
   lift.crane = with(lift.crane, "mass: 8 t", "mass: -8 t");
   lift.write(folder);
   const std::size_t files_before = files_in(folder.path());
-  const Outcome outcome = run("validate case.yaml");
+  const Outcome outcome = run_blocklift("validate case.yaml");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.out, "");
   EXPECT_EQ(
@@ -93,7 +91,8 @@ TEST(ValidateCommand, RefusesFilesThatAreNoInput) {
                "e\n");
   folder.write("huge.yaml", "a: 1\n");
   fs::resize_file("huge.yaml", 50'000'000);
-  const Outcome outcome = run("validate empty.yaml binary.yaml latin1.yaml huge.yaml missing.yaml");
+  const Outcome outcome =
+      run_blocklift("validate empty.yaml binary.yaml latin1.yaml huge.yaml missing.yaml");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.err,
             "empty.yaml: error: the file is empty; keys and values are due\n"
@@ -112,9 +111,9 @@ TEST(ValidateCommand, FindsModelsWhereTheEnvironmentSays) {
   folder.write("elsewhere/cranes/small/crane.yaml", lift.crane);
   folder.write("elsewhere/ropes/tackle.yaml", lift.rope);
   setenv("BLOCKLIFT_MODELS", (folder.path() / "elsewhere").c_str(), 1);
-  const Outcome found = run("validate case.yaml");
+  const Outcome found = run_blocklift("validate case.yaml");
   setenv("BLOCKLIFT_MODELS", "/nowhere", 1);
-  const Outcome missing = run("validate case.yaml");
+  const Outcome missing = run_blocklift("validate case.yaml");
   unsetenv("BLOCKLIFT_MODELS");
   EXPECT_EQ(found.exit_code, 0) << found.err;
   EXPECT_EQ(missing.exit_code, 2);
@@ -130,36 +129,36 @@ TEST(ValidateCommand, ReadsNothingOutsideUnlessThatIsAllowed) {
   folder.write("case/plate.yaml", lift.block);
   folder.write("case/ropes/tackle.yaml", lift.rope);
   folder.write("yard/gantry.yaml", lift.crane);
-  const Outcome refused = run("validate case");
+  const Outcome refused = run_blocklift("validate case");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("case.yaml:6:12: error: \"../yard/gantry\" leads outside"),
             std::string::npos)
       << refused.err;
-  EXPECT_EQ(run("validate case --allow-outside").exit_code, 0);
+  EXPECT_EQ(run_blocklift("validate case --allow-outside").exit_code, 0);
   setenv("BLOCKLIFT_ALLOW_OUTSIDE", "1", 1);
-  EXPECT_EQ(run("validate case").exit_code, 0);
+  EXPECT_EQ(run_blocklift("validate case").exit_code, 0);
   setenv("BLOCKLIFT_MODELS", (folder.path() / "yard").c_str(), 1);
   unsetenv("BLOCKLIFT_ALLOW_OUTSIDE");
-  EXPECT_EQ(run("validate case").exit_code, 0);  // it lies among the models now
+  EXPECT_EQ(run_blocklift("validate case").exit_code, 0);  // it lies among the models now
   unsetenv("BLOCKLIFT_MODELS");
 }
 
 TEST(ValidateCommand, TellsWrongUseByItsExitCode) {
   const TemporaryFolder folder;
-  EXPECT_EQ(run("").exit_code, 2);
-  EXPECT_EQ(run("validate").exit_code, 2);
-  EXPECT_EQ(run("lift everything").exit_code, 2);
-  EXPECT_EQ(run("--help").exit_code, 0);
-  EXPECT_EQ(run("--version").out.substr(0, 10), "blocklift ");
+  EXPECT_EQ(run_blocklift("").exit_code, 2);
+  EXPECT_EQ(run_blocklift("validate").exit_code, 2);
+  EXPECT_EQ(run_blocklift("lift everything").exit_code, 2);
+  EXPECT_EQ(run_blocklift("--help").exit_code, 0);
+  EXPECT_EQ(run_blocklift("--version").out.substr(0, 10), "blocklift ");
 }
 
 TEST(SchemaCommand, PrintsSchemaAndManual) {
   const TemporaryFolder folder;
-  const Outcome schema = run("schema --kind rope");
+  const Outcome schema = run_blocklift("schema --kind rope");
   EXPECT_EQ(schema.exit_code, 0);
   EXPECT_EQ(schema.out.substr(0, 2), "{\n");
-  EXPECT_EQ(run("schema --manual").out.substr(0, 14), "# Input files\n");
-  EXPECT_EQ(run("schema --kind boat").exit_code, 2);
+  EXPECT_EQ(run_blocklift("schema --manual").out.substr(0, 14), "# Input files\n");
+  EXPECT_EQ(run_blocklift("schema --kind boat").exit_code, 2);
 }
 
 TEST(ValidateCommand, SaysWhatTheMeshGeneratorWillRefuse) {
@@ -172,7 +171,7 @@ TEST(ValidateCommand, SaysWhatTheMeshGeneratorWillRefuse) {
       "plate.yaml:1:1: error: not joined to the rest of the block: L1 at x = 0 m; extend them "
       "until they reach another plate\n1 error\n";
   for (const char* file : {"validate case.yaml", "validate plate.yaml", "assess case.yaml"}) {
-    const Outcome outcome = run(file);
+    const Outcome outcome = run_blocklift(file);
     EXPECT_EQ(outcome.exit_code, 2) << file;
     EXPECT_EQ(outcome.err, complaint) << file;
     EXPECT_FALSE(fs::exists("results"));
@@ -180,16 +179,16 @@ TEST(ValidateCommand, SaysWhatTheMeshGeneratorWillRefuse) {
 }
 
 TEST(ValidateCommand, RefusesAnEmptyName) {
-  const Outcome outcome = run("validate ''");
+  const Outcome outcome = run_blocklift("validate ''");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.err.substr(0, 45), "input: error: the name of the case is empty\n ");
 }
 
-TEST(AssessCommand, SaysBeforeTheRunThatResultsCannotBeWritten) {
+TEST(AssessBeforeTheRun, SaysThatResultsCannotBeWritten) {
   const TemporaryFolder folder;
   SampleLift().write(folder);
   folder.write("taken", "a file");
-  const Outcome outcome = run("assess case.yaml --output taken/results");
+  const Outcome outcome = run_blocklift("assess case.yaml --output taken/results");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.err, "taken/results: error: results cannot be written here: " +
                              (folder.path() / "taken").string() +

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/pipeline/command_line/run_blocklift.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -23,7 +24,7 @@ using ::testing::Not;
 class VerifyCommand : public ::testing::Test {
  protected:
   static Outcome run(const std::string& arguments) {
-    return test::run_program(BLOCKLIFT_EXECUTABLE, "verify " + arguments);
+    return test::run_blocklift("verify " + arguments);
   }
   const TemporaryFolder folder_;
 };

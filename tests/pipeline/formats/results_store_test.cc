@@ -41,7 +41,7 @@ class ResultsStore : public ::testing::Test {
 
 /// The text of the exception that `action` throws; empty if it throws none.
 template <typename Action>
-std::string message_of(const Action& action) {
+std::string results_error_of(const Action& action) {
   try {
     action();
   } catch (const ResultsError& error) {
@@ -135,15 +135,15 @@ TEST_F(ResultsStore, ErrorsNameFileAndDatasetAndSayWhatIsThere) {
   writer.write("/static/time", std::vector<double>{0, 1}, {"s", "time"});
   writer.write_text("/case/yaml", "x", "case file");
   EXPECT_THAT(
-      message_of([&] {
+      results_error_of([&] {
         writer.write("/static/time", std::vector<double>{0}, {"s", "again"});
       }),
       AllOf(HasSubstr("results.h5"), HasSubstr("/static/time"), HasSubstr("written already")));
-  EXPECT_THAT(message_of([&] {
+  EXPECT_THAT(results_error_of([&] {
                 writer.write_indices("/quads", std::vector<std::int32_t>(7), 4, {"1", "quads"});
               }),
               HasSubstr("7 numbers do not fill rows of 4"));
-  EXPECT_THAT(message_of([&] {
+  EXPECT_THAT(results_error_of([&] {
                 writer.write_number("/static/time/x", 1, {"1", "x"});
               }),
               HasSubstr("/static/time"));
@@ -152,19 +152,21 @@ TEST_F(ResultsStore, ErrorsNameFileAndDatasetAndSayWhatIsThere) {
   ::testing::internal::CaptureStderr();
   const ResultsReader reader(path);
   EXPECT_THAT(
-      message_of([&] { reader.read("/static/ropes/R1"); }),
+      results_error_of([&] { reader.read("/static/ropes/R1"); }),
       AllOf(HasSubstr("results.h5"), HasSubstr("/static/ropes/R1"), HasSubstr("holds time")));
-  EXPECT_THAT(message_of([&] { reader.read("/static"); }), HasSubstr("is not a dataset"));
-  EXPECT_THAT(message_of([&] { reader.read("/case/yaml"); }),
+  EXPECT_THAT(results_error_of([&] { reader.read("/static"); }), HasSubstr("is not a dataset"));
+  EXPECT_THAT(results_error_of([&] { reader.read("/case/yaml"); }),
               HasSubstr("holds texts; numbers are due"));
-  EXPECT_THAT(message_of([&] { reader.read_indices("/static/time"); }),
+  EXPECT_THAT(results_error_of([&] { reader.read_indices("/static/time"); }),
               HasSubstr("integers are due"));
-  EXPECT_THAT(message_of([&] { reader.read_text("/static/time"); }), HasSubstr("texts are due"));
-  EXPECT_THAT(message_of([&] { reader.read_text_attribute("/case", "title"); }),
+  EXPECT_THAT(results_error_of([&] { reader.read_text("/static/time"); }),
+              HasSubstr("texts are due"));
+  EXPECT_THAT(results_error_of([&] { reader.read_text_attribute("/case", "title"); }),
               HasSubstr("no attribute \"title\""));
-  EXPECT_THAT(message_of([&] { ResultsReader(folder_ / "none.h5"); }), HasSubstr("no such file"));
+  EXPECT_THAT(results_error_of([&] { ResultsReader(folder_ / "none.h5"); }),
+              HasSubstr("no such file"));
   write_file(folder_ / "broken.h5", "this is not HDF5");
-  EXPECT_THAT(message_of([&] { ResultsReader(folder_ / "broken.h5"); }),
+  EXPECT_THAT(results_error_of([&] { ResultsReader(folder_ / "broken.h5"); }),
               HasSubstr("not a readable HDF5 file"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }

@@ -10,39 +10,19 @@
 #include "dynamics/errors.h"
 #include "pipeline/lift/worst_instant.h"
 #include "pipeline/measures/measure.h"
-#include "tests/pipeline/sample_lift.h"
+#include "tests/pipeline/lift/operated_lift.h"
 
 namespace blocklift::pipeline {
 namespace {
 
+using test::lift_with_operation;
+using test::sample_mass;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-LoadMass sample_mass() {
-  LoadMass load;
-  load.mass = 10e3;
-  load.p_BoBcm_B = {2, 0, 0.5};
-  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
-  return load;
-}
-
-/// The sample lift with another operation, and what comes behind it.
-LiftCase read_case(const std::string& operation, const std::string& more = "") {
-  test::SampleLift parts;
-  const std::size_t begin = parts.lift_case.find("operation:");
-  const std::size_t end = parts.lift_case.find("settle:");
-  parts.lift_case.replace(begin, end - begin, "operation:\n" + operation);
-  parts.lift_case += more;
-  const test::TemporaryFolder folder;
-  parts.write(folder);
-  return read_lift_case("case.yaml");
-}
-
-LiftRun run(const LiftCase& lift_case) {
-  return run_lift(
-      lift_case, prepare_lift(lift_case, sample_mass(), [](auto&&...) {}), [](auto&&...) {},
-      RunExtent{.natural_modes = false});
+LiftRun run_without_modes(const LiftCase& lift_case) {
+  return test::run_sample(lift_case, RunExtent{.natural_modes = false});
 }
 
 /// A measure in motion at a time (s).
@@ -74,8 +54,8 @@ const std::string keep_level =
 // lugs are brought level. The stages behind begin where it came to, at rest as in motion, and where
 // it is hoisted to is where that is asked to be.
 TEST(Keeping, LevelWithAnotherHook) {
-  const LiftCase lift_case = read_case(keep_level);
-  const LiftRun lift = run(lift_case);
+  const LiftCase lift_case = lift_with_operation(keep_level);
+  const LiftRun lift = run_without_modes(lift_case);
   ASSERT_EQ(lift.model.steerings.size(), 2u);
   const double end = lift.model.steerings[0].end;
   EXPECT_NEAR(in_motion(lift_case, lift, "C1.right: missed height", 0.75 * end), 0.05 * 4, 0.01);
@@ -91,16 +71,16 @@ TEST(Keeping, LevelWithAnotherHook) {
 
 // A stage that ends by a condition ends the steering as well: the hook that follows stands soon after.
 TEST(Keeping, EndsWithACondition) {
-  const LiftRun lift =
-      run(read_case("  - stage: set down\n"
-                    "    moves:\n"
-                    "      - {drives: [C1.left], by: 2.5 m, speed: 3 m/min}\n"
-                    "      - {drives: [C1.right], keeps: {level: C1.right, with: C1.left}}\n"
-                    "    until: {ground_bears_at_least: 80 %}\n"
-                    "  - stage: hoist\n"
-                    "    moves: [{drives: [C1.left, C1.right], to: 5 m}]\n",
-                    "ground: 0 m\n"
-                    "ground_contact: {stiffness: 5 MN/m, damping: 200 kN s/m}\n"));
+  const LiftRun lift = run_without_modes(
+      lift_with_operation("  - stage: set down\n"
+                          "    moves:\n"
+                          "      - {drives: [C1.left], by: 2.5 m, speed: 3 m/min}\n"
+                          "      - {drives: [C1.right], keeps: {level: C1.right, with: C1.left}}\n"
+                          "    until: {ground_bears_at_least: 80 %}\n"
+                          "  - stage: hoist\n"
+                          "    moves: [{drives: [C1.left, C1.right], to: 5 m}]\n",
+                          "ground: 0 m\n"
+                          "ground_contact: {stiffness: 5 MN/m, damping: 200 kN s/m}\n"));
   const ScheduledStage& stage = lift.model.schedule.stages[0];
   ASSERT_TRUE(stage.stop);
   EXPECT_EQ(lift.model.schedule.steerings[0].steering.end, stage.stop->time);
@@ -113,10 +93,10 @@ TEST(Keeping, EndsWithACondition) {
 
 // The trolley stays plumb over a point of the world while the gantry stands: it goes there.
 TEST(Keeping, AHeadOverAPoint) {
-  const LiftRun lift =
-      run(read_case("  - stage: go there\n"
-                    "    moves: [{drives: [C1.traverse], duration: 60 s, keeps: {head: C1.left, "
-                    "over: {body: world, point: [0 m, 6.5 m, 0 m]}}}]\n"));
+  const LiftRun lift = run_without_modes(lift_with_operation(
+      "  - stage: go there\n"
+      "    moves: [{drives: [C1.traverse], duration: 60 s, keeps: {head: C1.left, "
+      "over: {body: world, point: [0 m, 6.5 m, 0 m]}}}]\n"));
   const auto& drives = lift.dynamic_history().drives;
   const auto traverse = std::find_if(drives.begin(), drives.end(),
                                      [](const auto& drive) { return drive.name == "C1.traverse"; });
@@ -134,8 +114,8 @@ TEST(Keeping, AShareAndATension) {
       "correction: 2 s, reaction: 0.5 s}}]\n";
   for (const std::string& wish :
        {std::string("share: 50.2 %, of: [C1.right]"), std::string("tension: 54.5 kN")}) {
-    const LiftCase lift_case = read_case(test::with(operation, "WISH", wish));
-    const LiftRun lift = run(lift_case);
+    const LiftCase lift_case = lift_with_operation(test::with(operation, "WISH", wish));
+    const LiftRun lift = run_without_modes(lift_case);
     const char* name = wish[0] == 's' ? "C1.left: missed share" : "C1.left: missed tension";
     const double first = in_motion(lift_case, lift, name, 0.0);
     const double last = in_motion(lift_case, lift, name, lift.model.steerings[0].end - 0.5);
@@ -155,14 +135,14 @@ TEST(Keeping, ALawFromOutsideInPlaceOfAWish) {
   const std::string ground =
       "ground: 0 m\n"
       "ground_contact: {stiffness: 5 MN/m, damping: 200 kN s/m}\n";
-  const LiftRun built_in = run(read_case(
+  const LiftRun built_in = run_without_modes(lift_with_operation(
       test::with(operation, "WISH", "level: C1.right, with: C1.left, correction: 4 s"), ground));
-  LiftCase lift_case = read_case(
+  LiftCase lift_case = lift_with_operation(
       test::with(operation, "WISH",
                  "law: level, sees: {height: {level: C1.right, with: C1.left}, pull: {tension: R1},"
                  " part: {share: C1.left, of: [C1.right]}}"),
       ground);
-  EXPECT_THAT([&] { run(lift_case); },
+  EXPECT_THAT([&] { run_without_modes(lift_case); },
               ThrowsMessage<InputError>(
                   AllOf(HasSubstr("case.yaml:"), HasSubstr("nobody gives the law \"level\""))));
   int begun = 0;
@@ -179,7 +159,7 @@ TEST(Keeping, ALawFromOutsideInPlaceOfAWish) {
       return seen[2] / 4;
     };
   };
-  const LiftRun own = run(lift_case);
+  const LiftRun own = run_without_modes(lift_case);
   EXPECT_GE(begun, 2);
   const Eigen::VectorXd& theirs = built_in.dynamic_history().rope("C1.right").unstretched_length;
   const Eigen::VectorXd& ours = own.dynamic_history().rope("C1.right").unstretched_length;
@@ -191,7 +171,7 @@ TEST(Keeping, ALawFromOutsideInPlaceOfAWish) {
 
 TEST(Keeping, RefusesWhatCannotBe) {
   const auto refuses = [](const std::string& move, const std::string& message) {
-    EXPECT_THAT([&] { read_case("  - stage: go\n    moves: [" + move + "]\n"); },
+    EXPECT_THAT([&] { lift_with_operation("  - stage: go\n    moves: [" + move + "]\n"); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr("case.yaml:"), HasSubstr(message))))
         << move;
   };
@@ -248,8 +228,8 @@ const std::string hoist =
 // Of a load that is lowered the worst stop is one at full speed, and its figure is that of the case
 // in which the fault comes at that instant. Other instants are hardly worse.
 TEST(WorstInstant, IsFoundWhereAStopHurts) {
-  const LiftCase sought =
-      read_case(hoist, "faults: [{worst_for: [all], stops: [all], within: 0.3 s, watched: 5 s}]\n");
+  const LiftCase sought = lift_with_operation(
+      hoist, "faults: [{worst_for: [all], stops: [all], within: 0.3 s, watched: 5 s}]\n");
   const BuiltLift model = prepare_lift(sought, sample_mass(), [](auto&&...) {});
   ASSERT_TRUE(model.worst);
   const WorstInstant& worst = *model.worst;
@@ -258,9 +238,9 @@ TEST(WorstInstant, IsFoundWhereAStopHurts) {
   const double lowered = model.schedule.stages[0].end;
   EXPECT_LT(worst.worst.time, lowered);
   const auto share_at = [&](double time) {
-    const LiftCase given = read_case(
+    const LiftCase given = lift_with_operation(
         hoist, "faults: [{at: " + std::to_string(time) + " s, stops: [all], within: 0.3 s}]\n");
-    const LiftRun lift = run(given);
+    const LiftRun lift = run_without_modes(given);
     double largest = 0;
     for (const char* rope : {"R1", "R2", "C1.left", "C1.right"}) {
       const auto& tension = lift.dynamic_history().rope(rope).tension;
@@ -280,8 +260,8 @@ TEST(WorstInstant, IsFoundWhereAStopHurts) {
 // Between limits of time it is found between them.
 TEST(WorstInstant, IsSoughtBetweenLimits) {
   const BuiltLift model = prepare_lift(
-      read_case(hoist,
-                "faults: [{worst_for: [R1, C1.left], stops: [C1.left], from: 8 s, to: 10 s}]\n"),
+      lift_with_operation(
+          hoist, "faults: [{worst_for: [R1, C1.left], stops: [C1.left], from: 8 s, to: 10 s}]\n"),
       sample_mass(), [](auto&&...) {});
   ASSERT_TRUE(model.worst);
   for (const WorstInstant::Trial& trial : model.worst->trials) {
@@ -292,15 +272,16 @@ TEST(WorstInstant, IsSoughtBetweenLimits) {
   // In the time to settle nothing moves.
   EXPECT_THAT(
       [&] {
-        prepare_lift(read_case(hoist, "faults: [{worst_for: [all], stops: [all], from: 46 s}]\n"),
-                     sample_mass(), [](auto&&...) {});
+        prepare_lift(
+            lift_with_operation(hoist, "faults: [{worst_for: [all], stops: [all], from: 46 s}]\n"),
+            sample_mass(), [](auto&&...) {});
       },
       ThrowsMessage<dynamics::SimulationError>(HasSubstr("nothing moves")));
 }
 
 TEST(WorstInstant, RefusesWhatCannotBe) {
   const auto refuses = [](const std::string& fault, const std::string& message) {
-    EXPECT_THAT([&] { read_case(hoist, "faults: [" + fault + "]\n"); },
+    EXPECT_THAT([&] { lift_with_operation(hoist, "faults: [" + fault + "]\n"); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr("case.yaml:"), HasSubstr(message))))
         << fault;
   };

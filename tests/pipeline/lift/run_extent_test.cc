@@ -1,28 +1,20 @@
 // Runs that leave out what nobody asks for.
 #include <gtest/gtest.h>
 
-#include "pipeline/lift/lift_run.h"
-#include "tests/pipeline/sample_lift.h"
+#include "tests/pipeline/lift/operated_lift.h"
 
 namespace blocklift::pipeline {
 namespace {
 
-LiftRun run(const LiftCase& lift_case, const RunExtent& extent) {
-  LoadMass load;
-  load.mass = 10e3;
-  load.p_BoBcm_B = {2, 0, 0.5};
-  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
-  const auto nobody_watches = [](auto&&...) {};
-  return run_lift(lift_case, prepare_lift(lift_case, load, nobody_watches), nobody_watches, extent);
-}
+using test::run_sample;
 
 TEST(RunExtent, LeavesTheMotionAsItIs) {
   const test::TemporaryFolder folder;
   test::SampleLift().write(folder);
   const LiftCase lift_case = read_lift_case("case.yaml");
-  const LiftRun whole = run(lift_case, {});
+  const LiftRun whole = run_sample(lift_case);
   const LiftRun least =
-      run(lift_case, {.natural_modes = false, .energy = false, .righting_height = false});
+      run_sample(lift_case, {.natural_modes = false, .energy = false, .righting_height = false});
   EXPECT_EQ(least.dynamic_history().time, whole.dynamic_history().time);
   ASSERT_EQ(least.dynamic_history().ropes.size(), whole.dynamic_history().ropes.size());
   for (std::size_t i = 0; i < whole.dynamic_history().ropes.size(); ++i) {

@@ -9,11 +9,13 @@
 
 #include "dynamics/errors.h"
 #include "pipeline/lift/stage_loads.h"
-#include "tests/pipeline/sample_lift.h"
+#include "tests/pipeline/lift/operated_lift.h"
 
 namespace blocklift::pipeline {
 namespace {
 
+using test::run_sample;
+using test::sample_mass;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -21,33 +23,13 @@ constexpr double g = 9.81;
 constexpr double weight = 10e3 * g;
 constexpr double corner_stiffness = 5e6;  // N/m
 
-LoadMass sample_mass() {
-  LoadMass load;
-  load.mass = 10e3;
-  load.p_BoBcm_B = {2, 0, 0.5};
-  load.I_BBcm_B = Vector3(5, 17, 20).asDiagonal() * (10e3 / 12.0);
-  return load;
-}
-
 const std::string ground =
     "ground: 0 m\n"
     "ground_contact: {stiffness: 5 MN/m, damping: 200 kN s/m}\n";
 
 /// The sample lift with another operation. Its load hangs 1.8 m above the ground at first.
-LiftCase read_case(const std::string& operation, const std::string& more = ground) {
-  test::SampleLift parts;
-  const std::size_t begin = parts.lift_case.find("operation:");
-  const std::size_t end = parts.lift_case.find("settle:");
-  parts.lift_case.replace(begin, end - begin, "operation:\n" + operation);
-  parts.lift_case += more;
-  const test::TemporaryFolder folder;
-  parts.write(folder);
-  return read_lift_case("case.yaml");
-}
-
-LiftRun run(const LiftCase& lift_case) {
-  return run_lift(lift_case, prepare_lift(lift_case, sample_mass(), [](auto&&...) {}),
-                  [](auto&&...) {});
+LiftCase lift_above_ground(const std::string& operation, const std::string& more = ground) {
+  return test::lift_with_operation(operation, more);
 }
 
 const std::string lower_beyond =
@@ -68,7 +50,7 @@ double work_of(const Eigen::VectorXd& works) { return works[works.size() - 1] - 
 // each sinks in by a quarter of its weight over its stiffness. What drives and winches gave and
 // damping and friction took is what the energies differ by.
 TEST(GroundContact, BearsTheLoadWhereItIsSetDown) {
-  const LiftRun lift = run(read_case(lower_beyond));
+  const LiftRun lift = run_sample(lift_above_ground(lower_beyond));
   for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()}) {
     const Eigen::Index last = history->sample_count() - 1;
     const Vector3 p = history->body("load").X_WB(last).p;
@@ -92,10 +74,10 @@ TEST(GroundContact, BearsTheLoadWhereItIsSetDown) {
 // friction.
 TEST(GroundContact, ATautSlingDragsTheLoad) {
   const LiftRun lift =
-      run(read_case("  - stage: set down\n"
-                    "    moves: [{drives: [C1.left, C1.right], by: 1.82 m}]\n"
-                    "  - stage: drag\n"
-                    "    moves: [{drives: [C1.travel], by: 20 m}]\n"));
+      run_sample(lift_above_ground("  - stage: set down\n"
+                                   "    moves: [{drives: [C1.left, C1.right], by: 1.82 m}]\n"
+                                   "  - stage: drag\n"
+                                   "    moves: [{drives: [C1.travel], by: 20 m}]\n"));
   const dynamics::History& history = lift.dynamic_history();
   const double travelled = history.body("load").X_WB(history.sample_count() - 1).p.x() + 2;
   EXPECT_GT(travelled, 15);
@@ -103,10 +85,11 @@ TEST(GroundContact, ATautSlingDragsTheLoad) {
 }
 
 TEST(GroundContact, NeedsAStiffnessAndAHeight) {
-  EXPECT_THAT([] { read_case(lower_beyond, "ground_contact: {damping: 1 kN s/m}\n"); },
+  EXPECT_THAT([] { lift_above_ground(lower_beyond, "ground_contact: {damping: 1 kN s/m}\n"); },
               ThrowsMessage<InputError>(HasSubstr("stiffness")));
-  EXPECT_THAT([] { read_case(lower_beyond, "ground_contact: {stiffness: 5 MN/m}\nsea: {}\n"); },
-              ThrowsMessage<InputError>(HasSubstr("its height is not known")));
+  EXPECT_THAT(
+      [] { lift_above_ground(lower_beyond, "ground_contact: {stiffness: 5 MN/m}\nsea: {}\n"); },
+      ThrowsMessage<InputError>(HasSubstr("its height is not known")));
 }
 
 std::string lower_until(const std::string& condition) {
@@ -122,8 +105,8 @@ std::string lower_until(const std::string& condition) {
 // The winches turn until the slings go slack, stop within a second, and hoist back to where they
 // were. Both histories follow the same operation.
 TEST(StageEnd, ComesWhenTheSlingsGoSlack) {
-  const LiftCase lift_case = read_case(lower_until("{slack: R1}"));
-  const LiftRun lift = run(lift_case);
+  const LiftCase lift_case = lift_above_ground(lower_until("{slack: R1}"));
+  const LiftRun lift = run_sample(lift_case);
   const std::vector<StageLoads> stages = find_stage_loads(lift);
   ASSERT_TRUE(stages[0].met);
   EXPECT_FALSE(stages[1].met);
@@ -156,11 +139,11 @@ TEST(StageEnd, ComesWhenTheSlingsGoSlack) {
 // Four fifths of the weight are off while the ropes still bear the fifth.
 TEST(StageEnd, ComesWhenAShareOfTheWeightIsOff) {
   for (const char* condition : {"{ropes_bear_at_most: 20 %}", "{ground_bears_at_least: 80 %}"}) {
-    const LiftCase lift_case = read_case(lower_until(condition));
+    const LiftCase lift_case = lift_above_ground(lower_until(condition));
     const BuiltLift model = build_lift(lift_case, sample_mass());
     ASSERT_EQ(model.schedule.waiting_stage(), 0U);
     const double met = find_stage_end(lift_case, model, 0, [](auto&&...) {});
-    const LiftRun lift = run(lift_case);
+    const LiftRun lift = run_sample(lift_case);
     EXPECT_EQ(lift.model.schedule.stages[0].stop->met, met);
     const dynamics::History& history = lift.dynamic_history();
     Eigen::Index sample = 0;
@@ -176,7 +159,7 @@ TEST(StageEnd, ComesWhenAShareOfTheWeightIsOff) {
 TEST(StageEnd, ComesLaterByTheReaction) {
   const auto let_out = [](const std::string& condition) {
     const BuiltLift model =
-        prepare_lift(read_case(lower_until(condition)), sample_mass(), [](auto&&...) {});
+        prepare_lift(lift_above_ground(lower_until(condition)), sample_mass(), [](auto&&...) {});
     return model.system.operation()
         .winches()[0]
         .length.evaluate(model.schedule.stages[0].end)
@@ -187,7 +170,7 @@ TEST(StageEnd, ComesLaterByTheReaction) {
 }
 
 TEST(StageEnd, FailsWhereTheConditionDoesNotComeAbout) {
-  const LiftCase lift_case = read_case(lower_until("{slack: R1, within: 20 s}"));
+  const LiftCase lift_case = lift_above_ground(lower_until("{slack: R1, within: 20 s}"));
   EXPECT_THAT([&] { prepare_lift(lift_case, sample_mass(), [](auto&&...) {}); },
               ThrowsMessage<dynamics::SimulationError>(
                   AllOf(HasSubstr("\"lower\" waits for R1 to go slack"), HasSubstr("20 s"))));
@@ -196,7 +179,7 @@ TEST(StageEnd, FailsWhereTheConditionDoesNotComeAbout) {
 TEST(StageEnd, RefusesWhatCannotBe) {
   const auto refuses = [](const std::string& condition, const std::string& more,
                           const std::string& message) {
-    EXPECT_THAT([&] { read_case(lower_until(condition), more); },
+    EXPECT_THAT([&] { lift_above_ground(lower_until(condition), more); },
                 ThrowsMessage<InputError>(HasSubstr(message)))
         << condition;
   };

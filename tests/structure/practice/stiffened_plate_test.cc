@@ -6,20 +6,22 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/structure/practice/sample_steel.h"
+
 namespace blocklift::structure {
 namespace {
 
-const Material steel{"S355", 210e9, 0.3, 7850, 355e6};
+using test::steel_s355;
 
 // EN 1993-1-5, table 4.1 and 4.4(2): lambda = (b / t) / (28.4 epsilon sqrt(4)), epsilon =
 // sqrt(235 / f_y); b / t = 42 epsilon of internal parts in class 3 comes out whole. The norm's 28.4
 // is rounded.
 TEST(StiffenedPlate, TheEffectiveWidthIsThatOfTheNorm) {
   const double epsilon = std::sqrt(235.0 / 355);
-  EXPECT_EQ(effective_width_share(steel, 0.01, 0.01 * 38 * epsilon), 1);
+  EXPECT_EQ(effective_width_share(steel_s355, 0.01, 0.01 * 38 * epsilon), 1);
   for (const double ratio : {50.0, 80.0, 120.0}) {
     const double lambda = ratio / (28.4 * epsilon * 2);
-    EXPECT_NEAR(effective_width_share(steel, 0.01, 0.01 * ratio),
+    EXPECT_NEAR(effective_width_share(steel_s355, 0.01, 0.01 * ratio),
                 (lambda - 0.22) / (lambda * lambda), 2e-3)
         << ratio;
   }
@@ -31,13 +33,13 @@ TEST(StiffenedPlate, AFlatBarUnderAPlateByHand) {
   const double web = 0.2 * 0.012, plate = 0.8 * 0.01;
   const StiffenerSection bar{web, -0.105, 0.012 * std::pow(0.2, 3) / 12, -0.205, -0.005};
   const std::array<PlateStrip, 2> plates{{{0.4, 0.01, 0}, {0.4, 0.01, 0}}};
-  const Column column = stiffener_column(steel, bar, plates, 2.4);
+  const Column column = stiffener_column(steel_s355, bar, plates, 2.4);
   const double area = web + plate, z = web * 0.105 / area;
   const double second_moment =
       bar.second_moment + web * std::pow(0.105 - z, 2) + 0.8 * 1e-6 / 12 + plate * z * z;
   EXPECT_NEAR(column.area, 0.0104, 1e-12);
   EXPECT_NEAR(column.second_moments[0], second_moment, 1e-12);
-  const double share = effective_width_share(steel, 0.01, 0.8);
+  const double share = effective_width_share(steel_s355, 0.01, 0.8);
   EXPECT_LT(share, 0.7);
   EXPECT_NEAR(column.effective_area, web + share * plate, 1e-12);
   // e is that of the stiffener, farther from the common centroid than the plate.

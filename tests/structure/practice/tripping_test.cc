@@ -7,17 +7,19 @@
 
 #include "structure/mesh/sections.h"
 #include "structure/practice/stiffener_chains.h"
+#include "tests/structure/practice/sample_steel.h"
 
 namespace blocklift::structure {
 namespace {
 
-const Material steel{"S355", 210e9, 0.3, 7850, 355e6};
+using test::steel_s355;
+
 constexpr double plate = 0.01;  // thickness, m
 
 /// A profile below a plate, along x.
 TrippingSection below_plate(const Profile& profile) {
   Mesh mesh;
-  mesh.materials = {steel};
+  mesh.materials = {steel_s355};
   mesh.beam_sections = {profile.section};
   mesh.vertices = {Vector3::Zero(), Vector3(2, 0, 0)};
   Beam beam;
@@ -43,14 +45,14 @@ TEST(Tripping, AFlatBarByHand) {
   EXPECT_NEAR(section.second_moment, h * t * t * t / 12, 1e-15);
   EXPECT_NEAR(std::abs(section.shear_height), h / 2, 1e-15);
   EXPECT_NEAR(section.torsion, h * t * t * t / 3 * (1 - 0.63 * t / h), 1e-12);
-  const double elastic = tripping_stress(steel, section, length);
+  const double elastic = tripping_stress(steel_s355, section, length);
   const double expected =
-      (1 + 2 * std::pow(h / length, 2)) * steel.shear_modulus() * std::pow(t / h, 2);
+      (1 + 2 * std::pow(h / length, 2)) * steel_s355.shear_modulus() * std::pow(t / h, 2);
   EXPECT_NEAR(elastic, expected, 0.05 * expected);
   EXPECT_LT(elastic, expected);
   // Without the ends' hold the Saint-Venant part alone is left.
-  EXPECT_NEAR(tripping_stress(steel, section, 1e6),
-              steel.shear_modulus() * section.torsion / section.polar_moment, 1);
+  EXPECT_NEAR(tripping_stress(steel_s355, section, 1e6),
+              steel_s355.shear_modulus() * section.torsion / section.polar_moment, 1);
 }
 
 // Rectangles about the toe: web and flange of a tee and of an angle, whose flange goes from the
@@ -81,7 +83,7 @@ TEST(Tripping, TeesAndAnglesByHand) {
 // The strength x f_y is the smaller root of (1 - x) (1 - lambda^2 x) = mu x, Ayrton and Perry's
 // equation, and yield up to a slenderness of 0.6.
 TEST(Tripping, TheStrengthIsAyrtonsAndPerrys) {
-  const double yield = steel.yield_stress;
+  const double yield = steel_s355.yield_stress;
   EXPECT_EQ(tripping_strength(yield / (0.6 * 0.6 - 1e-12), yield), yield);
   EXPECT_EQ(tripping_strength(10 * yield, yield), yield);
   for (const double slenderness : {0.61, 0.8, 1.0, 1.5, 3.0}) {
