@@ -29,7 +29,9 @@ void require_not_negative(const std::string& rope, const char* what, double valu
 }  // namespace
 
 Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
-    : definition_(std::move(definition)), crane_compliance_(1.0 / definition_.crane_stiffness) {
+    : definition_(std::move(definition)),
+      crane_compliance_(1.0 / definition_.crane_stiffness),
+      share_(definition_.twin_falls ? 0.5 : 1.0) {
   const RopeDefinition& d = definition_;
   if (d.points.size() < 2) {
     throw ModelError("rope \"" + d.name + "\" has " + std::to_string(d.points.size()) +
@@ -40,6 +42,11 @@ Rope::Rope(const Mechanism& mechanism, RopeDefinition definition)
     throw ModelError("rope \"" + d.name +
                      "\": which segments are left out is due for each of them, and it runs along "
                      "the first and the last");
+  }
+  if (d.twin_falls && d.left_out != std::vector<char>{0, 1, 0}) {
+    throw ModelError("rope \"" + d.name +
+                     "\" has twin falls; they have four points, and what lies between the second "
+                     "and the third is left out");
   }
   for (std::size_t i = 0; i < d.points.size(); ++i) {
     const BodyPoint& point = d.points[i];
@@ -172,8 +179,8 @@ void Rope::calc_path(const Kinematics& kinematics, RopePath& path,
     p_previous = p;
     v_previous = v;
   }
-  path.length = length;
-  path.length_rate = rate;
+  path.length = share_ * length;
+  path.length_rate = share_ * rate;
 }
 
 // Elastic force, stiffness and its slope at the length and unstretched length of a load.
@@ -236,7 +243,7 @@ void Rope::add_forces(const RopePath& path, double tension,
   for (std::size_t i = 0; i <= last; ++i) {
     Vector3 f = i < last ? path.direction_W[i] : Vector3(Vector3::Zero());
     if (i > 0) f -= path.direction_W[i - 1];
-    f *= tension;
+    f *= share_ * tension;
     ForceVector& F = F_Bo_W[path.body[i]];
     F.moment += path.r_W[i].cross(f);
     F.force += f;
@@ -268,6 +275,8 @@ struct PathGradient {
     const std::vector<BodyPoint>& points = rope.points();
     if (i > 0 && rope.runs(i - 1)) add(segment(kinematics, points, path, i - 1), 1.0);
     if (i + 1 < points.size() && rope.runs(i)) add(segment(kinematics, points, path, i), -1.0);
+    of_length *= rope.share();
+    of_rate *= rope.share();
   }
 
  private:
@@ -307,7 +316,7 @@ void Rope::add_derivatives(const Kinematics& kinematics, const RopePath& path, c
   const bool straight = points.size() == 2;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     if (!runs(i)) continue;
-    derivatives.add_tension(i, i + 1, segment(kinematics, points, path, i), load.tension,
+    derivatives.add_tension(i, i + 1, segment(kinematics, points, path, i), share_ * load.tension,
                             straight ? k : 0.0, straight ? c : 0.0);
   }
   if (straight) return;

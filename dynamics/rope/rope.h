@@ -38,6 +38,10 @@ struct RopeDefinition {
   /// For each segment between two points: does the rope not run there? Empty: it runs along all.
   /// One rope that is reeved through two tackles has such a segment between their upper sheaves.
   std::vector<char> left_out = {};
+  /// Two falls with half of the tension each, as the falls of a tackle at whose far end a block may
+  /// turn: from the first point to the second, and from the third to the fourth. What lies between
+  /// them is left out.
+  bool twin_falls = false;
   double axial_stiffness = not_a_number;  ///< EA of all falls together, N
   /// In place of EA: tension over strain, of all falls together. Such a rope has neither weight nor
   /// friction.
@@ -142,6 +146,12 @@ struct RopeLoad {
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
 /// rope hangs from (N/m). The sheaves are points: the wrap around them is not part of the path.
 ///
+/// Twin falls are one rope whose length is the mean of theirs, L = (L_1 + L_2) / 2, so that by the
+/// first variation each pulls with T/2. Parallel and plumb at first, 2 b apart, they turn back what
+/// hangs on them with T b^2 sin(theta) / L at a twist theta, L being their length by then, with
+/// L^2 = h^2 + 2 b^2 (1 - cos(theta)) over a height h. Falls at several radii do the same with the
+/// mean of their squares for b^2.
+///
 /// Energy while taut: stored 1/2 k (L - L0)^2; dissipated (T - k (L - L0)) (Ldot - L0dot); supplied
 /// by the winch -L0dot (T + (k (L - L0))^2 / (2 EA)), whose second part is the strain energy of the
 /// rope that runs onto the drum. A slack rope has none, but for one that keeps a force. Then the
@@ -176,8 +186,9 @@ struct RopeLoad {
 class Rope {
  public:
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
-  /// point of one body, segments are left out at an end or all or not told for each, a stiffness or
-  /// length is not positive, a damping, the weight or the friction is negative, a rope with weight
+  /// point of one body, segments are left out at an end or all or not told for each, twin falls have
+  /// not four points or do not leave out what lies between them, a stiffness or length is not
+  /// positive, a damping, the weight or the friction is negative, a rope with weight
   /// has more than two points, one with friction at sheaves has none or leaves segments out, or one
   /// with a tension law has a stiffness, a weight or friction besides; or if an
   /// edge is not one of a body of the mechanism, has no length, no side outside, a negative radius
@@ -193,6 +204,9 @@ class Rope {
   bool runs(std::size_t segment) const {
     return definition_.left_out.empty() || definition_.left_out[segment] == 0;
   }
+
+  /// What a segment counts in the path's length, and so its share of the tension.
+  double share() const { return share_; }
 
   const std::vector<RopeEdge>& edges() const { return definition_.edges; }
   /// Of an edge's axis, unit.
@@ -257,18 +271,23 @@ class Rope {
   /// Energy account of a load, see above.
   EnergyAccount calc_energy(const RopeLoad& load) const;
 
-  /// Force on the body at the first or last point, in W, N.
+  /// Force on the body at the first or last point, in W, N; of twin falls that of both.
   Vector3 first_force(const RopePath& path, const RopeLoad& load) const;
   Vector3 last_force(const RopePath& path, const RopeLoad& load) const;
   /// The same of a rope without weight.
-  static Vector3 first_force(const RopePath& path, double tension) {
+  Vector3 first_force(const RopePath& path, double tension) const {
+    if (definition_.twin_falls) return tension * mean_direction(path);
     return tension * path.direction_W.front();
   }
   Vector3 last_force(const RopePath& path, double tension) const {
+    if (definition_.twin_falls) return -tension * mean_direction(path);
     return -tension * path.direction_W[path.count - 2];
   }
 
  private:
+  static Vector3 mean_direction(const RopePath& path) {
+    return 0.5 * (path.direction_W[0] + path.direction_W[2]);
+  }
   void check_edges(const Mechanism& mechanism) const;
   std::size_t place_chain(const Kinematics& kinematics, std::size_t after, std::size_t begin,
                           std::span<PlacedEdge> placed) const;
@@ -296,6 +315,7 @@ class Rope {
 
   RopeDefinition definition_;
   double crane_compliance_;  ///< 1/k_crane, m/N
+  double share_;
   /// Of each edge: its frame's axes (along, outside) in its body.
   struct EdgeAxes {
     Vector3 along_B, outside_B;

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "dynamics/force/applied_load.h"
+#include "dynamics/force/joint_friction.h"
 #include "dynamics/force/linear_restraint.h"
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
@@ -34,7 +35,8 @@ using ForceElements =
                std::vector<DiffractionForce>, std::vector<SlowDrift>, std::vector<CurrentLoad>,
                std::vector<MorisonMember>, std::vector<QuadraticDamping>, std::vector<MooringLine>,
                std::vector<TuggerLine>, std::vector<AppliedLoad>, std::vector<JointLoad>,
-               std::vector<LinearRestraint>, std::vector<LinearBuoyancy>>;
+               std::vector<LinearRestraint>, std::vector<LinearBuoyancy>,
+               std::vector<JointFriction>>;
 
 /// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the
 /// works too.

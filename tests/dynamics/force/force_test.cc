@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/force/joint_friction.h"
 #include "dynamics/force/spring.h"
 #include "dynamics/force/support.h"
 #include "dynamics/force/torsional_spring.h"
@@ -73,6 +74,40 @@ TEST(JointSpring, TurnsBackAndBalances) {
   const EnergyAccount account = spring.calc_energy({0.0, q, v, kinematics});
   EXPECT_NEAR(account.stored_energy, 0.2, 1e-14);
   EXPECT_NEAR(account.dissipated_power, 18.0, 1e-14);
+}
+
+TEST(JointFriction, HoldsWithAllItHasFromAFewCreepsOn) {
+  MechanismBuilder builder;
+  builder.add_body({.name = "hook",
+                    .joint = {.kind = JointKind::revolute},
+                    .mass = 1.0,
+                    .I_BBcm_B = Matrix3::Identity()});
+  const Mechanism mechanism = builder.build();
+  const JointFriction::Definition bearing{
+      .name = "bearing", .body = 1, .friction = 300.0, .creep = 1e-4};
+  const JointFriction friction(mechanism, bearing);
+  Kinematics kinematics(mechanism);
+  const Eigen::VectorXd q = Eigen::VectorXd::Zero(1);
+  for (const double rate : {-0.2, -5e-5, 0.0, 0.003}) {
+    const Eigen::VectorXd v = Eigen::VectorXd::Constant(1, rate);
+    Loads loads(mechanism);
+    friction.add_forces({0.0, q, v, kinematics}, loads);
+    const double full = rate < 0 ? 300.0 : -300.0;
+    // Half a creep: tanh(0.5).
+    const double share = rate == 0 ? 0.0 : rate == -5e-5 ? 0.46211715726000976 : 1.0;
+    EXPECT_NEAR(loads.tau[0], full * share, 1e-9);
+    const EnergyAccount account = friction.calc_energy({0.0, q, v, kinematics});
+    EXPECT_DOUBLE_EQ(account.dissipated_power, -loads.tau[0] * rate);
+    EXPECT_EQ(account.stored_energy, 0.0);
+  }
+  JointFriction::Definition wrong = bearing;
+  wrong.creep = 0.0;
+  EXPECT_THAT([&] { JointFriction(mechanism, wrong); },
+              ThrowsMessage<ModelError>(HasSubstr("\"bearing\" is 300")));
+  wrong = bearing;
+  wrong.degree_of_freedom = 1;
+  EXPECT_THAT([&] { JointFriction(mechanism, wrong); },
+              ThrowsMessage<ModelError>(HasSubstr("degree of freedom 1 of the revolute joint")));
 }
 
 // Turned by an angle about any axis from the free orientation, the body is turned back about that

@@ -46,7 +46,7 @@ TEST(Rope, PathOverASheaveByHand) {
   // The winch's end and the sheave belong to one body: what is left is the pull towards the load.
   EXPECT_LT((F[0].force - Vector3(0, 24, -10)).norm(), 1e-13);
   EXPECT_LT((ropes[0].last_force(path, 26.0) - Vector3(0, -24, 10)).norm(), 1e-13);
-  EXPECT_LT((Rope::first_force(path, 26.0) - Vector3(15.6, 0, 20.8)).norm(), 1e-13);
+  EXPECT_LT((ropes[0].first_force(path, 26.0) - Vector3(15.6, 0, 20.8)).norm(), 1e-13);
 }
 
 // SIMO theory manual, simple wire coupling: 1/k = L/EA + 1/k0.
@@ -101,8 +101,48 @@ TEST(Rope, LeavesSegmentsOut) {
   ropes[0].add_forces(path, 7.0, F);
   EXPECT_LT((F[1].force - Vector3(0, 0, 7)).norm(), 1e-14);
   EXPECT_LT((F[2].force - Vector3(0, 0, 7)).norm(), 1e-14);
-  EXPECT_LT((Rope::first_force(path, 7.0) - Vector3(0, 0, 7)).norm(), 1e-14);
+  EXPECT_LT((ropes[0].first_force(path, 7.0) - Vector3(0, 0, 7)).norm(), 1e-14);
   EXPECT_LT((ropes[0].last_force(path, 7.0) - Vector3(0, 0, 7)).norm(), 1e-14);
+}
+
+// Two plumb falls 2 b apart, the block below turned by theta: with L their length by then, the
+// tension T turns it back by T b^2 sin(theta) / L and lifts with T h / L, where L^2 = h^2 +
+// 2 b^2 (1 - cos(theta)).
+TEST(Rope, TwinFallsTurnBackWhatTurns) {
+  MechanismBuilder builder;
+  builder.add_body({.name = "place", .joint = {.kind = JointKind::translational}, .mass = 0.0});
+  builder.add_body({.name = "block",
+                    .parent = "place",
+                    .joint = {.kind = JointKind::revolute, .axis = Vector3::UnitZ()},
+                    .mass = 1.0,
+                    .I_BBcm_B = Matrix3::Identity()});
+  const Mechanism mechanism = builder.build();
+  const double b = 0.6, h = 5.0, theta = 0.8, T = 9.0;
+  RopeDefinition definition = simple_rope();
+  definition.points = {
+      {world_index, {0, b, h}}, {2, {0, b, 0}}, {world_index, {0, -b, h}}, {2, {0, -b, 0}}};
+  definition.left_out = {0, 1, 0};
+  definition.twin_falls = true;
+  const std::vector<Rope> ropes{Rope(mechanism, definition)};
+  RopePath path = make_rope_path(ropes);
+  Kinematics kinematics(mechanism);
+  const Vector4 q(0, 0, 0, theta), v(0, 0, 0, 0.3);
+  compute_kinematics(mechanism, q, v, kinematics);
+  ropes[0].calc_path(kinematics, path);
+  const double L = std::sqrt(h * h + 2 * b * b * (1 - std::cos(theta)));
+  const double moment = T * b * b * std::sin(theta) / L;
+  EXPECT_NEAR(path.length, L, 1e-14);
+  EXPECT_NEAR(path.length_rate, moment / T * 0.3, 1e-15);
+  std::vector<ForceVector> F(3, ForceVector::zero());
+  ropes[0].add_forces(path, T, F);
+  EXPECT_LT((F[2].moment - Vector3(0, 0, -moment)).norm(), 1e-14);
+  const Vector3 lift(0, 0, T * h / L);
+  EXPECT_LT((F[2].force - lift).norm(), 1e-14);
+  EXPECT_LT((ropes[0].last_force(path, T) - lift).norm(), 1e-14);
+  EXPECT_LT((ropes[0].first_force(path, T) + lift).norm(), 1e-14);
+
+  definition.left_out = {0, 0, 0};
+  EXPECT_THAT([&] { Rope(mechanism, definition); }, ThrowsMessage<ModelError>(HasSubstr("twin")));
 }
 
 // Random mechanisms, paths and motions: power of the point forces = -T dL/dt, and dL/dt is the
@@ -118,7 +158,8 @@ TEST(Rope, SpendsThePowerOfItsPointForces) {
     for (int i = 0; i < 4; ++i) {
       definition.points.push_back({(trial + 2 * i) % mechanism.body_count(), random.vector(2)});
     }
-    if (trial % 2 == 1) definition.left_out = {0, 1, 0};
+    if (trial % 3 > 0) definition.left_out = {0, 1, 0};
+    definition.twin_falls = trial % 3 == 2;
     const std::vector<Rope> ropes{Rope(mechanism, definition)};
     RopePath path = make_rope_path(ropes);
     Kinematics kinematics(mechanism);

@@ -22,11 +22,13 @@ BodyPoint random_point(Random& random, const Mechanism& mechanism) {
 
 std::vector<Rope> random_ropes(Random& random, const Mechanism& mechanism) {
   std::vector<Rope> ropes;
-  for (std::size_t points : {2, 2, 3, 5}) {
+  for (std::size_t points : {2, 2, 3, 5, 4}) {
     RopeDefinition rope;
     rope.name = "rope " + std::to_string(ropes.size());
     for (std::size_t i = 0; i < points; ++i) rope.points.push_back(random_point(random, mechanism));
     if (points == 5) rope.left_out = {0, 0, 1, 0};
+    if (points == 4) rope.left_out = {0, 1, 0};
+    rope.twin_falls = points == 4;
     rope.axial_stiffness = random.uniform(20, 60);
     rope.crane_stiffness = 100;
     rope.damping_time = 0.1;
@@ -106,6 +108,12 @@ ForceElements random_elements(Random& random, const Mechanism& mechanism) {
                                            .stiffness = random.uniform(5, 20),
                                            .damping = 1,
                                            .free_coordinate = 0.3});
+    std::get<std::vector<JointFriction>>(elements).emplace_back(
+        mechanism, JointFriction::Definition{.name = "friction " + std::to_string(i),
+                                             .body = i,
+                                             .degree_of_freedom = body.nv() - 1,
+                                             .friction = random.uniform(1, 3),
+                                             .creep = 0.7});
   }
   for (const auto axes : {AppliedLoad::Axes::world, AppliedLoad::Axes::body}) {
     BodyPoint point = random_point(random, mechanism);
