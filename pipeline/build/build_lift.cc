@@ -12,6 +12,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/build/body_box.h"
+#include "pipeline/build/hook_block.h"
 #include "pipeline/build/rope_stretch.h"
 #include "pipeline/build/spreader_body.h"
 #include "pipeline/build/spreader_start.h"
@@ -114,9 +115,12 @@ class LiftBuilder {
     double start;
   };
   struct HookStart {
+    BodyIndex place;  // slides
     BodyIndex hook;
     BodyPoint sheave;
     double length;
+    const TurningBlockModel* turning;  // null: it keeps its direction
+    std::size_t tackle;                // among the ropes
   };
 
   void add_crane(dynamics::MechanismBuilder& builder, std::size_t index) {
@@ -144,17 +148,19 @@ class LiftBuilder {
   void add_hoist(dynamics::MechanismBuilder& builder, std::size_t crane_index,
                  const HoistModel& hoist) {
     const CraneInCase& crane = case_.cranes[crane_index];
-    BodyDefinition hook;
-    hook.name = crane.name.value + "." + hoist.name.value;
-    hook.joint.kind = dynamics::JointKind::translational;
-    hook.mass = hoist.hook_block.mass;
-    const BodyIndex index = register_body(builder, hook, "hook block",
-                                          {BoxShape{hoist.hook_block.size, {0, 0, 0}, {0, 0, 0}}});
+    const HookBlockModel& block = hoist.hook_block;
+    const std::string name = crane.name.value + "." + hoist.name.value;
+    std::vector<BodyIndex> bodies;
+    for (const BodyDefinition& body : hook_bodies(name, block))
+      bodies.push_back(builder.add_body(body));
+    const BodyIndex index = bodies.back();
+    note_body(name, index, "hook block", {BoxShape{block.size, {0, 0, 0}, {0, 0, 0}}});
 
     const BodyPoint sheave{body_of_.at(crane.name.value + "." + hoist.body.value), hoist.sheave};
     const double length = crane.find_start(hoist.name.value)->value.value;
-    hook_starts_.push_back({index, sheave, length});
-    LiftHoist added{.name = hook.name,
+    hook_starts_.push_back({bodies.front(), index, sheave, length,
+                            block.turning ? &*block.turning : nullptr, rope_definitions_.size()});
+    LiftHoist added{.name = name,
                     .crane = crane_index,
                     .rope = static_cast<int>(rope_definitions_.size()),
                     .hook = index,
@@ -165,8 +171,9 @@ class LiftBuilder {
       reeve_together(*partner, hoist, added, sheave, length);
     } else {
       dynamics::RopeDefinition rope;
-      rope.name = hook.name;
-      rope.points = {sheave, {index, Vector3::Zero()}};
+      rope.name = name;
+      // The falls hold the block, on which the hook may turn.
+      rope.points = {sheave, {bodies[bodies.size() > 1 ? 1 : 0], Vector3::Zero()}};
       set_rope(rope, hoist.rope, hoist.crane_stiffness, length, case_.hangs(crane, hoist));
       rope_definitions_.push_back(std::move(rope));
     }
@@ -246,6 +253,15 @@ class LiftBuilder {
     }
   }
 
+  void add_bearings(const dynamics::Mechanism& mechanism, dynamics::ForceElements& elements) const {
+    for (const HookStart& hook : hook_starts_) {
+      if (!hook.turning || !hook.turning->bearing) continue;
+      if (hook.turning->bearing->friction_moment == 0) continue;
+      std::get<std::vector<dynamics::JointFriction>>(elements).push_back(
+          bearing_friction(mechanism, hook.hook, *hook.turning->bearing));
+    }
+  }
+
   /// The load with the ropes that end at its lugs.
   std::vector<dynamics::ElasticBody> make_elastic_bodies(
       const dynamics::Mechanism& mechanism, const std::vector<dynamics::Rope>& ropes) const {
@@ -315,8 +331,12 @@ class LiftBuilder {
                                  kinematics);
     for (const HookStart& hook : hook_starts_) {
       const Pose& X_WT = kinematics.X_WB[hook.sheave.body];
-      q_start_.segment<3>(mechanism.body(hook.hook).q_offset) =
+      q_start_.segment<3>(mechanism.body(hook.place).q_offset) =
           X_WT.apply(hook.sheave.p_BoQ_B) - Vector3(0, 0, hook.length);
+      if (!hook.turning) continue;
+      dynamics::RopeDefinition& tackle = rope_definitions_[hook.tackle];
+      q_start_[mechanism.body(tackle.points.back().body).q_offset] =
+          hang_twin_falls(*hook.turning, X_WT.R, tackle);
     }
     if (!case_.spreaders.empty()) set_spreaders(mechanism, kinematics);
   }
@@ -353,6 +373,7 @@ class LiftBuilder {
     add_wind_areas(at_rest, elements);
     for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements);
     add_mode_springs(mechanism, elements);
+    add_bearings(mechanism, elements);
     marine_.add_elements(place(), radiation_, at_rest, elements);
     const LoadInCase& load = case_.load;
     if (!load.vessel) return elements;
@@ -550,6 +571,13 @@ class LiftBuilder {
 };
 
 }  // namespace
+
+dynamics::BodyPoint upper_sheave(const dynamics::Rope& tackle, const LiftHoist& hoist) {
+  const std::vector<BodyPoint>& points = tackle.points();
+  if (tackle.definition().twin_falls)
+    return {points[0].body, 0.5 * (points[0].p_BoQ_B + points[2].p_BoQ_B)};
+  return hoist.hook_is_first ? points[1] : *(points.end() - 2);
+}
 
 int find_rope(const std::vector<LiftRope>& ropes, const std::vector<LiftHoist>& hoists,
               const std::string& name) {

@@ -37,7 +37,7 @@ struct LiftHoist {
   std::string name;               ///< "C1.upper_1": of the hoist, its tackle, and its hook block
   std::size_t crane = 0;          ///< index in the case
   int rope = -1;                  ///< its tackle's index in the system; equalised hoists share it
-  dynamics::BodyIndex hook = -1;  ///< its hook block
+  dynamics::BodyIndex hook = -1;  ///< its hook block; of one with a bearing the hook below that
   /// Does the tackle's rope begin, not end, at the hook block? One rope over two hooks does.
   bool hook_is_first = false;
   double capacity = dynamics::not_a_number;       ///< largest load at the hook, N
@@ -81,6 +81,9 @@ struct LiftSpreader {
   dynamics::BodyIndex body = -1;
   std::vector<End> ends;
 };
+
+/// Where a hoist's tackle leaves its upper sheaves; of twin falls the middle between them.
+dynamics::BodyPoint upper_sheave(const dynamics::Rope& tackle, const LiftHoist& hoist);
 
 /// Index in the system of the rope of that name, or of the hoist's tackle.
 /// @throws dynamics::ModelError if there is none.
@@ -148,7 +151,7 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 ///
 /// Bodies are named "C1.gantry", hook blocks as their hoists ("C1.upper_1"), the block "load". A
 /// hook block is a body on a translational joint to the world, its tackle a rope from the sheave to
-/// its centre. Tackles of equalised hoists are one rope, from hook block to hook block, which
+/// its centre; of those that turn hook_bodies and hang_twin_falls tell. Tackles of equalised hoists are one rope, from hook block to hook block, which
 /// leaves out what lies between the sheaves. The load and spreaders are free; its start and that of
 /// the hook blocks (plumb below their sheaves, by the unstretched length) are guesses from which
 /// the equilibrium is found.

@@ -30,6 +30,8 @@ class MeasureChecks {
 
   std::vector<Check> list() {
     const CheckSettings& limits = case_.checks;
+    add_at_most("twist of falls", "twist of falls: largest of a hook block that turns",
+                limits.largest_falls_twist);
     add_at_most("tilt", "tilt: angle of the load against the plumb", limits.largest_tilt);
     add_at_least("sling angle", "angle of slings: smallest against the level",
                  limits.smallest_sling_angle);

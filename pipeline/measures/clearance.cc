@@ -215,8 +215,8 @@ class Clearances {
                        [&](const LiftBody& body) { return body.body == hoist.hook; });
       if (drawn != lift_.model.bodies.end() && !drawn->boxes.empty())
         add_pair(load_, {hoist.name, hoist.hook, Solid(surface_of(drawn->boxes.front()))});
-      const auto& points = lift_.model.system.ropes()[hoist.rope].points();
-      const dynamics::BodyPoint& sheave = hoist.hook_is_first ? points[1] : *(points.end() - 2);
+      const dynamics::BodyPoint sheave =
+          upper_sheave(lift_.model.system.ropes()[hoist.rope], hoist);
       const RopePiece tackle{"tackle of " + hoist.name, sheave, {hoist.hook, Vector3::Zero()}};
       add_rope(tackle, load_);
       for (const PlacedSolid& body : cranes_[hoist.crane])

@@ -72,8 +72,7 @@ void add_hook_measures(const CraneInCase& crane, const ChartFactor& derated, con
   const HoistModel& model =
       *crane.model->find_hoist(hoist.name.substr(crane.name.value.size() + 1));
   const dynamics::BodyPoint from = body_point(crane, system.mechanism(), *crane.model->radius_from);
-  const auto& points = system.ropes()[hoist.rope].points();
-  const dynamics::BodyPoint& sheave = hoist.hook_is_first ? points[1] : *(points.end() - 2);
+  const dynamics::BodyPoint sheave = upper_sheave(system.ropes()[hoist.rope], hoist);
 
   MeasureGroup group(lift);
   group.add({.subject = hoist.name,

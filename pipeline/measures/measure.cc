@@ -6,6 +6,7 @@
 #include "pipeline/measures/clearance.h"
 #include "pipeline/measures/crane_measures.h"
 #include "pipeline/measures/edge_measures.h"
+#include "pipeline/measures/hook_block_measures.h"
 #include "pipeline/measures/keeping_measures.h"
 #include "pipeline/measures/line_measures.h"
 #include "pipeline/measures/load_measures.h"
@@ -56,6 +57,7 @@ std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun&
   add_load_measures(lift_case, lift, measures);
   add_spreader_measures(lift_case, lift, measures);
   add_crane_measures(lift_case, lift, measures);
+  add_hook_block_measures(lift, measures);
   add_vessel_measures(lift_case, lift, measures);
   add_keeping_measures(lift, measures);
   add_tackle_measures(lift_case, lift, measures);

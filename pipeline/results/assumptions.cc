@@ -66,11 +66,33 @@ std::string names_of_curved(const LiftCase& lift_case) {
   return names;
 }
 
+/// Hoists whose blocks turn, and on bearings.
+std::string names_of_turning(const LiftCase& lift_case) {
+  std::string names;
+  for (const CraneInCase& crane : lift_case.cranes)
+    for (const HoistModel& hoist : crane.model->hoists) {
+      const auto& turning = hoist.hook_block.turning;
+      if (!turning) continue;
+      names += (names.empty() ? "" : ", ") + crane.name.value + "." + hoist.name.value;
+      if (turning->bearing)
+        names += fmt::format(", its hook on a bearing with {:g} N m of friction",
+                             turning->bearing->friction_moment);
+    }
+  return names;
+}
+
 void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
-  list.emplace_back(
+  const std::string turning = names_of_turning(lift_case);
+  list.push_back(
       "Cranes, hook blocks and the block are rigid bodies; a crane's elasticity acts in series "
-      "with "
-      "each of its tackles. Hook blocks do not turn.");
+      "with each of its tackles. " +
+      (turning.empty()
+           ? "Hook blocks do not turn."
+           : fmt::format(
+                 "Hook blocks turn about the vertical alone ({}), and others not: two falls "
+                 "of a tackle, with half of its tension each, turn them back with T b^2 "
+                 "sin(twist) / L, 2 b being the distance of the falls and L their length.",
+                 turning)));
   const std::string hanging = names_of_hanging(lift_case);
   list.push_back(
       hanging.empty()

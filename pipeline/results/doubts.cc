@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/measures/edge_measures.h"
+#include "pipeline/measures/hook_block_measures.h"
 #include "pipeline/measures/load_measures.h"
 
 namespace blocklift::pipeline {
@@ -43,6 +45,7 @@ class Doubts {
     doubt_ground(lift);
     doubt_ropes(lift);
     doubt_edges(lift);
+    doubt_falls(lift);
     doubt_suspension(lift);
     say_faults(lift);
   }
@@ -182,6 +185,32 @@ class Doubts {
               "the edge, which is computed as if it went on.",
               rope.name, of.name, -least, when);
       }
+  }
+
+  /// Falls turn a hook block back ever less beyond a quarter of a turn, and wind up beyond half.
+  void doubt_falls(const LiftRun& lift) {
+    constexpr double degree = std::numbers::pi / 180;
+    for (const LiftHoist& hoist : lift.model.hoists) {
+      if (!block_turns(lift, hoist)) continue;
+      const auto peak_of = [&](const dynamics::History& history) {
+        return find_peak(history.time, falls_twist(lift, hoist, history),
+                         Extreme::largest_magnitude);
+      };
+      const MeasurePeak still = peak_of(lift.static_history);
+      const MeasurePeak moving = peak_of(lift.dynamic_history());
+      const MeasurePeak most = std::abs(still.value) > std::abs(moving.value) ? still : moving;
+      const double twist = std::abs(most.value);
+      if (twist >= 180 * degree)
+        doubt(
+            "The falls of {} are twisted by {:.0f} deg at {:.1f} s: beyond 180 deg they would wind "
+            "round one another, and in the computation they go through one another.",
+            hoist.name, twist / degree, most.time);
+      else if (twist > 90 * degree)
+        doubt(
+            "The falls of {} are twisted by {:.0f} deg at {:.1f} s, beyond the 90 deg at which "
+            "they turn the hook block back most.",
+            hoist.name, twist / degree, most.time);
+    }
   }
 
   void doubt_cranes() {

@@ -211,11 +211,15 @@ void write_scene(ResultsWriter& file, const LiftSystem& system, const dynamics::
     write_path(file, system, system.ropes()[i].name(), "sling", drawn_path(system, i, history));
   }
   for (const DrawnTackle& tackle : scene.hoists) {
-    // From sheave to hook; of one rope over two hooks its own part.
-    const auto& points = system.ropes()[tackle.rope].points();
-    write_path(file, system, tackle.name, "hoist",
-               tackle.hook_is_first ? std::vector{points[1], points[0]}
-                                    : std::vector{*(points.end() - 2), points.back()});
+    // From sheave to hook; of one rope over two hooks its own part, of twin falls down and up.
+    const dynamics::Rope& rope = system.ropes()[tackle.rope];
+    const auto& points = rope.points();
+    std::vector<dynamics::BodyPoint> path = {*(points.end() - 2), points.back()};
+    if (rope.definition().twin_falls)
+      path = {points[0], points[1], points[3], points[2]};
+    else if (tackle.hook_is_first)
+      path = {points[1], points[0]};
+    write_path(file, system, tackle.name, "hoist", path);
   }
   std::vector<std::string> names;
   std::vector<structure::Vector3> pins;

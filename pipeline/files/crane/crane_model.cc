@@ -10,9 +10,51 @@
 namespace blocklift::pipeline {
 namespace {
 
+Format<HookBearingModel> hook_bearing_format() {
+  Table<HookBearingModel> table("hook bearing", "The hook turns on its block about the vertical.");
+  table
+      .required("hook_mass", &HookBearingModel::hook_mass,
+                quantity(Dimension::mass, Range::positive()),
+                "of what turns below the bearing; part of the block's mass")
+      .required("radius_of_gyration", &HookBearingModel::radius_of_gyration,
+                quantity(Dimension::length, Range::positive()), "of it about the vertical")
+      .by_default(
+          "friction_moment", &HookBearingModel::friction_moment,
+          quantity(Dimension::moment, Range::not_negative()), "0 N m",
+          "against the hook's turning on the block; up to it the block turns with the hook");
+  return table.format();
+}
+
+Format<TurningBlockModel> turning_block_format() {
+  Table<TurningBlockModel> table(
+      "turning block",
+      "The hook block turns about the vertical against its falls, which turn it back. Two falls, "
+      "each with half of the tension, stand for all.");
+  table
+      .required("falls_apart", &TurningBlockModel::falls_apart,
+                quantity(Dimension::length, Range::positive()),
+                "from one of the two falls to the other, above and below: twice the root of the "
+                "mean square of all falls' distances from the block's axis")
+      .required("radius_of_gyration", &TurningBlockModel::radius_of_gyration,
+                quantity(Dimension::length, Range::positive()),
+                "of the block about the vertical; with a bearing without the hook")
+      .by_default("horns", &TurningBlockModel::horns,
+                  quantity(Dimension::length, Range::not_negative()), "0 m",
+                  "from horn a to horn b of the hook, where slings begin: C1.main.a, C1.main.b. "
+                  "Slings that begin at its centre do not turn it")
+      .by_default("towards", &TurningBlockModel::towards, quantity(Dimension::angle), "0 deg",
+                  "from the x axis of the body with the upper sheaves, seen from above, to horn a "
+                  "at the start")
+      .optional("bearing", &TurningBlockModel::bearing, hook_bearing_format(),
+                "on which the hook turns; locked to the block if left out")
+      .place(&TurningBlockModel::place);
+  return table.format();
+}
+
 Format<HookBlockModel> hook_block_format() {
   Table<HookBlockModel> table("hook block",
-                              "Hangs free from the tackle; slings start at its centre.");
+                              "Hangs free from the tackle; slings start at its centre, or at the "
+                              "horns of one that turns.");
   table
       .required("mass", &HookBlockModel::mass, quantity(Dimension::mass, Range::positive()),
                 "with hook and lower sheaves")
@@ -22,7 +64,17 @@ Format<HookBlockModel> hook_block_format() {
       .by_default("wind_coefficient", &HookBlockModel::wind_coefficient,
                   number(Range::not_negative()), "1.2", "of wind pressure")
       .by_default("size", &HookBlockModel::size, size_format(), "[1 m, 1 m, 2 m]",
-                  "of the box in the drawing");
+                  "of the box in the drawing")
+      .optional("turning", &HookBlockModel::turning, turning_block_format(),
+                "that it turns about the vertical; it keeps its direction if left out")
+      .rule([](const HookBlockModel& block, Reading& reading, const Mark&) {
+        if (!block.turning || !block.turning->bearing) return;
+        if (block.turning->bearing->hook_mass < block.mass) return;
+        reading.error(block.turning->place,
+                      fmt::format("the hook weighs {:g} kg, and its block with it {:g} kg",
+                                  block.turning->bearing->hook_mass, block.mass),
+                      {"hook_mass is a part of the block's mass"});
+      });
   return table.format();
 }
 
@@ -154,6 +206,12 @@ Format<HoistModel> hoist_format() {
 }
 
 }  // namespace
+
+std::optional<Vector3> TurningBlockModel::horn(const std::string& name) const {
+  if (horns > 0 && name == "a") return Vector3(horns / 2, 0, 0);
+  if (horns > 0 && name == "b") return Vector3(-horns / 2, 0, 0);
+  return std::nullopt;
+}
 
 double LoadChart::capacity(double radius) const {
   for (const ChartLine& line : lines)

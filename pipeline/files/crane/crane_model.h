@@ -12,12 +12,34 @@
 
 namespace blocklift::pipeline {
 
+/// A hook that turns on its block.
+struct HookBearingModel {
+  double hook_mass = std::numeric_limits<double>::quiet_NaN();           ///< of the block's, kg
+  double radius_of_gyration = std::numeric_limits<double>::quiet_NaN();  ///< of the hook, m
+  double friction_moment = 0;                                            ///< N m
+};
+
+/// How a hook block turns about the vertical: against its falls, and with a bearing its hook on it.
+struct TurningBlockModel {
+  /// Between the two falls that stand for all of the tackle, m.
+  double falls_apart = std::numeric_limits<double>::quiet_NaN();
+  double radius_of_gyration = std::numeric_limits<double>::quiet_NaN();  ///< about the vertical, m
+  double horns = 0;    ///< from one horn of the hook to the other, m; zero: it has none
+  double towards = 0;  ///< from the x axis of the body with the upper sheaves to horn a, rad
+  std::optional<HookBearingModel> bearing;  ///< none: the hook is locked to the block
+  Mark place;
+
+  /// Place of a horn, `a` or `b`, in the hook's frame, m; none of another name.
+  std::optional<Vector3> horn(const std::string& name) const;
+};
+
 /// Body of small size in which a tackle ends.
 struct HookBlockModel {
   double mass = std::numeric_limits<double>::quiet_NaN();  ///< kg
   double wind_area = 0;                                    ///< m^2, from any side
   double wind_coefficient = 0;
-  Vector3 size = Vector3::Zero();  ///< of the box in the drawing, m
+  Vector3 size = Vector3::Zero();            ///< of the box in the drawing, m
+  std::optional<TurningBlockModel> turning;  ///< none: it keeps its direction
 };
 
 /// A line of a load chart: what a hook may carry up to a radius.

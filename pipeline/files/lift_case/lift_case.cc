@@ -154,6 +154,7 @@ bool LiftCase::hangs(const RopeInCase& rope) const {
 
 bool LiftCase::hangs(const CraneInCase& crane, const HoistModel& hoist) const {
   if (!rope_weight || !rope_weight->value || !hoist.rope.mass_per_length) return false;
+  if (hoist.hook_block.turning) return false;
   if (!crane.equalised) return true;
   const auto& pair = crane.equalised->value;
   return pair[0].value != hoist.name.value && pair[1].value != hoist.name.value;

@@ -314,6 +314,7 @@ struct CheckSettings {
   std::optional<double> spreader_factor;  ///< absent: yield_factor
   double smallest_tension = 0;            ///< N
   std::optional<double> largest_swing;    ///< rad
+  double largest_falls_twist = 0;         ///< of hook blocks that turn, rad
   // Of the lift's measures; absent: not checked.
   std::optional<double> largest_tilt;              ///< of the load, rad
   std::optional<double> smallest_sling_angle;      ///< against the level, rad

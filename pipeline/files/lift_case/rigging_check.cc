@@ -150,6 +150,15 @@ void check_equalised(const CraneInCase& crane, Diagnostics& diagnostics) {
                       {"two hoists are due: equalised: [left, right]"});
     return;
   }
+  for (const HoistModel* hoist : hoists) {
+    if (!hoist->hook_block.turning) continue;
+    diagnostics.error(crane.equalised->mark,
+                      fmt::format("the hook block of hoist {}.{} turns, and is equalised",
+                                  crane.name.value, hoist->name.value),
+                      {"the falls of one rope over two hooks are taken as a line at each, which "
+                       "does not twist: leave turning out of the crane's model, or equalised"});
+    return;
+  }
   const RopeModel &a = hoists[0]->rope, &b = hoists[1]->rope;
   if (!a.stretches_like(b) || a.breaking_load != b.breaking_load) {
     diagnostics.error(

@@ -126,6 +126,8 @@ class PointResolver {
       resolved.kind = ResolvedPoint::Kind::hook;
       return resolved;
     }
+    const HoistModel* hoist = crane->model->find_hoist(before_dot(part));
+    if (hoist && !bodies_too) return resolve_horn(name, *hoist, std::move(resolved));
     if (bodies_too && crane->model->find_body(part)) {
       resolved.kind = ResolvedPoint::Kind::crane_body;
       return resolved;
@@ -141,6 +143,31 @@ class PointResolver {
          names_hint(bodies_too ? "its bodies and hoists are" : "its hoists are",
                     parts_of(*crane, bodies_too), name.value));
     return std::nullopt;
+  }
+
+  /// @param resolved with its crane.
+  std::optional<ResolvedPoint> resolve_horn(const Located<std::string>& name,
+                                            const HoistModel& hoist, ResolvedPoint resolved) {
+    const std::size_t dot = name.value.rfind('.');
+    const std::string hook = name.value.substr(0, dot);
+    const auto& turning = hoist.hook_block.turning;
+    if (!turning || turning->horns == 0) {
+      fail(name, fmt::format("{} \"{}\", but hook {} has no horns", subject_, name.value, hook),
+           fmt::format("it has some with turning: {{horns: 0.4 m, ...}} in the hook_block of the "
+                       "crane's model; without them slings begin at {}",
+                       hook));
+      return std::nullopt;
+    }
+    const std::optional<Vector3> place = turning->horn(name.value.substr(dot + 1));
+    if (!place) {
+      fail(name, fmt::format("{} \"{}\", which is no horn of hook {}", subject_, name.value, hook),
+           names_hint("its horns are", {hook + ".a", hook + ".b"}, name.value));
+      return std::nullopt;
+    }
+    resolved.kind = ResolvedPoint::Kind::hook;
+    resolved.part = hoist.name.value;
+    resolved.point = *place;
+    return resolved;
   }
 
   /// Lugs that are copies have a point in their names, too: L1.mirrored.

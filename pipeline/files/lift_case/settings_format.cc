@@ -128,6 +128,10 @@ Format<CheckSettings> checks_format() {
       .optional("swing", &CheckSettings::largest_swing,
                 quantity(Dimension::angle, Range::positive()),
                 "largest angle of a hoist's tackle against the vertical; not checked if left out")
+      .by_default("falls_twist", &CheckSettings::largest_falls_twist,
+                  quantity(Dimension::angle, Range::positive()), "90 deg",
+                  "largest twist of the falls of a hook block that turns; at 90 deg they turn it "
+                  "back most, at 180 deg they cross")
       .optional("tilt", &CheckSettings::largest_tilt, quantity(Dimension::angle, Range::positive()),
                 "largest angle of the load's z axis against the plumb; not checked if left out")
       .optional("sling_angle", &CheckSettings::smallest_sling_angle,

@@ -284,6 +284,42 @@ TEST(LiftCaseErrors, HoistsThatCannotBeEqualised) {
             "1 error\n");
 }
 
+// The sample's left hook block with other keys, and where R1 begins.
+std::string complaints_about_hook(const std::string& block, const std::string& from,
+                                  const std::string& crane_lines = "") {
+  SampleLift lift;
+  lift.crane = with(lift.crane, "{mass: 500 kg, wind_area: 1 m^2}", block);
+  lift.lift_case = with(lift.lift_case, "R1: {from: C1.left,", "R1: {from: " + from + ",");
+  lift.lift_case = with(lift.lift_case, "    model: gantry\n", "    model: gantry\n" + crane_lines);
+  return complaints_about(lift);
+}
+
+TEST(LiftCaseErrors, HooksWithoutTheirHorns) {
+  const std::string turning =
+      "{mass: 500 kg, turning: {falls_apart: 1 m, radius_of_gyration: 0.4 m, horns: 0.5 m}}";
+  EXPECT_EQ(complaints_about_hook(turning, "C1.left.b"), "");
+  EXPECT_EQ(complaints_about_hook("{mass: 500 kg}", "C1.left.a"),
+            "case.yaml:9:14: error: rope R1 begins at \"C1.left.a\", but hook C1.left has no "
+            "horns\n"
+            "    it has some with turning: {horns: 0.4 m, ...} in the hook_block of the crane's "
+            "model; without them slings begin at C1.left\n1 error\n");
+  EXPECT_EQ(complaints_about_hook(turning, "C1.left.c"),
+            "case.yaml:9:14: error: rope R1 begins at \"C1.left.c\", which is no horn of hook "
+            "C1.left\n"
+            "    its horns are C1.left.a, C1.left.b; did you mean \"C1.left.a\"?\n1 error\n");
+  EXPECT_THAT(complaints_about_hook(turning, "C1.left", "    equalised: [left, right]\n"),
+              HasSubstr("the hook block of hoist C1.left turns, and is equalised"));
+}
+
+TEST(LiftCaseErrors, HooksHeavierThanTheirBlocks) {
+  EXPECT_THAT(
+      complaints_about_hook("{mass: 500 kg, turning: {falls_apart: 1 m, radius_of_gyration: 0.4 m, "
+                            "bearing: {hook_mass: 600 kg, radius_of_gyration: 0.2 m}}}",
+                            "C1.left"),
+      HasSubstr("error: the hook weighs 600 kg, and its block with it 500 kg\n    hook_mass is a "
+                "part of the block's mass"));
+}
+
 TEST(LiftCaseErrors, WeightOfRopesThatHaveNone) {
   const auto complaints = [](const std::string& lines, const std::string& rope_lines) {
     SampleLift lift;
