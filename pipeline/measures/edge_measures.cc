@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "pipeline/measures/edge_sliding.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -56,6 +58,29 @@ class EdgeMeasures {
     measures_.push_back(std::move(measure));
   }
 
+  /// Of a rope that friction holds sideways.
+  void add_sideways() {
+    const dynamics::Rope& rope = lift_.model.system.ropes()[rope_];
+    SidewaysHold at_rest = hold_sideways(rope, lift_.static_history, rope_, edge_);
+    SidewaysHold in_motion = hold_sideways(rope, lift_.dynamic_history(), rope_, edge_);
+    measures_.push_back({.subject = subject_,
+                         .kind = "sideways pull",
+                         .unit = "1",
+                         .extreme = Extreme::largest_magnitude,
+                         .meaning = "of the rope along the edge over what it presses against it, "
+                                    "where friction holds it; above the friction it slides along",
+                         .at_rest = std::move(at_rest.pull),
+                         .in_motion = std::move(in_motion.pull)});
+    measures_.push_back({.subject = subject_,
+                         .kind = "slid along the edge",
+                         .unit = "m",
+                         .extreme = Extreme::largest_magnitude,
+                         .meaning = "by the computation, which has no friction sideways, from "
+                                    "where friction holds the rope",
+                         .at_rest = std::move(at_rest.slid),
+                         .in_motion = std::move(in_motion.slid)});
+  }
+
  private:
   const LiftRun& lift_;
   std::size_t rope_, edge_;
@@ -101,6 +126,7 @@ void add_edge_measures(const LiftRun& lift, std::vector<LiftMeasure>& measures) 
                [](const RopeHistory&, const EdgeHistory& at, Eigen::Index i) {
                  return at.touches(i) ? at.last_tension[i] : no_number;
                });
+        of.add_sideways();
       }
       const double length = rope.edges[edge].length;
       of.add("distance from edge end", "m", Extreme::smallest,

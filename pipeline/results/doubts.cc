@@ -12,6 +12,7 @@
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/measures/edge_measures.h"
+#include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
 #include "pipeline/measures/load_measures.h"
 
@@ -45,6 +46,7 @@ class Doubts {
     doubt_ground(lift);
     doubt_ropes(lift);
     doubt_edges(lift);
+    doubt_sliding(lift);
     doubt_falls(lift);
     doubt_suspension(lift);
     say_faults(lift);
@@ -185,6 +187,43 @@ class Doubts {
               "the edge, which is computed as if it went on.",
               rope.name, of.name, -least, when);
       }
+  }
+
+  /// Friction of edges acts along ropes alone where the motion is computed.
+  void doubt_sliding(const LiftRun& lift) {
+    for (const LiftRope& rope : lift.model.ropes)
+      for (std::size_t edge = 0; edge < rope.edges.size(); ++edge) {
+        if (rope.edges[edge].friction == 0) continue;
+        for (const dynamics::History* history : {&lift.dynamic_history(), &lift.static_history})
+          if (doubt_sliding(lift, *history, rope, edge)) break;
+      }
+  }
+
+  /// @return Was there a doubt?
+  bool doubt_sliding(const LiftRun& lift, const dynamics::History& history, const LiftRope& rope,
+                     std::size_t edge) {
+    constexpr double round_off = 1e-6, some_way = 0.05;  // of the friction; m
+    const LiftEdge& of = rope.edges[edge];
+    const auto index = static_cast<std::size_t>(rope.rope);
+    const SidewaysHold hold = hold_sideways(lift.model.system.ropes()[index], history, index, edge);
+    const char* const at_rest = &history == &lift.static_history ? " at rest" : "";
+    for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
+      if (!(std::abs(hold.pull[i]) > (1 + round_off) * of.friction)) continue;
+      doubt(
+          "Rope {} slides sideways along edge {} from {:.1f} s on{}, {:.2f} m from where the edge "
+          "begins: it pulls {:.3g} times as much along the edge as against it, and friction holds "
+          "{:g}. The computation lets it slide without any.",
+          rope.name, of.name, history.time[i], at_rest, hold.place[i], std::abs(hold.pull[i]),
+          of.friction);
+      return true;
+    }
+    const MeasurePeak most = find_peak(history.time, hold.slid, Extreme::largest_magnitude);
+    if (!(std::abs(most.value) > some_way)) return false;
+    doubt(
+        "Rope {} is {:.2f} m further along edge {} at {:.1f} s{} than friction would let it slide: "
+        "the computation has none sideways.",
+        rope.name, std::abs(most.value), of.name, most.time, at_rest);
+    return true;
   }
 
   /// Falls turn a hook block back ever less beyond a quarter of a turn, and wind up beyond half.
