@@ -39,15 +39,6 @@ PointExtremes sized(int points) {
   return {Eigen::VectorXd::Zero(points), Eigen::VectorXi::Zero(points)};
 }
 
-// No principal stress reaches infinity: none is looked for.
-StressFound von_mises_above(double known) {
-  StressFound floor;
-  floor.von_mises.value = known;
-  floor.largest_principal.value = std::numeric_limits<double>::infinity();
-  floor.minus_smallest_principal.value = std::numeric_limits<double>::infinity();
-  return floor;
-}
-
 void keep(PointExtremes& extremes, int point, const Found& found, double sign = 1) {
   extremes.value[point] = sign * found.value;
   extremes.instant[point] = found.instant;
@@ -74,14 +65,13 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int threads) {
-  const StressFound floor = von_mises_above(-std::numeric_limits<double>::infinity());
   PointExtremes extremes = sized(points);
   in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);
     SearchWorkspace workspace(history);
     for (int i = 0; i < count; ++i)
       keep(extremes, first + i,
-           search_stress(history, rows.data() + 6L * i * rows.cols(), workspace, floor).von_mises);
+           search_von_mises(history, rows.data() + 6L * i * rows.cols(), workspace));
   });
   return extremes;
 }
@@ -94,12 +84,17 @@ void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
     if (points == 0) return;
     const Rows rows = responses_of(history, stress, from, points, 6);
     SearchWorkspace workspace(history);
+    const auto rows_of = [&](int point) { return rows.data() + 6L * (point - from) * rows.cols(); };
     for (int run = first; run < first + count; ++run) {
-      StressFound found = von_mises_above(largest[run]);
+      // Where the run before had its largest stress, all points of this one are likely to have
+      // theirs, and the most stressed of them rules out most others.
+      double known = largest[run];
       for (int point = begin[run]; point < begin[run + 1]; ++point)
-        found = search_stress(history, rows.data() + 6L * (point - from) * rows.cols(), workspace,
-                              found);
-      largest[run] = found.von_mises.value;
+        known = std::max(known, likely_von_mises(history, rows_of(point), workspace));
+      Found found{known, -1};
+      for (int point = begin[run]; point < begin[run + 1]; ++point)
+        found = search_von_mises(history, rows_of(point), workspace, found);
+      largest[run] = found.value;
     }
   });
 }
@@ -194,9 +189,7 @@ LargestValue find_largest_in_plane(const LoadHistory& history, int points,
     for (int i = 0; i < count; ++i) {
       rows.topRows<2>() = in_plane.middleRows<2>(3L * i);
       rows.row(3) = in_plane.row(3L * i + 2);
-      const Found found =
-          search_stress(history, rows.data(), workspace, von_mises_above(as_floor(known).value))
-              .von_mises;
+      const Found found = search_von_mises(history, rows.data(), workspace, as_floor(known));
       if (found.instant >= 0) merge(known, found, first + i);
     }
   });

@@ -33,8 +33,9 @@ using UnitResponsesAt = std::function<Eigen::MatrixXd(int first, int count)>;
 /// Von Mises stress and largest principal stress are convex functions of the loads, and over a
 /// cluster of instants they are bounded by their values and slopes in its middle (the bounds stand
 /// in envelope_kernel.inc). Clusters whose bound does not reach what has been found already are
-/// passed over. The instants of the others are screened in single precision, with a margin larger
-/// than all of its rounding, and those that reach what has been found are computed in double
+/// passed over; for von Mises stress and displacements whole packs of clusters are first, by the
+/// box that holds them. The instants of the others are screened in single precision, with a margin
+/// larger than all of its rounding, and those that reach what has been found are computed in double
 /// precision, principal stresses by a symmetric eigenvalue solver. So the result is that of
 /// evaluating every instant in double precision, at a fraction of the work. Where loads never come
 /// back to nearly the same values (noise) all clusters are screened.

@@ -12,12 +12,19 @@ namespace blocklift::structure {
 
 namespace {
 
-/// Responses of a point in single precision, scaled to about 1.
+/// Responses u of a point of which the norm |u| is sought, in single precision, scaled to about 1.
 struct Screen {
+  const float* rows;   ///< a component, each for unit coordinates
+  const float* norms;  ///< |u| for each coordinate
+  float margin;        ///< more than all rounding together
+};
+
+/// Stresses of a point, likewise.
+struct PrincipalScreen {
   const float* rows;          ///< a component, each for unit coordinates
-  const float* weighed_rows;  ///< of stress: <s_k, s> = sum_c weighed_rows[c][k] s[c]
-  const float* norms;         ///< of each coordinate's response: q, spectral norm, |p|; or |u|
-  float margin;               ///< more than all rounding together
+  const float* weighed_rows;  ///< <s_k, s> = sum_c weighed_rows[c][k] s[c], with q^2 = <s, s>
+  const float* norms;         ///< of each coordinate's response: q, spectral norm, |p|
+  float margin;
 };
 
 /// Response in the middle of a cluster, computed in double precision and scaled as the screen's,
@@ -26,17 +33,24 @@ struct Screen {
 struct Middle {
   float response[6];
   float margin;
-  float margin_of_principals;
 };
+
+/// Bounds of |u| over boxes, or of members of a cluster, and whether one reaches the floor.
+using BoundNorm = bool (*)(const Screen&, int rank, const float* centres, const float* half_widths,
+                           float floor, float* bounds);
+using ScreenNorm = bool (*)(const Screen&, int rank, const float* differences, const Middle&,
+                            float floor, float* bounds);
 
 /// The loops in the instruction set of this machine.
 struct Kernel {
-  void (*bound_stress)(const Screen&, const LoadHistory&, float* work, float* bounds);
-  void (*screen_stress)(const Screen&, const LoadHistory&, int cluster, const Middle&,
-                        float* bounds);
-  void (*bound_displacement)(const Screen&, const LoadHistory&, float* work, float* bounds);
-  void (*screen_displacement)(const Screen&, const LoadHistory&, int cluster, const Middle&,
-                              float* bounds);
+  BoundNorm bound_norm_of_3;
+  ScreenNorm screen_norm_of_3;
+  BoundNorm bound_norm_of_5;
+  ScreenNorm screen_norm_of_5;
+  void (*bound_principals)(const PrincipalScreen&, int rank, const float* centres,
+                           const float* half_widths, float* bounds);
+  void (*screen_principals)(const PrincipalScreen&, int rank, const float* differences,
+                            const Middle&, float* bounds);
 };
 
 namespace portable {
@@ -76,6 +90,8 @@ const Kernel& kernel() {
 }
 
 constexpr int members = LoadHistory::cluster_size;
+constexpr int pack = LoadHistory::pack;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unit = 6e-8;  // more than the rounding to single precision, 2^-24
 
 // Takes a value that is larger, or as large and earlier.
@@ -102,6 +118,10 @@ double von_mises_of(const Eigen::Matrix<double, 6, 1>& s) {
       1.5 * ((s.head<3>().array() - p).matrix().squaredNorm() + 2 * s.tail<3>().squaredNorm()));
 }
 
+double frobenius_of(const Eigen::Matrix<double, 6, 1>& s) {
+  return std::sqrt(s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm());
+}
+
 double largest_principal(const Eigen::Matrix<double, 6, 1>& s) {
   Eigen::Matrix3d tensor;
   tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
@@ -117,11 +137,20 @@ float margin(const LoadHistory& history, const float* norms) {
   return static_cast<float>((2 * history.rank() + 20) * unit * sum);
 }
 
+// Just below a value, in single precision.
+float below(double value) { return static_cast<float>(value - 3 * unit * std::abs(value)); }
+
+const float* of_pack(const std::vector<float>& boxes, const LoadHistory& history, int number) {
+  return boxes.data() + static_cast<std::ptrdiff_t>(number) * history.rank() * pack;
+}
+
 // How far norms of the responses reach from a cluster's middle.
 double reach_from_middle(const LoadHistory& history, const float* norms, int cluster) {
   double sum = 0;
+  const float* half_widths =
+      of_pack(history.boxes_of_clusters().half_widths, history, cluster / pack) + cluster % pack;
   for (int k = 0; k < history.rank(); ++k)
-    sum += norms[k] * history.half_widths()[k * history.padded_clusters() + cluster];
+    sum += norms[k] * half_widths[static_cast<std::ptrdiff_t>(k) * pack];
   return sum;
 }
 
@@ -137,49 +166,198 @@ Eigen::Matrix<double, count, 1> response_in_middle(const LoadHistory& history, c
   return sum;
 }
 
-double scale_of(const LoadHistory& history, const double* rows, int count) {
-  double sum = 0;
-  for (int c = 0; c < count; ++c)
-    for (int k = 0; k < history.rank(); ++k)
-      sum = std::max(sum, std::abs(rows[c * history.rank() + k]) * history.reach()[k]);
-  return sum > 0 ? 1 / sum : 1;
+using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
+using Array = Eigen::Map<Eigen::ArrayXd>;
+
+ConstArray row_of(const double* rows, int rank, int row) {
+  return {rows + static_cast<std::ptrdiff_t>(row) * rank, rank};
 }
+
+// The largest that a single coordinate brings to each of `count` components.
+template <int count>
+Eigen::Array<double, count, 1> sizes_of(const LoadHistory& history, const double* rows) {
+  Eigen::Array<double, count, 1> sizes;
+  for (int c = 0; c < count; ++c)
+    sizes[c] = (row_of(rows, history.rank(), c).abs() * history.reach().array()).maxCoeff();
+  return sizes;
+}
+
+double scale_of(double size) { return size > 0 ? 1 / size : 1; }
 
 int largest_of(const float* values, int count) {
   return static_cast<int>(std::max_element(values, values + count) - values);
 }
 
-/// Search at one point for extremes of the stress.
-class StressSearch {
+/// Search at one point for the largest norm |u| of what is linear in the loads, of `count`
+/// components.
+template <int count>
+class NormSearch {
  public:
-  StressSearch(const LoadHistory& history, const double* rows, SearchWorkspace& workspace,
-               const StressFound& floor)
-      : history_(history), rows_(rows), workspace_(workspace), found_(floor) {
+  /// @param matrix count x rank, row after row: u for unit coordinates, times `scale`.
+  /// @param rounding of the exact values, times the scale, as far as it may be more than that of u.
+  NormSearch(const LoadHistory& history, const double* matrix, double scale, double rounding,
+             SearchWorkspace& workspace, const Found& floor)
+      : history_(history),
+        matrix_(matrix),
+        scale_(scale),
+        rounding_(static_cast<float>(2 * rounding)),
+        workspace_(workspace),
+        found_(floor) {
+    const int rank = history.rank();
+    float *rows = workspace.rows.data(), *norms = rows + static_cast<std::ptrdiff_t>(count) * rank;
+    Array norm(workspace.norms.data(), rank);
+    norm.setZero();
+    for (int c = 0; c < count; ++c) {
+      const ConstArray row = row_of(matrix, rank, c);
+      norm += row.square();
+      Eigen::Map<Eigen::ArrayXf>(rows + static_cast<std::ptrdiff_t>(c) * rank, rank) =
+          row.cast<float>();
+    }
+    norm = norm.sqrt();
+    Eigen::Map<Eigen::ArrayXf>(norms, rank) = norm.cast<float>();
+    reach_ = norm.matrix().dot(history.reach());
+    screen_ = {rows, norms, rounding_ + static_cast<float>(2 * (2 * rank + 20) * unit * reach_)};
+  }
+
+  /// @param exact the value of a member of a cluster, exactly.
+  template <class Exact>
+  Found run(const Exact& exact) {
+    // No coordinate goes beyond its reach: most points of no interest are passed over by this.
+    if (reach_ + screen_.margin < found_.value * scale_) return found_;
+    const int packs = history_.packs();
+    if (workspace_.likely_cluster >= 0) evaluate(workspace_.likely_cluster, exact);
+    if (packs == 1) {
+      look_into(0, exact);
+      return found_;
+    }
+    // The most promising pack first: it rules out most others.
+    float* bounds = workspace_.bounds.data();
+    bool is_any = false;
+    for (int first = 0; first < packs; first += pack)
+      is_any |= bound(history_.boxes_of_packs(), first / pack, bounds + first);
+    if (!is_any) return found_;
+    const int best = largest_of(bounds, packs);
+    look_into(best, exact);
+    for (int i = 0; i < packs; ++i)
+      if (i != best && reaches(bounds[i])) look_into(i, exact);
+    return found_;
+  }
+
+ private:
+  static BoundNorm bound_norm() {
+    return count == 3 ? kernel().bound_norm_of_3 : kernel().bound_norm_of_5;
+  }
+  static ScreenNorm screen_norm() {
+    return count == 3 ? kernel().screen_norm_of_3 : kernel().screen_norm_of_5;
+  }
+
+  bool bound(const LoadBoxes& boxes, int number, float* bounds) const {
+    return bound_norm()(screen_, history_.rank(), of_pack(boxes.centres, history_, number),
+                        of_pack(boxes.half_widths, history_, number), below(found_.value * scale_),
+                        bounds);
+  }
+
+  bool reaches(float bound) const { return bound >= found_.value * scale_; }
+
+  // The clusters of a pack, the most promising first.
+  template <class Exact>
+  void look_into(int number, const Exact& exact) {
+    float bounds[pack];
+    if (!bound(history_.boxes_of_clusters(), number, bounds)) return;
+    const int first = number * pack, clusters = std::min(pack, history_.clusters() - first);
+    const int best = largest_of(bounds, clusters);
+    evaluate(first + best, exact);
+    for (int i = 0; i < clusters; ++i)
+      if (i != best && reaches(bounds[i])) evaluate(first + i, exact);
+  }
+
+  // Members of a cluster whose screened values reach what has been found are computed exactly, the
+  // most promising first: they rule out most others.
+  template <class Exact>
+  void evaluate(int cluster, const Exact& exact) {
+    float bounds[members];
+    if (!screen_norm()(screen_, history_.rank(), history_.coarse_members(cluster),
+                       middle_of(cluster), below(found_.value * scale_), bounds))
+      return;
+    const int best = largest_of(bounds, members);
+    const auto evaluate_member = [&](int i) {
+      if (!reaches(bounds[i])) return;
+      const double before = found_.value;
+      take(found_, exact(cluster, i), history_.member_instants(cluster)[i]);
+      if (!(found_.value > before)) return;
+      workspace_.likely_cluster = cluster;
+      workspace_.likely_member = i;
+    };
+    evaluate_member(best);
+    for (int i = 0; i < members; ++i)
+      if (i != best) evaluate_member(i);
+  }
+
+  // Differences are sums of `rank` products rounded as in margin(); u itself, its squares and the
+  // root take less than 16 units of its size.
+  Middle middle_of(int cluster) const {
+    Middle middle{};
+    const Eigen::Matrix<double, count, 1> u = response_in_middle<count>(history_, matrix_, cluster);
+    for (int c = 0; c < count; ++c) middle.response[c] = static_cast<float>(u[c]);
+    const double spread = reach_from_middle(history_, screen_.norms, cluster);
+    middle.margin = rounding_ + static_cast<float>((2 * history_.rank() + 20) * unit * spread +
+                                                   16 * unit * (u.norm() + spread));
+    return middle;
+  }
+
+  const LoadHistory& history_;
+  const double* matrix_;
+  double scale_;
+  float rounding_;
+  SearchWorkspace& workspace_;
+  Found found_;
+  double reach_ = 0;
+  Screen screen_{};
+};
+
+/// Search at one point for extremes of the principal stresses.
+class PrincipalSearch {
+ public:
+  PrincipalSearch(const LoadHistory& history, const double* rows, SearchWorkspace& workspace,
+                  const Found& largest, const Found& minus_smallest)
+      : history_(history),
+        rows_(rows),
+        workspace_(workspace),
+        largest_(largest),
+        minus_smallest_(minus_smallest) {
     prepare();
   }
 
-  StressFound run() {
-    if (!reaches_at_all()) return found_;
-    const int width = history_.padded_clusters(), clusters = history_.clusters();
+  void run() {
+    if (!reaches_at_all()) return;
+    const int width = history_.packs() * pack, clusters = history_.clusters();
     float* bounds = workspace_.bounds.data();
-    kernel().bound_stress(screen_, history_, workspace_.work.data(), bounds);
+    float of_pack_bounds[2 * pack];
+    const LoadBoxes& boxes = history_.boxes_of_clusters();
+    for (int first = 0; first < width; first += pack) {
+      kernel().bound_principals(screen_, history_.rank(),
+                                of_pack(boxes.centres, history_, first / pack),
+                                of_pack(boxes.half_widths, history_, first / pack), of_pack_bounds);
+      std::copy_n(of_pack_bounds, pack, bounds + first);
+      std::copy_n(of_pack_bounds + pack, pack, bounds + width + first);
+    }
     // The most promising clusters first; they rule out most others.
     const auto evaluate_if_worth = [&](int cluster) {
-      if (reaches(bounds[cluster], bounds[width + cluster], bounds[2 * width + cluster]))
-        evaluate(cluster);
+      if (reaches(bounds[cluster], bounds[width + cluster])) evaluate(cluster);
     };
-    for (int quantity = 0; quantity < 3; ++quantity)
-      evaluate_if_worth(
-          largest_of(bounds + static_cast<std::ptrdiff_t>(quantity) * width, clusters));
+    evaluate_if_worth(largest_of(bounds, clusters));
+    evaluate_if_worth(largest_of(bounds + width, clusters));
     for (int cluster = 0; cluster < clusters; ++cluster) evaluate_if_worth(cluster);
-    return found_;
   }
+
+  const Found& largest() const { return largest_; }
+  const Found& minus_smallest() const { return minus_smallest_; }
 
  private:
   void prepare() {
     const int rank = history_.rank();
     float *rows = workspace_.rows.data(), *weighed = rows + 6L * rank, *norms = weighed + 6L * rank;
-    scale_ = scale_of(history_, rows_, 6);
+    scale_ = scale_of(sizes_of<6>(history_, rows_).maxCoeff());
     for (int k = 0; k < rank; ++k) {
       Eigen::Matrix<double, 6, 1> s;
       for (int c = 0; c < 6; ++c) s[c] = rows_[c * rank + k] * scale_;
@@ -191,41 +369,32 @@ class StressSearch {
       const double q = von_mises_of(s);
       norms[k] = static_cast<float>(q);
       // |sigma_i| <= |p| + 2/3 q, and not above the Frobenius norm.
-      const double frobenius = std::sqrt(s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm());
-      norms[rank + k] = static_cast<float>(std::min(std::abs(p) + 2 * q / 3, frobenius));
+      norms[rank + k] = static_cast<float>(std::min(std::abs(p) + 2 * q / 3, frobenius_of(s)));
       norms[2 * rank + k] = static_cast<float>(std::abs(p));
     }
     screen_ = {rows, weighed, norms,
                2 * margin(history_, norms) + 2 * margin(history_, norms + rank)};
   }
 
-  // No coordinate goes beyond its reach, so that f(s) <= sum_k f(s_k) reach_k for the von Mises
-  // stress and the spectral norm: most points of no interest are passed over by this alone.
+  // No coordinate goes beyond its reach, so that |sigma_i| <= sum_k |s_k| reach_k.
   bool reaches_at_all() const {
-    float q = screen_.margin, spectral = screen_.margin;
-    for (int k = 0; k < history_.rank(); ++k) {
-      const auto reach = static_cast<float>(history_.reach()[k]);
-      q += screen_.norms[k] * reach;
-      spectral += screen_.norms[history_.rank() + k] * reach;
-    }
-    return reaches(q, spectral, spectral);
+    float spectral = screen_.margin;
+    for (int k = 0; k < history_.rank(); ++k)
+      spectral += screen_.norms[history_.rank() + k] * static_cast<float>(history_.reach()[k]);
+    return reaches(spectral, spectral);
   }
 
-  bool reaches(float q, float largest, float minus_smallest) const {
-    return q >= found_.von_mises.value * scale_ ||
-           largest >= found_.largest_principal.value * scale_ ||
-           minus_smallest >= found_.minus_smallest_principal.value * scale_;
+  bool reaches(float largest, float minus_smallest) const {
+    return largest >= largest_.value * scale_ || minus_smallest >= minus_smallest_.value * scale_;
   }
 
-  // Members of a cluster whose screened values reach what has been found are computed exactly, the
-  // most promising first: they rule out most others.
+  // As NormSearch does.
   void evaluate(int cluster) {
-    float bounds[3 * members];
-    kernel().screen_stress(screen_, history_, cluster, middle_of(cluster), bounds);
-    for (int quantity = 0; quantity < 3; ++quantity)
-      evaluate(cluster,
-               largest_of(bounds + static_cast<std::ptrdiff_t>(quantity) * members, members),
-               bounds);
+    float bounds[2 * members];
+    kernel().screen_principals(screen_, history_.rank(), history_.coarse_members(cluster),
+                               middle_of(cluster), bounds);
+    evaluate(cluster, largest_of(bounds, members), bounds);
+    evaluate(cluster, largest_of(bounds + members, members), bounds);
     for (int i = 0; i < members; ++i) evaluate(cluster, i, bounds);
   }
 
@@ -240,89 +409,104 @@ class StressSearch {
     const double spread =
         2 * (reach_from_middle(history_, screen_.norms, cluster) +
              reach_from_middle(history_, screen_.norms + 2L * history_.rank(), cluster));
-    const double size =
-        std::sqrt(s.head<3>().squaredNorm() + 2 * s.tail<3>().squaredNorm()) + spread;
-    const double of_differences = (2 * history_.rank() + 20) * unit * spread;
-    middle.margin = static_cast<float>(of_differences + 32 * unit * size);
-    middle.margin_of_principals = static_cast<float>(of_differences + 128 * unit * size);
+    const double size = frobenius_of(s) + spread;
+    middle.margin =
+        static_cast<float>((2 * history_.rank() + 20) * unit * spread + 128 * unit * size);
     return middle;
   }
 
   // One member, which is not looked at again.
   void evaluate(int cluster, int member, float* bounds) {
-    float &q = bounds[member], &largest = bounds[members + member],
-          &minus_smallest = bounds[2 * members + member];
-    if (!reaches(q, largest, minus_smallest)) return;
+    float &largest = bounds[member], &minus_smallest = bounds[members + member];
+    if (!reaches(largest, minus_smallest)) return;
     const int instant = history_.member_instants(cluster)[member];
     const auto stress = response<6>(history_, rows_, cluster, member);
-    if (q >= found_.von_mises.value * scale_) take(found_.von_mises, von_mises_of(stress), instant);
-    if (largest >= found_.largest_principal.value * scale_)
-      take(found_.largest_principal, largest_principal(stress), instant);
-    if (minus_smallest >= found_.minus_smallest_principal.value * scale_)
-      take(found_.minus_smallest_principal, largest_principal(-stress), instant);
-    q = largest = minus_smallest = -std::numeric_limits<float>::infinity();
+    if (largest >= largest_.value * scale_) take(largest_, largest_principal(stress), instant);
+    if (minus_smallest >= minus_smallest_.value * scale_)
+      take(minus_smallest_, largest_principal(-stress), instant);
+    largest = minus_smallest = -std::numeric_limits<float>::infinity();
   }
 
   const LoadHistory& history_;
   const double* rows_;
   SearchWorkspace& workspace_;
   double scale_ = 1;
-  Screen screen_{};
-  StressFound found_;
+  PrincipalScreen screen_{};
+  Found largest_, minus_smallest_;
 };
+
+double von_mises_at(const LoadHistory& history, const double* rows, int cluster, int member) {
+  return von_mises_of(response<6>(history, rows, cluster, member));
+}
+
+// Coordinates in which the von Mises stress is the norm:
+// q^2 = a^2 + b^2 + 3 (xy^2 + yz^2 + zx^2), a = (xx + yy) / 2 - zz, b = sqrt(3) / 2 (xx - yy).
+// The last two are left out where there is no such shear.
+template <int count>
+Found search_von_mises_of(const LoadHistory& history, const double* rows, double scale,
+                          SearchWorkspace& workspace, const Found& floor) {
+  const int rank = history.rank();
+  const auto component = [&](int c) { return row_of(rows, rank, c); };
+  const auto coordinate = [&](int c) {
+    return Array(workspace.matrix.data() + static_cast<std::ptrdiff_t>(c) * rank, rank);
+  };
+  const double of_shear = scale * std::sqrt(3.0);
+  coordinate(0) = scale * ((component(0) + component(1)) / 2 - component(2));
+  coordinate(1) = of_shear / 2 * (component(0) - component(1));
+  for (int c = 2; c < count; ++c) coordinate(c) = of_shear * component(c + 1);
+  // Of a large pressure more is rounded than of what it adds to the von Mises stress. Scaled, no
+  // coordinate brings more than 1 to a component.
+  const double rounding = (2 * rank + 32) * std::numeric_limits<double>::epsilon() * 3 * rank;
+  return NormSearch<count>(history, workspace.matrix.data(), scale, rounding, workspace, floor)
+      .run([&](int cluster, int member) { return von_mises_at(history, rows, cluster, member); });
+}
 
 }  // namespace
 
 SearchWorkspace::SearchWorkspace(const LoadHistory& history)
-    : rows(15 * static_cast<std::size_t>(history.rank())),
-      work(11 * static_cast<std::size_t>(history.padded_clusters())),
-      bounds(3 * static_cast<std::size_t>(history.padded_clusters())) {}
+    : matrix(5 * static_cast<std::size_t>(history.rank())),
+      norms(static_cast<std::size_t>(history.rank())),
+      rows(15 * static_cast<std::size_t>(history.rank())),
+      bounds(2 * static_cast<std::size_t>(history.packs()) * pack) {}
+
+Found search_von_mises(const LoadHistory& history, const double* rows, SearchWorkspace& workspace,
+                       const Found& floor) {
+  const Eigen::Array<double, 6, 1> sizes = sizes_of<6>(history, rows);
+  const double size = sizes.maxCoeff();
+  if (!(size > 0)) {  // nothing at all instants
+    Found found = floor;
+    take(found, 0, 0);
+    return found;
+  }
+  return sizes[4] > 0 || sizes[5] > 0
+             ? search_von_mises_of<5>(history, rows, 1 / size, workspace, floor)
+             : search_von_mises_of<3>(history, rows, 1 / size, workspace, floor);
+}
+
+double likely_von_mises(const LoadHistory& history, const double* rows,
+                        const SearchWorkspace& workspace) {
+  if (workspace.likely_cluster < 0) return -infinity;
+  return von_mises_at(history, rows, workspace.likely_cluster, workspace.likely_member);
+}
 
 StressFound search_stress(const LoadHistory& history, const double* rows,
                           SearchWorkspace& workspace, const StressFound& floor) {
-  return StressSearch(history, rows, workspace, floor).run();
+  const Found von_mises = search_von_mises(history, rows, workspace, floor.von_mises);
+  PrincipalSearch search(history, rows, workspace, floor.largest_principal,
+                         floor.minus_smallest_principal);
+  search.run();
+  return {von_mises, search.largest(), search.minus_smallest()};
 }
 
 Found search_displacement(const LoadHistory& history, const double* rows,
                           SearchWorkspace& workspace, const Found& floor) {
-  const int rank = history.rank(), clusters = history.clusters();
-  float *coarse = workspace.rows.data(), *norms = coarse + 3L * rank;
-  const double scale = scale_of(history, rows, 3);
-  double reach = 0;  // no coordinate goes beyond its own
-  for (int k = 0; k < rank; ++k) {
-    Eigen::Vector3d u;
-    for (int a = 0; a < 3; ++a) u[a] = rows[a * rank + k] * scale;
-    for (int a = 0; a < 3; ++a) coarse[a * rank + k] = static_cast<float>(u[a]);
-    norms[k] = static_cast<float>(u.norm());
-    reach += norms[k] * history.reach()[k];
-  }
-  const Screen screen{coarse, nullptr, norms, 2 * margin(history, norms)};
-  Found found = floor;
-  if (reach + screen.margin < found.value * scale) return found;
-  float* bounds = workspace.bounds.data();
-  kernel().bound_displacement(screen, history, workspace.work.data(), bounds);
-  const auto evaluate = [&](int cluster) {
-    Middle middle{};
-    const Eigen::Vector3d u = scale * response_in_middle<3>(history, rows, cluster);
-    for (int a = 0; a < 3; ++a) middle.response[a] = static_cast<float>(u[a]);
-    const double spread = reach_from_middle(history, norms, cluster);
-    middle.margin =
-        static_cast<float>((2 * rank + 20) * unit * spread + 16 * unit * (u.norm() + spread));
-    float member_bounds[members];
-    kernel().screen_displacement(screen, history, cluster, middle, member_bounds);
-    const auto evaluate_member = [&](int i) {
-      if (member_bounds[i] < found.value * scale) return;
-      take(found, response<3>(history, rows, cluster, i).norm(),
-           history.member_instants(cluster)[i]);
-      member_bounds[i] = -std::numeric_limits<float>::infinity();  // not looked at again
-    };
-    evaluate_member(largest_of(member_bounds, members));
-    for (int i = 0; i < members; ++i) evaluate_member(i);
-  };
-  evaluate(largest_of(bounds, clusters));
-  for (int cluster = 0; cluster < clusters; ++cluster)
-    if (bounds[cluster] >= found.value * scale) evaluate(cluster);
-  return found;
+  const double scale = scale_of(sizes_of<3>(history, rows).maxCoeff());
+  double* matrix = workspace.matrix.data();
+  for (int i = 0; i < 3 * history.rank(); ++i) matrix[i] = rows[i] * scale;
+  return NormSearch<3>(history, matrix, scale, 0, workspace, floor)
+      .run([&](int cluster, int member) {
+        return response<3>(history, rows, cluster, member).norm();
+      });
 }
 
 }  // namespace blocklift::structure

@@ -23,14 +23,29 @@ struct StressFound {
 /// Room for the search at one point, allocated once for many.
 struct SearchWorkspace {
   explicit SearchWorkspace(const LoadHistory& history);
-  std::vector<float> rows;    ///< responses, weighed responses and norms: 15 rows of coordinates
-  std::vector<float> work;    ///< 11 rows of padded clusters
-  std::vector<float> bounds;  ///< 3 rows of padded clusters
+  std::vector<double> matrix;  ///< 5 rows of coordinates
+  std::vector<double> norms;   ///< one
+  std::vector<float> rows;     ///< responses, weighed responses and norms: 15 rows of coordinates
+  std::vector<float> bounds;   ///< of packs, or two rows of those of clusters
+  /// Cluster in which the last point had its largest von Mises stress or displacement: there the
+  /// next one, which most often lies beside it, looks first. -1: none.
+  int likely_cluster = -1;
+  int likely_member = -1;  ///< and its place in the cluster
 };
 
+/// Largest von Mises stress of a point.
 /// @param rows 6 x rank, row after row: stress (Pa) for unit coordinates.
 /// @param floor what has been found elsewhere: only what reaches it is looked for, so that most
 ///   points of no interest cost little; it comes back where the point does not reach it.
+Found search_von_mises(const LoadHistory& history, const double* rows, SearchWorkspace& workspace,
+                       const Found& floor = {});
+
+/// Von Mises stress of a point at the instant that is likely to be its worst, Pa; minus infinity
+/// without one.
+double likely_von_mises(const LoadHistory& history, const double* rows,
+                        const SearchWorkspace& workspace);
+
+/// @param rows likewise. @param floor likewise, of each quantity.
 StressFound search_stress(const LoadHistory& history, const double* rows,
                           SearchWorkspace& workspace, const StressFound& floor = {});
 

@@ -46,7 +46,8 @@ LoadHistory::LoadHistory(const Eigen::MatrixXd& factors, const Eigen::VectorXd& 
   store(kept_coordinates, order);
 }
 
-// Halves a range across its widest direction until a cluster holds it.
+// Halves a range across its widest direction until a cluster holds it. As long as more than a pack
+// is left, between two packs.
 void LoadHistory::divide(const Eigen::MatrixXd& coordinates, std::vector<int>& order, int first,
                          int count) {
   const auto begin = order.begin() + first;
@@ -62,21 +63,37 @@ void LoadHistory::divide(const Eigen::MatrixXd& coordinates, std::vector<int>& o
   }
   Eigen::Index widest = 0;
   (upper - lower).maxCoeff(&widest);
-  const int half = (count / cluster_size + 1) / 2 * cluster_size;
+  const int whole = count > pack * cluster_size ? pack * cluster_size : cluster_size;
+  const int half = (count / whole + 1) / 2 * whole;
   std::nth_element(begin, begin + half, begin + count,
                    [&](int a, int b) { return coordinates(widest, a) < coordinates(widest, b); });
   divide(coordinates, order, first, half);
   divide(coordinates, order, first + half, count - half);
 }
 
+void LoadHistory::store_box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int box,
+                            LoadBoxes& boxes) const {
+  for (int k = 0; k < rank(); ++k) {
+    const std::size_t entry = at((box / pack * rank() + k) * pack + box % pack);
+    boxes.centres[entry] = static_cast<float>((lower[k] + upper[k]) / 2);
+    boxes.half_widths[entry] =
+        static_cast<float>((upper[k] - lower[k]) / 2 * (1 + 1e-6) + 2e-7 * reach_[k]);
+  }
+}
+
 void LoadHistory::store(const Eigen::MatrixXd& coordinates, const std::vector<int>& order) {
   const Eigen::Index rank = coordinates.rows();
-  centres_.assign(rank * padded_clusters(), 0);
-  half_widths_.assign(centres_.size(), 0);
+  const auto sized = [&](int packs_of_boxes) {
+    const std::vector<float> zeros(at(packs_of_boxes) * at(rank * pack));
+    return LoadBoxes{zeros, zeros};
+  };
+  boxes_of_clusters_ = sized(packs());
+  boxes_of_packs_ = sized((packs() + pack - 1) / pack);
   members_.resize(rank * clusters() * cluster_size);
   coarse_members_.resize(members_.size());
   middles_.resize(rank * clusters());
   member_instants_.resize(at(clusters()) * cluster_size);
+  Eigen::VectorXd lower_of_pack, upper_of_pack;
   for (int cluster = 0; cluster < clusters(); ++cluster) {
     const int first = first_member_[cluster], last = first_member_[at(cluster) + 1] - 1;
     Eigen::VectorXd lower = coordinates.col(order[first]), upper = lower;
@@ -92,17 +109,18 @@ void LoadHistory::store(const Eigen::MatrixXd& coordinates, const std::vector<in
       }
     }
     for (Eigen::Index k = 0; k < rank; ++k) {
-      const std::size_t entry = at(k * padded_clusters() + cluster);
       const double middle = (lower[k] + upper[k]) / 2;
       middles_[cluster * rank + k] = middle;
       for (int i = 0; i < cluster_size; ++i) {
         const std::size_t member = start(cluster) + at(k * cluster_size + i);
         coarse_members_[member] = static_cast<float>(members_[member] - middle);
       }
-      centres_[entry] = static_cast<float>(middle);
-      half_widths_[entry] =
-          static_cast<float>((upper[k] - lower[k]) / 2 * (1 + 1e-6) + 2e-7 * reach_[k]);
     }
+    store_box(lower, upper, cluster, boxes_of_clusters_);
+    const bool is_first = cluster % pack == 0;
+    lower_of_pack = is_first ? lower : lower_of_pack.cwiseMin(lower).eval();
+    upper_of_pack = is_first ? upper : upper_of_pack.cwiseMax(upper).eval();
+    store_box(lower_of_pack, upper_of_pack, cluster / pack, boxes_of_packs_);
   }
 }
 

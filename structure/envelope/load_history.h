@@ -7,6 +7,15 @@
 
 namespace blocklift::structure {
 
+/// Boxes in the space of a history's coordinates, of which each holds some instants.
+///
+/// Midpoints and half widths in single precision, the half widths rounded up so that a box holds
+/// its instants. `LoadHistory::pack` boxes lie beside one another: entry (pack * rank + k) *
+/// LoadHistory::pack + place in the pack; what the last pack has too many is zero.
+struct LoadBoxes {
+  std::vector<float> centres, half_widths;
+};
+
 /// Loads at many instants as factors of unit responses, made ready for the search of extremes.
 ///
 /// The factors f_t (m numbers an instant, in the units of the unit loads) are turned into
@@ -17,11 +26,12 @@ namespace blocklift::structure {
 /// nothing is approximated.
 ///
 /// Instants that lie near one another are put into clusters of `cluster_size`, each with the box
-/// that holds it: the loads of a lift come back to nearly the same values again and again.
+/// that holds it: the loads of a lift come back to nearly the same values again and again. `pack`
+/// clusters that lie near one another have a box of their own, which passes all of them over.
 class LoadHistory {
  public:
   static constexpr int cluster_size = 32;
-  /// Clusters are stored in groups of this many, the last ones empty (repetitions).
+  /// So many clusters, and so many packs of them, are looked at together.
   static constexpr int pack = 16;
 
   /// @param factors m x instants.
@@ -33,17 +43,15 @@ class LoadHistory {
   int instants() const { return instants_; }
   int rank() const { return static_cast<int>(modes_.cols()); }
   int clusters() const { return static_cast<int>(first_member_.size()) - 1; }
-  int padded_clusters() const { return (clusters() + pack - 1) / pack * pack; }
+  int packs() const { return (clusters() + pack - 1) / pack; }
   /// m x rank: responses to the coordinates are the unit responses times this.
   const Eigen::MatrixXd& modes() const { return modes_; }
 
   /// Largest magnitude of each coordinate over all instants.
   const Eigen::VectorXd& reach() const { return reach_; }
 
-  /// Midpoints and half widths of the clusters' boxes: entry k * padded_clusters() + cluster. In
-  /// single precision, the half widths rounded up so that each box holds its members.
-  const float* centres() const { return centres_.data(); }
-  const float* half_widths() const { return half_widths_.data(); }
+  const LoadBoxes& boxes_of_clusters() const { return boxes_of_clusters_; }
+  const LoadBoxes& boxes_of_packs() const { return boxes_of_packs_; }
   /// Coordinates of a cluster's members: entry k * cluster_size + member, repetitions at the end.
   const double* members(int cluster) const { return members_.data() + start(cluster); }
   /// The middle of a cluster's box, by coordinates.
@@ -63,12 +71,15 @@ class LoadHistory {
     return static_cast<std::size_t>(cluster) * static_cast<std::size_t>(rank() * cluster_size);
   }
   void store(const Eigen::MatrixXd& coordinates, const std::vector<int>& order);
+  void store_box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int box,
+                 LoadBoxes& boxes) const;
 
   int instants_ = 0;
   Eigen::MatrixXd modes_;
   std::vector<int> first_member_{0};
   Eigen::VectorXd reach_;
-  std::vector<float> centres_, half_widths_, coarse_members_;
+  LoadBoxes boxes_of_clusters_, boxes_of_packs_;
+  std::vector<float> coarse_members_;
   std::vector<double> members_, middles_;
   std::vector<int> member_instants_;
 };

@@ -91,10 +91,82 @@ TEST(Envelope, ShortAndConstantHistoriesAreOnes) {
   EXPECT_EQ(find_stress_envelope(history, 20, responses, 1).von_mises.instant.maxCoeff(), 0);
 }
 
+// Every instant lies in the box of its cluster and in that of its pack, and in one cluster alone.
+TEST(LoadHistory, BoxesHoldTheirInstants) {
+  for (const int instants : {1, 33, 512, 513, 1100, 9000}) {
+    const Eigen::MatrixXd factors = testing::lift_like_history(7, instants, 21);
+    const LoadHistory history(factors, Eigen::VectorXd::Ones(7));
+    std::vector<int> found(static_cast<std::size_t>(instants), 0);
+    const auto holds = [&](const LoadBoxes& boxes, int box, int k, double y) {
+      const int entry = (box / LoadHistory::pack * history.rank() + k) * LoadHistory::pack +
+                        box % LoadHistory::pack;
+      return std::abs(y - static_cast<double>(boxes.centres[entry])) <= boxes.half_widths[entry];
+    };
+    for (int cluster = 0; cluster < history.clusters(); ++cluster)
+      for (int i = 0; i < LoadHistory::cluster_size; ++i) {
+        found[history.member_instants(cluster)[i]] = cluster + 1;
+        for (int k = 0; k < history.rank(); ++k) {
+          const double y = history.members(cluster)[k * LoadHistory::cluster_size + i];
+          ASSERT_TRUE(holds(history.boxes_of_clusters(), cluster, k, y));
+          ASSERT_TRUE(holds(history.boxes_of_packs(), cluster / LoadHistory::pack, k, y));
+        }
+      }
+    EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0);
+  }
+}
+
+// Stress of all kinds over more instants than a pack of clusters holds: in space, in a plane, along
+// a bar, none at all, and a shear beside a pressure that is far larger.
+TEST(Envelope, PacksOfClustersLeaveNothingOut) {
+  Eigen::MatrixXd units = testing::random_responses(6 * 60, 8, 22);
+  for (int p = 10; p < 40; ++p) units.middleRows<2>(6 * p + 4).setZero();
+  for (int p = 20; p < 40; ++p) units.row(6 * p + 2).setZero();
+  for (int p = 30; p < 40; ++p) units.middleRows<5>(6 * p + 1).setZero();
+  for (int p = 40; p < 50; ++p) units.middleRows<6>(6 * p).setZero();
+  for (int p = 50; p < 60; ++p)
+    units.middleRows<3>(6 * p) = Eigen::Vector3d::Constant(1e9) * units.row(6 * p);
+  expect_brute_force(units, testing::lift_like_history(8, 9000, 23));
+  expect_brute_force(units, testing::noise_history(8, 1300, 24));
+  expect_brute_force(units, Eigen::MatrixXd::Zero(8, 1300));
+  expect_brute_force(units, Eigen::MatrixXd::Ones(8, 1300));
+}
+
+// What points before have found is where a point is looked at first, and changes nothing.
+TEST(Envelope, PointsAloneHaveTheSameExtremesAsTogether) {
+  const Eigen::MatrixXd units = testing::random_responses(6 * 60, 8, 25);
+  const LoadHistory history(testing::lift_like_history(8, 2500, 26), Eigen::VectorXd::Ones(8));
+  const PointExtremes together = find_von_mises_envelope(
+      history, 60, [&](int first, int count) { return units.middleRows(6 * first, 6 * count); }, 1);
+  for (int p = 0; p < 60; ++p) {
+    const PointExtremes alone = find_von_mises_envelope(
+        history, 1, [&](int, int) { return units.middleRows(6 * p, 6); }, 1);
+    EXPECT_EQ(alone.value[0], together.value[p]);
+    EXPECT_EQ(alone.instant[0], together.instant[p]);
+  }
+}
+
+// One load in whole numbers comes back to exactly the same values, with both signs: of all instants
+// with the largest stress the earliest is named, wherever its cluster lies; without stress the
+// first.
+TEST(Envelope, OfEqualsTheEarliestIsNamed) {
+  Eigen::MatrixXd factors(1, 3000);
+  for (int t = 0; t < 3000; ++t) factors(0, t) = (t * 37 + 5) % 41 - 20;
+  Eigen::Index earliest = 0;
+  factors.cwiseAbs().row(0).maxCoeff(&earliest);
+  Eigen::MatrixXd units = testing::random_responses(6 * 40, 1, 27);
+  units.bottomRows(6).setZero();
+  const LoadHistory history(factors, Eigen::VectorXd::Ones(1));
+  const PointExtremes each = find_von_mises_envelope(
+      history, 40, [&](int first, int count) { return units.middleRows(6 * first, 6 * count); }, 2);
+  for (int p = 0; p < 39; ++p) EXPECT_EQ(each.instant[p], earliest);
+  EXPECT_EQ(each.value[39], 0);
+  EXPECT_EQ(each.instant[39], 0);
+}
+
 // Extremes over sets of points are those of the points' own envelopes.
 TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
   const Eigen::MatrixXd units = testing::random_responses(6 * 400, 12, 13);
-  const Eigen::MatrixXd factors = testing::lift_like_history(12, 400, 14);
+  const Eigen::MatrixXd factors = testing::lift_like_history(12, 1400, 14);
   const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
   const auto responses = [&](int first, int count) {
     return units.middleRows(6 * first, 6 * count);
@@ -163,7 +235,7 @@ TEST(Envelope, LargestDisplacementEqualsBruteForce) {
 // Of runs of points, each with what is known of it: that of its points, or what is known.
 TEST(Envelope, LargestOfRunsAreThoseOfTheirPoints) {
   const Eigen::MatrixXd units = testing::random_responses(6 * 90, 12, 15);
-  const Eigen::MatrixXd factors = testing::lift_like_history(12, 400, 16);
+  const Eigen::MatrixXd factors = testing::lift_like_history(12, 2500, 16);
   const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
   const auto responses = [&](int first, int count) {
     return units.middleRows(6 * first, 6 * count);
