@@ -184,11 +184,13 @@ RefinedBlock refine_checked_stress(
     for (const Vector3& centre : centres_of(state, corners)) state.centres.push_back(centre);
     auto finer = block.model->with(graded(base, state.centres, edge_of_step(state.steps.size())));
     if (finer->space().unknowns() > goal.most_unknowns) break;
-    auto solved = std::make_unique<UnitResponses>(*finer);
-    const LoadFactors factors = factors_of(*finer, *solved);
-    look_at(CheckedStress(*finer, solved->displacements(), candidates(state)), factors, state);
-    block.responses = std::move(solved);
+    // The coarser mesh's factor and responses go before the finer one's come.
+    block.responses.reset();
     block.model = std::move(finer);
+    block.responses = std::make_unique<UnitResponses>(*block.model);
+    const LoadFactors factors = factors_of(*block.model, *block.responses);
+    look_at(CheckedStress(*block.model, block.responses->displacements(), candidates(state)),
+            factors, state);
     state.steps.push_back(step_of(*block.model, state));
     block.accuracy = judged(state, goal);
     if (record.after_step) record.after_step(state);
