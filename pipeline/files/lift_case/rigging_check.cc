@@ -35,7 +35,7 @@ void check_reach(const LiftCase& lift_case, const SpreaderInCase& bar, Diagnosti
       if (&other <= &one || !other.ends_at_spreader(bar.name.value)) continue;
       const double apart = (one.path.back().point - other.path.back().point).norm();
       if (!same_point(one.path.front(), other.path.front()) ||
-          one.length.value + other.length.value > apart)
+          !(one.length.value + other.length.value <= apart))
         continue;
       diagnostics.error(
           one.length.mark,
@@ -45,6 +45,21 @@ void check_reach(const LiftCase& lift_case, const SpreaderInCase& bar, Diagnosti
                       bar.name.value, apart));
     }
   }
+}
+
+/// Does a chain of slings lead from a spreader upwards to what is no spreader?
+bool hangs_on_something(const LiftCase& lift_case, const SpreaderInCase& bar) {
+  std::vector<std::string> reached = {bar.name.value};
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const std::string name = reached[i];
+    for (const RopeInCase& rope : lift_case.ropes) {
+      if (rope.path.empty() || !rope.ends_at_spreader(name)) continue;
+      const ResolvedPoint& first = rope.path.front();
+      if (first.kind != ResolvedPoint::Kind::spreader) return true;
+      if (std::ranges::find(reached, first.part) == reached.end()) reached.push_back(first.part);
+    }
+  }
+  return false;
 }
 
 void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
@@ -74,6 +89,12 @@ void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
                : fmt::format("slings from above end at {0}.upper_a and {0}.upper_b, those to the "
                              "load begin at {0}.lower_a and {0}.lower_b",
                              name)});
+    if (all_known && above > 0 && !hangs_on_something(lift_case, bar))
+      diagnostics.error(bar.name.mark,
+                        fmt::format("the slings above spreader {} begin at spreaders that hang on "
+                                    "nothing else",
+                                    name),
+                        {"slings from above begin at a hook, or at a spreader that hangs on one"});
     check_reach(lift_case, bar, diagnostics);
   }
 }

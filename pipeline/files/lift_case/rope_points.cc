@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "pipeline/files/lift_case/case_names.h"
 
@@ -97,10 +99,15 @@ class PointResolver {
     }
     std::vector<std::string> known;
     for (const std::string& one : bar.eye_names()) known.push_back(bar.name.value + "." + one);
+    const bool is_of_a_frame =
+        !bar.is_frame() && std::string_view("1234").find(name.value.back()) != std::string::npos;
     fail(name,
          fmt::format("{} \"{}\", which is no eye of spreader {}", subject_, name.value,
                      bar.name.value),
-         names_hint("its eyes are", known, name.value));
+         is_of_a_frame ? fmt::format("numbered eyes are those of a frame, which has a width; the "
+                                     "eyes of a bar are {}",
+                                     fmt::join(known, ", "))
+                       : names_hint("its eyes are", known, name.value));
     return std::nullopt;
   }
 

@@ -133,6 +133,40 @@ std::string complaints_about_spreader(const std::string& old_passage,
   return complaints_about(lift);
 }
 
+TEST(LiftCaseErrors, EyesOfAFrameAtABar) {
+  EXPECT_EQ(complaints_about_spreader("to: B1.upper_b", "to: B1.upper_2"),
+            "case.yaml:18:27: error: rope U2 ends at \"B1.upper_2\", which is no eye of spreader "
+            "B1\n    numbered eyes are those of a frame, which has a width; the eyes of a bar are "
+            "B1.upper_a, B1.upper_b, B1.lower_a, B1.lower_b\n1 error\n");
+}
+
+// Two spreaders that hang on one another hang on nothing.
+TEST(LiftCaseErrors, SpreadersInARing) {
+  SampleLift lift = test::spreader_lift();
+  lift.lift_case = with(lift.lift_case, "spreaders:\n",
+                        "spreaders:\n  B2: {length: 4 m, section: {pipe: [168.3 mm, 8 mm]}, "
+                        "yield_stress: 355 MPa}\n");
+  lift.lift_case = with(lift.lift_case, "U1: {from: C1.left,", "U1: {from: B2.lower_a,");
+  lift.lift_case = with(lift.lift_case, "U2: {from: C1.left,", "U2: {from: B2.lower_b,");
+  lift.lift_case = with(lift.lift_case, "  R1: {from",
+                        "  V1: {from: B1.lower_a, to: B2.upper_a, model: ropes/tackle, length: 2 m}"
+                        "\n  V2: {from: B1.lower_b, to: B2.upper_b, model: ropes/tackle, length: "
+                        "2 m}\n  R1: {from");
+  const std::string complaints = complaints_about(lift);
+  for (const char* name : {"B1", "B2"})
+    EXPECT_THAT(complaints, HasSubstr("the slings above spreader " + std::string(name) +
+                                      " begin at spreaders that hang on nothing else\n    slings "
+                                      "from above begin at a hook, or at a spreader that hangs on "
+                                      "one"));
+}
+
+// What has no length by a mistake of its own is not measured besides.
+TEST(LiftCaseErrors, SpreaderWhoseLengthHasNoUnit) {
+  const std::string complaints = complaints_about_spreader("    length: 4 m\n", "    length: 4\n");
+  EXPECT_THAT(complaints, HasSubstr("length \"4\" has no unit"));
+  EXPECT_THAT(complaints, testing::Not(HasSubstr("nan")));
+}
+
 TEST(LiftCaseErrors, EyeThatASpreaderDoesNotHave) {
   EXPECT_EQ(
       complaints_about_spreader("to: B1.upper_b", "to: B1.uper_b"),
