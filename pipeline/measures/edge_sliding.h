@@ -17,10 +17,10 @@ struct SidewaysHold {
 };
 
 /// The motion lets ropes slide sideways without friction, to where their path is shortest. Here the
-/// rope lies where it came to the edge, at the computed places of its neighbours and tensions of its
-/// spans T_1 and T_2. Its force on the edge, F = T_2 u_2 - T_1 u_1, has a part along the axis and one
-/// across it. While |F_along| <= mu |F_across| it stays there; else it is dragged along the edge
-/// until that holds (Coulomb, quasi-static, by samples).
+/// rope lies where it came to the edge, at the computed places of its neighbours and tensions of
+/// its spans T_1 and T_2. Its force on the edge, F = T_2 u_2 - T_1 u_1, has a part along the axis
+/// and one across it. While |F_along| <= mu |F_across| it stays there; else it is dragged along the
+/// edge until that holds (Coulomb, quasi-static, by samples).
 SidewaysHold hold_sideways(const dynamics::Rope& rope, const dynamics::History& history,
                            std::size_t rope_index, std::size_t edge);
 

@@ -38,9 +38,9 @@ MeasurePeak find_peak(const Eigen::VectorXd& time, const Eigen::VectorXd& values
 MeasurePeak find_peak(const LiftRun& lift, const LiftMeasure& measure);
 
 /// All measures of a lift: attitude of the load and angles of its slings, forces in spreaders,
-/// radius, leads and capacity of hooks, twist of blocks that turn, what cranes press on, single ropes of tackles, tuggers and
-/// moorings, shares of ropes with friction, what ropes do at edges of the load, heel of vessels, what
-/// is missed of what drives keep, clearances.
+/// radius, leads and capacity of hooks, twist of blocks that turn, what cranes press on, single
+/// ropes of tackles, tuggers and moorings, shares of ropes with friction, what ropes do at edges of
+/// the load, heel of vessels, what is missed of what drives keep, clearances.
 std::vector<LiftMeasure> find_measures(const LiftCase& lift_case, const LiftRun& lift);
 
 }  // namespace blocklift::pipeline
