@@ -15,6 +15,12 @@ namespace {
 // Were it more, a change would be found at the beginning of the next step.
 constexpr double reach_of_errors = 100;
 
+// Loads swing with little damping, where order 5 is unstable and takes shorter steps. With 1e-6 a
+// turn-over takes 33,740 steps to order 4 and 42,852 to order 5; tensions are off those with 1e-9 by
+// 5.2e-5 and 4.5e-5 of the largest (root mean square), accelerations by 2.0e-3 and 2.4e-3. With
+// smaller tolerances order 5 is the better one: with 1e-9 a free top takes half the steps.
+constexpr double least_tolerance_of_order_4 = 1e-6;
+
 }  // namespace
 
 // What a callback returns to CVODES.
@@ -155,6 +161,8 @@ void Integrator::set_up_cvode() {
   linear_solver_ = sundials::make_direct_solver(this, solve_newton, context_);
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(cvode_, newton_matrix), "CVodeSetLinSysFn");
+  if (settings_.relative_tolerance >= least_tolerance_of_order_4)
+    check(CVodeSetMaxOrd(cvode_, 4), "CVodeSetMaxOrd");
   if (projection_->is_needed()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
   if (events_.count() > 0) {
     check(CVodeRootInit(cvode_, events_.count(), event_values), "CVodeRootInit");
