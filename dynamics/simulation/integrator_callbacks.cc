@@ -161,8 +161,6 @@ void Integrator::set_up_cvode() {
   linear_solver_ = sundials::make_direct_solver(this, solve_newton, context_);
   check(CVodeSetLinearSolver(cvode_, linear_solver_.get(), matrix_.get()), "CVodeSetLinearSolver");
   check(CVodeSetLinSysFn(cvode_, newton_matrix), "CVodeSetLinSysFn");
-  if (settings_.relative_tolerance >= least_tolerance_of_order_4)
-    check(CVodeSetMaxOrd(cvode_, 4), "CVodeSetMaxOrd");
   if (projection_->is_needed()) check(CVodeSetProjFn(cvode_, project), "CVodeSetProjFn");
   if (events_.count() > 0) {
     check(CVodeRootInit(cvode_, events_.count(), event_values), "CVodeRootInit");
@@ -178,6 +176,8 @@ void Integrator::set_up_cvode() {
           "CVodeQuadSStolerances");
     if (alone) check(CVodeSetMaxStep(cvode_, settings_.sample_interval), "CVodeSetMaxStep");
   }
+  if (settings_.relative_tolerance >= least_tolerance_of_order_4)
+    check(CVodeSetMaxOrd(cvode_, 4), "CVodeSetMaxOrd");
 }
 
 void Integrator::count_before_restart() {
