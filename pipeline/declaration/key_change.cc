@@ -1,6 +1,8 @@
 #include "pipeline/declaration/key_change.h"
 
+#include <algorithm>
 #include <charconv>
+#include <map>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -74,22 +76,89 @@ bool descend(const KeyStep& step, const std::string& way, const KeyChange& chang
   return false;
 }
 
-/// @returns false after a complaint.
-bool give_new_value(const KeyChange& change, Document& document, Diagnostics& diagnostics) {
+/// The node that a change is to give another value; none after a complaint.
+std::optional<YAML::Node> node_to_change(const KeyChange& change, const Document& document,
+                                         Diagnostics& diagnostics) {
   YAML::Node node = document.root;
   std::string way;
   for (const KeyStep& step : steps_of(change.key).value_or(std::vector<KeyStep>{})) {
-    if (!descend(step, way, change, document, node, diagnostics)) return false;
+    if (!descend(step, way, change, document, node, diagnostics)) return std::nullopt;
     way += step.place > 0 ? fmt::format("[{}]", step.place) : (way.empty() ? "" : ".") + step.name;
   }
-  if (!node.IsScalar() && !node.IsNull()) {
-    diagnostics.error(change.mark, fmt::format("{} is a {}; a key with one value can be changed",
-                                               change.key, node.IsMap() ? "table" : "list"));
-    return false;
-  }
-  node = change.value;
-  return true;
+  if (node.IsScalar() || node.IsNull()) return node;
+  diagnostics.error(change.mark, fmt::format("{} is a {}; a key with one value can be changed",
+                                             change.key, node.IsMap() ? "table" : "list"));
+  return std::nullopt;
 }
+
+/// May the value stand in a document without quotes? True of what surely may: words and numbers.
+bool is_plain(std::string_view value) {
+  const auto is_alphanumeric = [](unsigned char letter) {
+    return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
+           (letter >= 'A' && letter <= 'Z');
+  };
+  const std::string_view begin = value.substr(value.starts_with('-') ? 1 : 0);
+  return !begin.empty() && is_alphanumeric(begin.front()) && value.back() != ' ' &&
+         std::all_of(value.begin(), value.end(), [&](char letter) {
+           return is_alphanumeric(static_cast<unsigned char>(letter)) ||
+                  std::string_view(" ._/+-").find(letter) != std::string_view::npos;
+         });
+}
+
+/// The text of a document with other values at some places: comments and all else stay.
+class EditedText {
+ public:
+  explicit EditedText(const std::string& text) : text_(text) {}
+
+  /// Puts another value in the place of a node's; called before the node changes.
+  void replace(const YAML::Node& node, const std::string& value) {
+    const YAML::Mark mark = node.Mark();
+    const auto place = static_cast<std::size_t>(mark.is_null() ? 0 : mark.pos);
+    const auto known = edits_.find(place);
+    if (known == edits_.end() && stands_at(place, node)) {
+      edits_[place] = {node.Scalar().size(), value};
+    } else if (known != edits_.end()) {
+      known->second.value = value;
+    } else {
+      is_known_ = false;
+    }
+    is_known_ = is_known_ && is_plain(value);
+  }
+
+  /// None where a value does not stand in the text as it is read, or needs quotes.
+  std::optional<std::string> text() const {
+    if (!is_known_) return std::nullopt;
+    std::string edited;
+    std::size_t end = 0;
+    for (const auto& [place, edit] : edits_) {
+      edited.append(text_, end, place - end).append(edit.value);
+      end = place + edit.length;
+    }
+    return edited.append(text_, end);
+  }
+
+ private:
+  struct Edit {
+    std::size_t length = 0;  ///< of what is replaced
+    std::string value;
+  };
+
+  /// Is the node's value, a plain one, what stands in the text at a place? One in quotes, over
+  /// several lines or behind an anchor is not.
+  bool stands_at(std::size_t place, const YAML::Node& node) const {
+    constexpr const char* plain_tag = "?";
+    const auto column = static_cast<std::size_t>(node.Mark().column);
+    if (node.Tag() != plain_tag || node.Scalar().empty() || place > text_.size() || column > place)
+      return false;
+    // A byte-order mark would shift all places.
+    const bool is_at_column = column == place || text_[place - column - 1] == '\n';
+    return is_at_column && text_.compare(place, node.Scalar().size(), node.Scalar()) == 0;
+  }
+
+  const std::string& text_;
+  std::map<std::size_t, Edit> edits_;
+  bool is_known_ = true;
+};
 
 }  // namespace
 
@@ -113,13 +182,34 @@ std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mar
   return std::nullopt;
 }
 
-void apply_key_changes(const std::vector<KeyChange>& changes, std::string_view file,
-                       Document& document, Diagnostics& diagnostics) {
-  bool changed = false;
-  for (const KeyChange& change : changes)
-    if (change.file == file) changed |= give_new_value(change, document, diagnostics);
-  // Writing costs as much as reading: once, for all changes.
-  if (changed) document.text = YAML::Dump(document.root) + '\n';
+Document ChangingDocument::with(const std::vector<KeyChange>& changes, std::string_view file,
+                                Diagnostics& diagnostics) {
+  take_back();
+  EditedText edited(document_.text);
+  for (const KeyChange& change : changes) {
+    if (change.file != file) continue;
+    std::optional<YAML::Node> node = node_to_change(change, document_, diagnostics);
+    if (!node) continue;
+    edited.replace(*node, change.value);
+    before_.push_back({*node, node->IsNull() ? std::nullopt : std::optional(node->Scalar())});
+    *node = change.value;
+  }
+  Document changed = document_;
+  if (before_.empty()) return changed;
+  std::optional<std::string> text = edited.text();
+  changed.text = text ? std::move(*text) : YAML::Dump(changed.root) + '\n';
+  return changed;
+}
+
+void ChangingDocument::take_back() {
+  bool had_no_value = false;
+  for (auto one = before_.rbegin(); one != before_.rend(); ++one) {
+    if (one->value) one->node = *one->value;
+    had_no_value = had_no_value || !one->value;
+  }
+  before_.clear();
+  // A node that has a value cannot be made one without.
+  if (had_no_value) document_.root.reset(YAML::Load(document_.text));
 }
 
 }  // namespace blocklift::pipeline

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipeline/declaration/diagnostics.h"
@@ -23,10 +24,27 @@ struct KeyChange {
 std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mark,
                                           Diagnostics& diagnostics);
 
-/// Gives keys of a document their new values, those of the changes that are of this file; if there
-/// are any, the document's text becomes that of the changed one. Places that share an anchor change
-/// together. Complains about a key that is not there or holds a table or a list, and leaves it.
-void apply_key_changes(const std::vector<KeyChange>& changes, std::string_view file,
-                       Document& document, Diagnostics& diagnostics);
+/// A document whose keys are given other values, again and again.
+class ChangingDocument {
+ public:
+  explicit ChangingDocument(Document document) : document_(std::move(document)) {}
+
+  /// The document with the new values of the changes that are of this file, and with no others; its
+  /// text is that of the document with them. Places that share an anchor change together. Complains
+  /// about a key that is not there or holds a table or a list, and leaves it. What was handed out
+  /// before has the same nodes, and changes as well.
+  Document with(const std::vector<KeyChange>& changes, std::string_view file,
+                Diagnostics& diagnostics);
+
+ private:
+  struct Before {
+    YAML::Node node;
+    std::optional<std::string> value;  ///< none: the key had no value
+  };
+  void take_back();
+
+  Document document_;
+  std::vector<Before> before_;  ///< what the latest changes replaced, in their order
+};
 
 }  // namespace blocklift::pipeline

@@ -10,8 +10,6 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/comparison/summary_figures.h"
-#include "pipeline/declaration/key_change.h"
-#include "pipeline/files/library/model_library.h"
 #include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/content_hash.h"
@@ -19,7 +17,7 @@
 #include "pipeline/measures/measure.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
-#include "pipeline/study/study_design.h"
+#include "pipeline/study/member_cases.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -29,29 +27,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* identity_file = "identity";
-
-std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd& values,
-                                  const std::vector<int>* only, Diagnostics& diagnostics) {
-  std::vector<KeyChange> changes;
-  for (std::size_t v = 0; v < study.variables.size(); ++v) {
-    if (only && std::find(only->begin(), only->end(), static_cast<int>(v)) == only->end()) continue;
-    const StudyVariable& variable = study.variables[v];
-    const std::string value = value_text(variable, values[v]);
-    for (const Located<std::string>& key : variable.keys)
-      if (auto change = parse_key_change(key.value + "=" + value, key.mark, diagnostics))
-        changes.push_back(std::move(*change));
-  }
-  return changes;
-}
-
-/// "weight = 870 t, R1 = 9.98 m".
-std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
-  std::string text;
-  for (std::size_t v = 0; v < study.variables.size(); ++v)
-    text += fmt::format("{}{} = {}", v > 0 ? ", " : "", study.variables[v].name.value,
-                        value_text(study.variables[v], values[v], 6));
-  return text;
-}
 
 /// The goal of a search and what is subject to bounds.
 std::vector<const Located<std::string>*> figures_of_search(const StudyFile& study) {
@@ -131,7 +106,7 @@ Json stress_json(const LargestChecked& largest) {
 Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBlocks& blocks,
                 const std::optional<fs::path>& full) {
   const Progress& progress = blocks.progress();
-  LiftCase lift_case = member_case(study, values);
+  LiftCase lift_case = blocks.cases().of(values);
   if (study.run == StudyRun::assess || (full && study.run == StudyRun::stress)) {
     const Assessment assessment = assess(std::move(lift_case), progress);
     if (full) write_results(assessment, *full);
@@ -200,30 +175,12 @@ Member member_of_text(int number, const std::string& text) {
   return member;
 }
 
-LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
-                     const std::vector<int>* only) {
-  Diagnostics diagnostics;
-  std::vector<KeyChange> changes = changes_of(study, values, only, diagnostics);
-  if (diagnostics.has_errors()) throw InputError(diagnostics);
-  ModelLibrary library = ModelLibrary::of_installation();
-  library.set_changes(std::move(changes));
-  std::optional<LiftCase> lift_case = read_lift_case(study.case_path(), library, diagnostics);
-  if (!diagnostics.has_errors()) {
-    lift_case->laws = study.laws;
-    return std::move(*lift_case);
-  }
-  // Complaints name the study's own lines, or those of the case and its models as they were
-  // changed.
-  diagnostics.error(
-      study.place, fmt::format("a member of the study is impossible: {}", describe(study, values)));
-  throw InputError(diagnostics);
-}
-
 void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
                    const std::function<void(double fraction)>& progress) {
+  MemberCases cases(study);
   for (Eigen::Index member = 0; member < design.rows(); ++member) {
     progress(static_cast<double>(member) / static_cast<double>(design.rows()));
-    const LiftCase lift_case = member_case(study, design.row(member));
+    const LiftCase lift_case = cases.of(design.row(member));
     Diagnostics diagnostics;
     if (lift_case.load_table)
       diagnostics.error(study.case_name.mark,

@@ -15,14 +15,8 @@
 
 namespace blocklift::pipeline {
 
-/// The case of a member: that of the study with the variables' values.
-/// @throws InputError with what is wrong, and the values by which it is.
-/// @param only the places of the variables whose values are taken; null: all are.
-LiftCase member_case(const StudyFile& study, const Eigen::VectorXd& values,
-                     const std::vector<int>* only = nullptr);
-
 /// Reads the cases of all members, so that nothing runs if one of them is impossible.
-/// @throws InputError as member_case, of the first that is.
+/// @throws InputError as MemberCases, of the first that is.
 void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
                    const std::function<void(double fraction)>& progress);
 

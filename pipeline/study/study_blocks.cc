@@ -143,7 +143,7 @@ void find_largest(const structure::StressBasis& basis, const BlockAttachment& at
 }  // namespace
 
 StudyBlocks::StudyBlocks(const StudyFile& study, fs::path folder, Progress progress)
-    : study_(study), folder_(std::move(folder)), progress_(std::move(progress)) {
+    : study_(study), cases_(study), folder_(std::move(folder)), progress_(std::move(progress)) {
   const LiftCase as_written = read_lift_case(study.case_path());
   for (std::size_t v = 0; v < study.variables.size(); ++v)
     for (const Located<std::string>& key : study.variables[v].keys)
@@ -195,8 +195,8 @@ KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& val
   return known;
 }
 
-structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) const {
-  const LiftCase lift_case = member_case(study_, values, &changing_);
+structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) {
+  const LiftCase lift_case = cases_.of(values, &changing_);
   auto model = model_of(lift_case);
   const structure::OneBlasThread whatever_the_threads;
   auto responses = make_unit_responses(*model, *lift_case.load.model);
@@ -238,7 +238,7 @@ structure::StressBasis StudyBlocks::basis_of(const structure::RefinedBlock& bloc
       1);
 }
 
-void StudyBlocks::find_basis(Kept& block, bool over_edges, const Eigen::VectorXd& values) const {
+void StudyBlocks::find_basis(Kept& block, bool over_edges, const Eigen::VectorXd& values) {
   if (block.basis) return;
   if (over_edges) {
     block.refined = refine(values);
@@ -285,7 +285,7 @@ void StudyBlocks::prepare(const Eigen::MatrixXd& design, int process, int proces
     if (!seen.insert(key).second || static_cast<int>(seen.size() - 1) % processes != process)
       continue;
     std::error_code ignored;
-    if (fs::exists(file_of(key), ignored) || runs_over_edges(member_case(study_, values))) continue;
+    if (fs::exists(file_of(key), ignored) || runs_over_edges(cases_.of(values))) continue;
     write_file(file_of(key), bytes_of_stress_basis(basis_of(refine(values))));
   }
 }

@@ -11,6 +11,7 @@
 #include "pipeline/files/study/study_file.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/simulation/lift_simulation.h"
+#include "pipeline/study/member_cases.h"
 #include "structure/accuracy/accuracy.h"
 #include "structure/envelope/stress_basis.h"
 
@@ -38,6 +39,7 @@ class StudyBlocks {
   StudyBlocks& operator=(const StudyBlocks&) = delete;
 
   const Progress& progress() const { return progress_; }
+  MemberCases& cases() { return cases_; }
 
   /// What the motion of a member takes from its block.
   /// @param values of the study's variables.
@@ -60,11 +62,12 @@ class StudyBlocks {
   /// The values by which a member's block differs from the case's in more than its mass.
   std::string key_of(const Eigen::VectorXd& values) const;
   std::filesystem::path file_of(const std::string& key) const;
-  structure::RefinedBlock refine(const Eigen::VectorXd& values) const;
+  structure::RefinedBlock refine(const Eigen::VectorXd& values);
   static structure::StressBasis basis_of(const structure::RefinedBlock& block);
-  void find_basis(Kept& block, bool over_edges, const Eigen::VectorXd& values) const;
+  void find_basis(Kept& block, bool over_edges, const Eigen::VectorXd& values);
 
   const StudyFile& study_;
+  MemberCases cases_;
   std::filesystem::path folder_;
   Progress progress_;
   std::vector<int> changing_;  ///< variables that change more of the block than its mass

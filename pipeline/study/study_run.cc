@@ -9,6 +9,7 @@
 #include "pipeline/files/lift_case/own_laws.h"
 #include "pipeline/study/figure_limit.h"
 #include "pipeline/study/limiting_sea.h"
+#include "pipeline/study/member_cases.h"
 #include "pipeline/study/search.h"
 #include "pipeline/study/study_blocks.h"
 #include "pipeline/study/study_design.h"
@@ -93,7 +94,7 @@ Eigen::MatrixXd plan_members(const StudyFile& study,
     read_sea_states(study.beside(study.limits->forecast->value), true);
   Eigen::MatrixXd design = make_design(study);
   check_members(study, design, progress);
-  const LiftCase first = member_case(study, design.row(0));
+  const LiftCase first = MemberCases(study).of(design.row(0));
   Diagnostics diagnostics;
   check_laws(study.laws, first.operation, first.file, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);

@@ -99,6 +99,12 @@ void add_models(const fs::path& folder, const std::string& kind, std::vector<std
   }
 }
 
+/// The rope of a choice: its keys, or the model that it names; an empty one where there is neither.
+RopeModel rope_of(const RopeChoice& choice, const std::shared_ptr<const RopeModel>& named) {
+  if (choice.keys) return *choice.keys;
+  return named ? *named : RopeModel{};
+}
+
 /// The name without its folders.
 std::string last_part(const std::string& name) { return fs::path(name).filename().string(); }
 
@@ -190,24 +196,41 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
 
 fs::path ModelLibrary::find_and_note(const Located<std::string>& name, const std::string& kind,
                                      const Folders& beside, Diagnostics& diagnostics) {
-  fs::path file = find(name, kind, beside, diagnostics);
-  const bool is_known = std::any_of(found_.begin(), found_.end(),
-                                    [&](const FoundModel& model) { return model.file == file; });
-  if (!file.empty() && !is_known) found_.push_back({name.value, file, ""});
+  std::string key = kind + "\n" + name.value;
+  for (const fs::path& folder : beside) key += "\n" + folder.string();
+  fs::path& file = places_[key];
+  if (file.empty()) file = find(name, kind, beside, diagnostics);
+  if (!file.empty() && !find_found(file)) found_.push_back({name.value, file, ""});
   return file;
 }
 
-void ModelLibrary::change(const std::string& name, Document& document, Diagnostics& diagnostics) {
-  apply_key_changes(changes_, name, document, diagnostics);
-  changed_.push_back(name);
+FoundModel* ModelLibrary::find_found(const fs::path& file) {
+  const auto found = std::find_if(found_.begin(), found_.end(),
+                                  [&](const FoundModel& model) { return model.file == file; });
+  return found != found_.end() ? &*found : nullptr;
+}
+
+void ModelLibrary::begin_case() {
+  found_.clear();
+  ++case_;
+}
+
+std::string ModelLibrary::changes_of(const fs::path& file) const {
+  std::string text;
+  for (const FoundModel& model : found_)
+    if (model.file == file)
+      for (const KeyChange& change : changes_)
+        if (change.file == model.name) text += change.key + "=" + change.value + "\n";
+  return text;
 }
 
 void ModelLibrary::complain_about_unused_changes(Diagnostics& diagnostics) const {
+  std::vector<std::string> models;
+  for (const FoundModel& model : found_)
+    if (!model.text.empty()) models.push_back(model.name);
   for (const KeyChange& change : changes_) {
-    if (std::find(changed_.begin(), changed_.end(), change.file) != changed_.end()) continue;
-    std::vector<std::string> models;
-    for (const std::string& name : changed_)
-      if (!name.empty()) models.push_back(name);
+    if (change.file.empty() || std::find(models.begin(), models.end(), change.file) != models.end())
+      continue;
     diagnostics.error(
         change.mark, fmt::format("the case has no model \"{}\" to change", change.file),
         {names_hint("its cranes, blocks, ropes and standards are", models, change.file)});
@@ -215,15 +238,59 @@ void ModelLibrary::complain_about_unused_changes(Diagnostics& diagnostics) const
 }
 
 std::optional<Document> ModelLibrary::load(const fs::path& file, Diagnostics& diagnostics) {
-  std::optional<Document> document = load_document(file, diagnostics);
-  if (!document) return document;
-  for (FoundModel& model : found_) {
-    if (model.file != file) continue;
-    const std::string before = document->text;
-    change(model.name, *document, diagnostics);
-    if (document->text != before) model.changed_text = document->text;
-  }
+  FoundModel* const found = find_found(file);
+  if (!found) return load_document(file, diagnostics);
+  std::optional<Document> document = load_changed(file, found->name, diagnostics);
+  if (document) found->text = document->text;
   return document;
+}
+
+std::optional<Document> ModelLibrary::load_changed(const fs::path& file, const std::string& name,
+                                                   Diagnostics& diagnostics) {
+  // Where keys change they are likely to change again: reading a document takes far longer.
+  const bool changes = std::any_of(changes_.begin(), changes_.end(),
+                                   [&](const KeyChange& change) { return change.file == name; });
+  if (!changes) return load_document(file, diagnostics);
+  auto known = changing_.find(file);
+  if (known == changing_.end()) {
+    std::optional<Document> document = load_document(file, diagnostics);
+    if (!document) return std::nullopt;
+    known = changing_.emplace(file, ChangingDocument(*document)).first;
+  }
+  return known->second.with(changes_, name, diagnostics);
+}
+
+template <class Model>
+ModelLibrary::Kept<Model>* ModelLibrary::find_kept(std::map<std::string, Kept<Model>>& kept,
+                                                   const std::string& key, const fs::path& file) {
+  const auto known = kept.find(key);
+  if (known == kept.end()) return nullptr;
+  Kept<Model>& one = known->second;
+  if (one.last_case == case_) return &one;
+  if (!one.is_sound || one.changes != changes_of(file)) return nullptr;
+  one.last_case = case_;
+  if (FoundModel* const found = find_found(file)) found->text = one.text;
+  return &one;
+}
+
+template <class Model>
+ModelLibrary::Kept<Model> ModelLibrary::kept_of(std::shared_ptr<const Model> model,
+                                                const fs::path& file, bool is_sound) const {
+  Kept<Model> kept{std::move(model), {}, {}, changes_of(file), case_, is_sound};
+  for (const FoundModel& found : found_)
+    if (found.file == file) kept.text = found.text;
+  return kept;
+}
+
+template <class Model, class Read>
+std::shared_ptr<const Model> ModelLibrary::keep(std::map<std::string, Kept<Model>>& kept,
+                                                const fs::path& file, Diagnostics& diagnostics,
+                                                const Read& read) {
+  if (const Kept<Model>* known = find_kept(kept, file.string(), file)) return known->model;
+  const std::size_t errors_before = diagnostics.error_count();
+  std::shared_ptr<const Model> model = read();
+  kept[file.string()] = kept_of(model, file, diagnostics.error_count() == errors_before);
+  return model;
 }
 
 std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
@@ -257,20 +324,23 @@ std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::strin
                                                         Diagnostics& diagnostics) {
   const fs::path file = find_and_note(name, "vessel", {beside}, diagnostics);
   if (file.empty()) return nullptr;
-  const auto known = vessels_.find(file);
-  if (known != vessels_.end()) return known->second;
-  std::optional<Vessel> vessel = read_vessel(file, diagnostics, {beside});
-  return vessels_[file] = vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
+  return keep(vessels_, file, diagnostics, [&]() -> std::shared_ptr<const Vessel> {
+    std::optional<Vessel> vessel = read_vessel(file, diagnostics, {beside});
+    return vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
+  });
+}
+
+std::shared_ptr<const RopeModel> ModelLibrary::find_rope(const RopeChoice& choice,
+                                                         const Folders& beside,
+                                                         Diagnostics& diagnostics) {
+  if (choice.keys || !choice.model_name || choice.model_name->value.empty()) return nullptr;
+  const fs::path file = find_and_note(*choice.model_name, "rope", beside, diagnostics);
+  return file.empty() ? nullptr : read_rope(file, diagnostics);
 }
 
 RopeModel ModelLibrary::resolve_among(const RopeChoice& choice, const Folders& beside,
                                       Diagnostics& diagnostics) {
-  if (choice.keys) return *choice.keys;
-  if (!choice.model_name || choice.model_name->value.empty()) return {};
-  const fs::path file = find_and_note(*choice.model_name, "rope", beside, diagnostics);
-  if (file.empty()) return {};
-  const std::shared_ptr<const RopeModel> rope = read_rope(file, diagnostics);
-  return rope ? *rope : RopeModel{};
+  return rope_of(choice, find_rope(choice, beside, diagnostics));
 }
 
 std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
@@ -281,28 +351,42 @@ std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
   for (const Named<Located<Measure>>& parameter : parameters) {
     key += fmt::format("\n{} = {:a}", parameter.name.value, parameter.value.value.value);
   }
-  const auto known = cranes_.find(key);
-  if (known != cranes_.end()) return known->second;
-  std::shared_ptr<CraneModel> crane = read_model(
+  Folders beside = {file.parent_path()};
+  if (of_case) beside.push_back(*of_case);
+  const auto ropes_of = [&](const CraneModel& crane) {
+    Ropes ropes;
+    for (const HoistModel& hoist : crane.hoists)
+      ropes.push_back(find_rope(hoist.rope_choice, beside, diagnostics));
+    return ropes;
+  };
+  const auto before = cranes_.find(key);
+  const bool served_this_case = before != cranes_.end() && before->second.last_case == case_;
+  if (const Kept<CraneModel>* known = find_kept(cranes_, key, file))
+    if (served_this_case || ropes_of(*known->model) == known->ropes) return known->model;
+  const std::size_t errors_before = diagnostics.error_count();
+  const std::shared_ptr<CraneModel> crane = read_model(
       load(file, diagnostics), "crane", format_once<crane_model_format>(), diagnostics, parameters);
+  Ropes ropes;
   if (crane) {
-    Folders beside = {file.parent_path()};
-    if (of_case) beside.push_back(*of_case);
-    for (HoistModel& hoist : crane->hoists)
-      hoist.rope = resolve_among(hoist.rope_choice, beside, diagnostics);
+    ropes = ropes_of(*crane);
+    for (std::size_t hoist = 0; hoist < ropes.size(); ++hoist)
+      crane->hoists[hoist].rope = rope_of(crane->hoists[hoist].rope_choice, ropes[hoist]);
   }
-  return cranes_[key] = crane;
+  Kept<CraneModel>& kept = cranes_[key];
+  kept = kept_of<CraneModel>(crane, file, diagnostics.error_count() == errors_before);
+  kept.ropes = std::move(ropes);
+  return crane;
 }
 
 std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
                                                            Diagnostics& diagnostics,
                                                            const std::optional<fs::path>& of_case) {
-  const auto known = blocks_.find(file);
-  if (known != blocks_.end()) return known->second;
-  const std::shared_ptr<BlockModel> block =
-      read_model(load(file, diagnostics), "block", format_once<block_model_format>(), diagnostics);
-  if (block) read_block_mesh(*block, file.parent_path(), diagnostics, of_case);
-  return blocks_[file] = block;
+  return keep(blocks_, file, diagnostics, [&] {
+    const std::shared_ptr<BlockModel> block = read_model(
+        load(file, diagnostics), "block", format_once<block_model_format>(), diagnostics);
+    if (block) read_block_mesh(*block, file.parent_path(), diagnostics, of_case);
+    return block;
+  });
 }
 
 std::shared_ptr<const BlockModel> ModelLibrary::read_block_of_own_cases(const fs::path& file,
@@ -316,10 +400,10 @@ std::shared_ptr<const BlockModel> ModelLibrary::read_block_of_own_cases(const fs
 
 std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
                                                          Diagnostics& diagnostics) {
-  const auto known = ropes_.find(file);
-  if (known != ropes_.end()) return known->second;
-  return ropes_[file] = read_model(load(file, diagnostics), "rope",
-                                   format_once<rope_model_format>(), diagnostics);
+  return keep(ropes_, file, diagnostics, [&] {
+    return read_model(load(file, diagnostics), "rope", format_once<rope_model_format>(),
+                      diagnostics);
+  });
 }
 
 std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<std::string>& name,
@@ -331,10 +415,10 @@ std::shared_ptr<const StandardRules> ModelLibrary::load_standard(const Located<s
 
 std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path& file,
                                                                  Diagnostics& diagnostics) {
-  const auto known = standards_.find(file);
-  if (known != standards_.end()) return known->second;
-  return standards_[file] = read_model(load(file, diagnostics), "standard",
-                                       format_once<standard_rules_format>(), diagnostics);
+  return keep(standards_, file, diagnostics, [&] {
+    return read_model(load(file, diagnostics), "standard", format_once<standard_rules_format>(),
+                      diagnostics);
+  });
 }
 
 std::shared_ptr<const RiggingStock> ModelLibrary::read_rigging(const fs::path& file,

@@ -22,7 +22,7 @@ namespace blocklift::pipeline {
 struct FoundModel {
   std::string name;  ///< as the file that names it writes it
   std::filesystem::path file;
-  std::string changed_text;  ///< empty if the file is taken as it stands
+  std::string text;  ///< as it was read, with its changes; of vessels none
 };
 
 /// Finds and reads model files by name.
@@ -33,7 +33,8 @@ struct FoundModel {
 ///   cranes/goliath-600t, cranes/goliath-600t.yaml, cranes/goliath-600t/crane.yaml.
 /// A standard's name may do without its folder: nd-0027 is standards/nd-0027.
 /// A name that leads out of all these folders is refused, unless files outside are allowed.
-/// Each file is read once, however often it is named; a crane once for each set of parameters.
+/// Each file is read once, however often it is named; a crane once for each set of parameters. Of a
+/// case that is read again with other changes, what these do not touch is not read again.
 class ModelLibrary {
  public:
   explicit ModelLibrary(std::vector<std::filesystem::path> model_folders)
@@ -81,16 +82,20 @@ class ModelLibrary {
     return find(name, "vessel", {beside}, diagnostics);
   }
 
-  /// The models that were found since they were last forgotten, each file once, in the order of
-  /// their first naming. Ropes of a crane that was read before are not among them.
+  /// A case is read from now on, or read again: what was found for the one before is forgotten, and
+  /// models with mistakes inside will be read, and complained about, again.
+  void begin_case();
+  /// The models that were found since a case was begun, each file once, in the order of their first
+  /// naming.
   const std::vector<FoundModel>& found() const { return found_; }
-  void forget_found() { found_.clear(); }
 
-  /// Keys of cranes, blocks, ropes and standards, and of the case file that is read with this
-  /// library, that are to have other values. To be called before anything is read.
+  /// Keys of cranes, blocks, ropes and standards, and of the case file, that are to have other
+  /// values in the case that is begun next.
   void set_changes(std::vector<KeyChange> changes) { changes_ = std::move(changes); }
-  /// Makes the changes of a file in its document. @param name of a model; empty: the case file.
-  void change(const std::string& name, Document& document, Diagnostics& diagnostics);
+  /// Reads a case file with its changes. Its nodes are those of the same file read before.
+  std::optional<Document> read_case(const std::filesystem::path& file, Diagnostics& diagnostics) {
+    return load_changed(file, "", diagnostics);
+  }
   /// Complains about changes of models that were not read.
   void complain_about_unused_changes(Diagnostics& diagnostics) const;
 
@@ -119,6 +124,35 @@ class ModelLibrary {
  private:
   using Folders = std::vector<std::filesystem::path>;
 
+  using Ropes = std::vector<std::shared_ptr<const RopeModel>>;
+
+  /// A model that was read.
+  template <class Model>
+  struct Kept {
+    std::shared_ptr<const Model> model;
+    Ropes ropes;            ///< that it names
+    std::string text;       ///< of its file, with its changes
+    std::string changes;    ///< that were made in its file
+    int last_case = 0;      ///< that it served
+    bool is_sound = false;  ///< nothing was complained about
+  };
+  /// The model that is kept by a key; null if none is, or not one that serves the case at hand.
+  template <class Model>
+  Kept<Model>* find_kept(std::map<std::string, Kept<Model>>& kept, const std::string& key,
+                         const std::filesystem::path& file);
+  /// The model that is kept of a file, or else is read now.
+  template <class Model, class Read>
+  std::shared_ptr<const Model> keep(std::map<std::string, Kept<Model>>& kept,
+                                    const std::filesystem::path& file, Diagnostics& diagnostics,
+                                    const Read& read);
+  /// What a model was read as, to be kept.
+  template <class Model>
+  Kept<Model> kept_of(std::shared_ptr<const Model> model, const std::filesystem::path& file,
+                      bool is_sound) const;
+
+  /// The rope that is chosen by name; null if none is, or it cannot be read.
+  std::shared_ptr<const RopeModel> find_rope(const RopeChoice& choice, const Folders& beside,
+                                             Diagnostics& diagnostics);
   RopeModel resolve_among(const RopeChoice& choice, const Folders& beside,
                           Diagnostics& diagnostics);
   /// The file of a model; empty after a complaint.
@@ -132,18 +166,25 @@ class ModelLibrary {
   /// What may have been meant by a name that no model of the kind has; empty if nothing is near.
   std::string hint_of_name(const std::string& name, const std::string& kind,
                            const Folders& beside) const;
+  FoundModel* find_found(const std::filesystem::path& file);
+  /// The changes of a file that was found by its name, as text.
+  std::string changes_of(const std::filesystem::path& file) const;
   /// The document of a model's file with its changes.
   std::optional<Document> load(const std::filesystem::path& file, Diagnostics& diagnostics);
+  std::optional<Document> load_changed(const std::filesystem::path& file, const std::string& name,
+                                       Diagnostics& diagnostics);
 
   std::vector<std::filesystem::path> model_folders_;
+  std::map<std::string, std::filesystem::path> places_;  ///< of names, by kind and folders
+  std::map<std::filesystem::path, ChangingDocument> changing_;
   std::vector<FoundModel> found_;
   std::vector<KeyChange> changes_;
-  std::vector<std::string> changed_;  ///< files whose changes were made, by name
-  std::map<std::string, std::shared_ptr<const CraneModel>> cranes_;  ///< by file and parameters
-  std::map<std::filesystem::path, std::shared_ptr<const BlockModel>> blocks_;
-  std::map<std::filesystem::path, std::shared_ptr<const RopeModel>> ropes_;
-  std::map<std::filesystem::path, std::shared_ptr<const Vessel>> vessels_;
-  std::map<std::filesystem::path, std::shared_ptr<const StandardRules>> standards_;
+  int case_ = 0;
+  std::map<std::string, Kept<CraneModel>> cranes_;  ///< by file and parameters
+  std::map<std::string, Kept<BlockModel>> blocks_;
+  std::map<std::string, Kept<RopeModel>> ropes_;
+  std::map<std::string, Kept<Vessel>> vessels_;
+  std::map<std::string, Kept<StandardRules>> standards_;
 };
 
 }  // namespace blocklift::pipeline

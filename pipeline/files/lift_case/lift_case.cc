@@ -206,12 +206,11 @@ std::string LiftCase::hook_above(const RopeInCase& rope) const {
 std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& library,
                                        Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();
-  library.forget_found();
+  library.begin_case();
   const fs::path file = case_file(path, diagnostics);
   if (file.empty()) return std::nullopt;
-  std::optional<Document> document = load_document(file, diagnostics);
+  const std::optional<Document> document = library.read_case(file, diagnostics);
   if (!document) return std::nullopt;
-  library.change("", *document, diagnostics);
 
   LiftCase lift_case;
   lift_case.file = file;
@@ -230,7 +229,7 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   for (const FoundModel& model : library.found())
     lift_case.model_texts.push_back(
-        {model.name, model.changed_text.empty() ? read_file(model.file) : model.changed_text});
+        {model.name, model.text.empty() ? read_file(model.file) : model.text});
   return lift_case;
 }
 

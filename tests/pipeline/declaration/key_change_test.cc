@@ -28,10 +28,12 @@ Document document_to_change() {
 std::string changed_by(const std::string& text) {
   Diagnostics diagnostics;
   const Mark mark{std::make_shared<const std::string>("--set"), 0, 0};
-  Document document = document_to_change();
   const auto change = parse_key_change(text, mark, diagnostics);
-  if (change) apply_key_changes({*change}, change->file, document, diagnostics);
-  return diagnostics.has_errors() ? diagnostics.to_text() : document.text;
+  std::string changed;
+  if (change)
+    changed =
+        ChangingDocument(document_to_change()).with({*change}, change->file, diagnostics).text;
+  return diagnostics.has_errors() ? diagnostics.to_text() : changed;
 }
 
 TEST(KeyChange, ReachesTablesAndLists) {
@@ -50,10 +52,59 @@ TEST(KeyChange, ChangesPlacesOfOneAnchorTogether) {
   EXPECT_EQ(changed["ropes"]["R1"]["length"].Scalar(), "3 m");
 }
 
+TEST(KeyChange, LeavesTheRestOfTheTextAsItIs) {
+  std::string expected = text_to_change;
+  expected.replace(expected.find("2 m}]"), 3, "-14.7 m");
+  EXPECT_EQ(changed_by("moves[2].by=-14.7 m"), expected);
+  // What needs quotes, or had none to be replaced, has the text written anew.
+  for (const char* change :
+       {"mass=a: b", "mass=# 3", "empty=5 m", "mass=- 3 m", "mass=x ", "mass=[1"}) {
+    const std::string value = std::string(change).substr(std::string(change).find('=') + 1);
+    const std::string key = std::string(change).substr(0, std::string(change).find('='));
+    EXPECT_EQ(YAML::Load(changed_by(change))[key].Scalar(), value) << change;
+  }
+}
+
+TEST(KeyChange, FindsValuesBehindLettersOfSeveralBytesAndAnchors) {
+  Diagnostics diagnostics;
+  for (const char* text : {"title: Lüfter – α\nmass: 8 t  # α\nafter: 1\n",
+                           "mass: &m 8 t\nafter: 1\n", "mass: \"8 t\"\nafter: 1\n",
+                           "mass: 8\n  t\nafter: 1\n", "\xEF\xBB\xBFmass: 8 t\nafter: 1\n",
+                           "\xEF\xBB\xBFx: 1\nmass: 8 t\nafter: 1\n", "{mass: 8 t, after: 1}"}) {
+    ChangingDocument document(
+        {std::make_shared<const std::string>("case.yaml"), text, YAML::Load(text)});
+    const Document changed = document.with({{"", "mass", "9.5 t", {}}}, "", diagnostics);
+    EXPECT_EQ(YAML::Load(changed.text)["mass"].Scalar(), "9.5 t") << text;
+    EXPECT_EQ(YAML::Load(changed.text)["after"].Scalar(), "1") << text;
+  }
+  EXPECT_FALSE(diagnostics.has_errors());
+}
+
+TEST(KeyChange, IsTakenBackBeforeTheNext) {
+  Diagnostics diagnostics;
+  ChangingDocument document(document_to_change());
+  const std::vector<KeyChange> first = {{"", "mass", "9 t", {}},
+                                        {"", "ropes.R2.length", "5 m", {}},
+                                        {"", "ropes.R3.length", "6 m", {}},
+                                        {"", "empty", "7", {}},
+                                        {"ropes/other", "mass", "1 t", {}}};
+  const Document changed = document.with(first, "", diagnostics);
+  EXPECT_EQ(changed.root["mass"].Scalar(), "9 t");
+  EXPECT_EQ(changed.root["ropes"]["R2"]["length"].Scalar(), "6 m");
+  EXPECT_EQ(changed.root["empty"].Scalar(), "7");
+  const Document next = document.with({{"", "ropes.R1.length", "2 m", {}}}, "", diagnostics);
+  EXPECT_EQ(next.root["mass"].Scalar(), "8 t");
+  EXPECT_EQ(next.root["ropes"]["R2"]["length"].Scalar(), "4 m");
+  EXPECT_TRUE(next.root["empty"].IsNull());
+  EXPECT_EQ(next.root["ropes"]["R1"]["length"].Scalar(), "2 m");
+  EXPECT_EQ(document.with({}, "", diagnostics).text, text_to_change);
+  EXPECT_FALSE(diagnostics.has_errors());
+}
+
 TEST(KeyChange, KeepsTheLineOfTheKeyForLaterComplaints) {
   Diagnostics diagnostics;
-  Document document = document_to_change();
-  apply_key_changes({{"", "ropes.R1.length", "5 m", {}}}, "", document, diagnostics);
+  const Document document = ChangingDocument(document_to_change())
+                                .with({{"", "ropes.R1.length", "5 m", {}}}, "", diagnostics);
   EXPECT_EQ(document.mark_of(document.root["ropes"]["R1"]["length"]).line, 3);
 }
 

@@ -1,0 +1,57 @@
+#include "pipeline/study/member_cases.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/declaration/key_change.h"
+#include "pipeline/study/study_design.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd& values,
+                                  const std::vector<int>* only, Diagnostics& diagnostics) {
+  std::vector<KeyChange> changes;
+  for (std::size_t v = 0; v < study.variables.size(); ++v) {
+    if (only && std::find(only->begin(), only->end(), static_cast<int>(v)) == only->end()) continue;
+    const StudyVariable& variable = study.variables[v];
+    const std::string value = value_text(variable, values[v]);
+    for (const Located<std::string>& key : variable.keys)
+      if (auto change = parse_key_change(key.value + "=" + value, key.mark, diagnostics))
+        changes.push_back(std::move(*change));
+  }
+  return changes;
+}
+
+/// "weight = 870 t, R1 = 9.98 m".
+std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
+  std::string text;
+  for (std::size_t v = 0; v < study.variables.size(); ++v)
+    text += fmt::format("{}{} = {}", v > 0 ? ", " : "", study.variables[v].name.value,
+                        value_text(study.variables[v], values[v], 6));
+  return text;
+}
+
+}  // namespace
+
+LiftCase MemberCases::of(const Eigen::VectorXd& values, const std::vector<int>* only) {
+  Diagnostics diagnostics;
+  std::vector<KeyChange> changes = changes_of(study_, values, only, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+  library_.set_changes(std::move(changes));
+  std::optional<LiftCase> lift_case = read_lift_case(study_.case_path(), library_, diagnostics);
+  if (!diagnostics.has_errors()) {
+    lift_case->laws = study_.laws;
+    return std::move(*lift_case);
+  }
+  // Complaints name the study's own lines, or those of the case and its models as they were
+  // changed.
+  diagnostics.error(study_.place, fmt::format("a member of the study is impossible: {}",
+                                              describe(study_, values)));
+  throw InputError(diagnostics);
+}
+
+}  // namespace blocklift::pipeline
