@@ -59,23 +59,34 @@ double angle_of(const Eigen::Vector3d& pull) {
   return pull.norm() > 0 ? std::atan2(pull.z(), pull.head<2>().norm()) : nothing;
 }
 
+/// Does a spreader hang on the rope's last end?
+bool holds_spreader(const LiftRun& lift, int rope) {
+  for (const LiftSpreader& bar : lift.model.spreaders)
+    for (const LiftSpreader::End& end : bar.ends)
+      if (end.rope == rope && end.from_above) return true;
+  return false;
+}
+
 void add_sling_angles(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   const std::vector<SlingEnd> ends = find_sling_ends(lift.model);
   for (std::size_t i = 0; i < lift.model.ropes.size(); ++i) {
     const LiftRope& sling = lift.model.ropes[i];
-    if (!sling.holds_load()) continue;
+    const bool to_spreader = holds_spreader(lift, sling.rope);
+    if (!sling.holds_load() && !to_spreader) continue;
     measures.push_back(make_measure(
         lift,
         {.subject = lift.model.ropes[i].name,
          .kind = "sling angle",
          .unit = "rad",
          .extreme = Extreme::smallest,
-         .meaning = "angle of the sling at its lug against the level, while it pulls; of a sling "
-                    "from lug to lug, or of both ends of a basket at their hooks, the lesser one"},
+         .meaning = "angle of the sling at its lug, or at the spreader that hangs on it, against "
+                    "the level, while it pulls; of a sling from lug to lug, or of both ends of a "
+                    "basket at their hooks, the lesser one"},
         [&](const dynamics::History& history, Eigen::Index sample) {
           double least = nothing;
+          const dynamics::RopeHistory& rope = history.ropes[sling.rope];
+          if (to_spreader) return angle_of(rope.last_force.row(sample));
           if (sling.lug.empty()) {
-            const dynamics::RopeHistory& rope = history.ropes[sling.rope];
             for (const auto* pull : {&rope.first_force, &rope.last_force})
               least = std::fmin(least, angle_of(-pull->row(sample)));
           }

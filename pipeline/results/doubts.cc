@@ -57,6 +57,7 @@ class Doubts {
     doubt_wind();
     doubt_materials();
     doubt_masses();
+    doubt_frames();
     return std::move(list_);
   }
 
@@ -306,6 +307,32 @@ class Doubts {
             "Material {} has a Young's modulus of {:.4g} GPa; metals have {:.0f} to {:.0f} GPa "
             "(steel 206).",
             material.name.value, modulus / 1e9, lowest / 1e9, highest / 1e9);
+    }
+  }
+
+  /// A sling that was forgotten leaves a frame hanging aslant on the others.
+  void doubt_frames() {
+    for (const SpreaderInCase& bar : case_.spreaders) {
+      if (!bar.is_frame()) continue;
+      const auto is_at = [&](const ResolvedPoint& point, const std::string& eye) {
+        return point.kind == ResolvedPoint::Kind::spreader && point.part == bar.name.value &&
+               point.point == *bar.eye(eye);
+      };
+      bool hangs = false;
+      std::string bare;
+      for (const char* const corner : {"1", "2", "3", "4"}) {
+        bool above = false, below = false;
+        for (const RopeInCase& rope : case_.ropes) {
+          if (rope.path.empty()) continue;
+          above = above || is_at(rope.path.back(), std::string("upper_") + corner);
+          below = below || is_at(rope.path.front(), std::string("lower_") + corner);
+        }
+        hangs = hangs || above;
+        if (below && !above) bare += (bare.empty() ? "" : ", ") + std::string(corner);
+      }
+      if (hangs && !bare.empty())
+        doubt("Slings to the load begin at corner {} of frame {}, where none comes from above.",
+              bare, bar.name.value);
     }
   }
 

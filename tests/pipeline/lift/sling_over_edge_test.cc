@@ -186,6 +186,22 @@ TEST(SlingOverEdge, IsDoubtedWhereItRunsOff) {
   EXPECT_TRUE(said);
 }
 
+// Slings are drawn along the edges when the trolley moves: friction holds them, or all but nothing.
+TEST(SlingOverEdge, IsDoubtedWhereItSlidesSideways) {
+  const auto doubts_with = [](const std::string& friction) {
+    test::SampleLift files = sling_over_edge_lift();
+    files.block = with(files.block, "outside: [1, 0, 1], radius: 0.15 m",
+                       "outside: [1, 0, 1], radius: 0.15 m, friction: " + friction);
+    const OverEdges lift(files);
+    std::string all;
+    for (const std::string& doubt : list_doubts(lift.lift_case, *lift.run)) all += doubt + "\n";
+    return all;
+  };
+  EXPECT_NE(doubts_with("0.0001").find("Rope R2 slides sideways along edge fore from"),
+            std::string::npos);
+  EXPECT_EQ(doubts_with("0.3").find("sideways"), std::string::npos);
+}
+
 // ---- Loads of the block.
 
 /// What pulls at the block, with its edges.

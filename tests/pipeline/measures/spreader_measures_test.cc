@@ -185,6 +185,16 @@ TEST(SpreaderMeasures, TwoTiersFindTheirPlaces) {
   EXPECT_EQ(lift.run.model.ropes[4].hoist, "C1.left");
 }
 
+// Slings to a bar count as those to the load: 2.5 m that go 2 m aside.
+TEST(SpreaderMeasures, SlingsAboveABarHaveAngles) {
+  const BarLift& lift = plain_lift();
+  double found = 0;
+  for (const LiftMeasure& measure : find_measures(lift.lift_case, lift.run))
+    if (measure.name() == "U1: sling angle") found = measure.at_rest[0];
+  // They stretch by 4e-4 of their length.
+  EXPECT_NEAR(found, std::atan2(1.5, 2), 1e-3);
+}
+
 // Slings of 3 m from the hook to the corners of a frame of 4 x 2 m rise by 2 m; those of 2 m below it
 // lean in by 1 m and fall by sqrt(3) m. Along x only those above press, along y those above and,
 // towards the plate, those below; the eyes bend: each level pull times its height.

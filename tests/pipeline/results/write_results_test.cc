@@ -384,6 +384,33 @@ TEST_F(DoubtsOfALift, WindAndItsAreas) {
   EXPECT_EQ(doubts(), "");
 }
 
+TEST_F(DoubtsOfALift, CornersOfAFrame) {
+  SpreaderInCase frame;
+  frame.name.value = "F1";
+  frame.length.value = 4;
+  frame.width = 2;
+  lift_case_.spreaders.push_back(frame);
+  const auto add = [&](const std::string& eye, bool above) {
+    ResolvedPoint at_eye, elsewhere;
+    at_eye.kind = ResolvedPoint::Kind::spreader;
+    at_eye.part = "F1";
+    at_eye.point = *frame.eye(eye);
+    elsewhere.kind = ResolvedPoint::Kind::hook;
+    RopeInCase rope;
+    rope.path = above ? std::vector{elsewhere, at_eye} : std::vector{at_eye, elsewhere};
+    lift_case_.ropes.push_back(rope);
+  };
+  for (const char* eye : {"upper_1", "upper_2", "upper_3"}) add(eye, true);
+  for (const char* eye : {"lower_1", "lower_2", "lower_3"}) add(eye, false);
+  EXPECT_EQ(list_doubts(lift_case_).size(), 0U);
+  add("lower_4", false);
+  EXPECT_EQ(list_doubts(lift_case_),
+            std::vector<std::string>{"Slings to the load begin at corner 4 of frame F1, where none "
+                                     "comes from above."});
+  add("upper_4", true);
+  EXPECT_EQ(list_doubts(lift_case_).size(), 0U);
+}
+
 TEST_F(DoubtsOfALift, MaterialAndMass) {
   change_block([](BlockModel& block) { block.materials.front().youngs_modulus = 0.2e9; });
   EXPECT_THAT(doubts(), ::testing::HasSubstr("0.2 GPa; metals have 40 to 450 GPa (steel 206)"));
