@@ -104,7 +104,7 @@ TEST(HookBlockMeasures, TwistIsHeldAgainstItsLimit) {
   for (const Check& check : check_measures(lift.lift_case, *lift.run, lift.measures)) {
     if (check.name.find("twist of falls") == std::string::npos) continue;
     found = true;
-    EXPECT_NEAR(check.capacity, 10 * radian, 1e-12);
+    EXPECT_NEAR(check.limit, 10 * radian, 1e-12);
     EXPECT_FALSE(check.pass);
     EXPECT_EQ(check.note, "C1.left");
   }
