@@ -25,17 +25,25 @@ LiftRun run_without_modes(const LiftCase& lift_case) {
   return test::run_sample(lift_case, RunExtent{.natural_modes = false});
 }
 
-/// A measure in motion at a time (s).
-double in_motion(const LiftCase& lift_case, const LiftRun& lift, const std::string& name,
-                 double time) {
+/// Mean of a measure in motion from one time (s) to another.
+double mean_in_motion(const LiftCase& lift_case, const LiftRun& lift, const std::string& name,
+                      double from, double to) {
   for (const LiftMeasure& measure : find_measures(lift_case, lift)) {
     if (measure.name() != name) continue;
-    Eigen::Index sample = 0;
-    (lift.dynamic_history().time.array() - time).abs().minCoeff(&sample);
-    return measure.in_motion[sample];
+    const Eigen::VectorXd& time = lift.dynamic_history().time;
+    Eigen::Index first = 0, last = 0;
+    (time.array() - from).abs().minCoeff(&first);
+    (time.array() - to).abs().minCoeff(&last);
+    return measure.in_motion.segment(first, last - first + 1).mean();
   }
   ADD_FAILURE() << "there is no measure " << name;
   return NAN;
+}
+
+/// A measure in motion at a time (s).
+double in_motion(const LiftCase& lift_case, const LiftRun& lift, const std::string& name,
+                 double time) {
+  return mean_in_motion(lift_case, lift, name, time, time);
 }
 
 const std::string keep_level =
@@ -107,6 +115,7 @@ TEST(Keeping, AHeadOverAPoint) {
 // The left hoist takes more of the load by tilting it: its centre lies 0.7 m below lugs 4 m apart, so
 // that a hook lower by d takes W 0.7 d / 16 m less, 4.3 kN for each metre. The operator is told so: by
 // the stiffness of the rope alone, which is two thousand times as large, he would hardly move.
+// The load bounces by 0.3 kN about what is asked, at any tolerance of the integration: means count.
 TEST(Keeping, AShareAndATension) {
   const std::string operation =
       "  - stage: share\n"
@@ -118,7 +127,8 @@ TEST(Keeping, AShareAndATension) {
     const LiftRun lift = run_without_modes(lift_case);
     const char* name = wish[0] == 's' ? "C1.left: missed share" : "C1.left: missed tension";
     const double first = in_motion(lift_case, lift, name, 0.0);
-    const double last = in_motion(lift_case, lift, name, lift.model.steerings[0].end - 0.5);
+    const double end = lift.model.steerings[0].end;
+    const double last = mean_in_motion(lift_case, lift, name, end - 10.5, end - 0.5);
     EXPECT_LT(std::abs(last), 0.1 * std::abs(first)) << wish;
   }
 }
