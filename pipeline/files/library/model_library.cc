@@ -382,8 +382,8 @@ std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
                                                            Diagnostics& diagnostics,
                                                            const std::optional<fs::path>& of_case) {
   return keep(blocks_, file, diagnostics, [&] {
-    const std::shared_ptr<BlockModel> block = read_model(
-        load(file, diagnostics), "block", format_once<block_model_format>(), diagnostics);
+    std::shared_ptr<BlockModel> block = read_model(load(file, diagnostics), "block",
+                                                   format_once<block_model_format>(), diagnostics);
     if (block) read_block_mesh(*block, file.parent_path(), diagnostics, of_case);
     return block;
   });
