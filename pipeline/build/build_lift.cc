@@ -1,7 +1,6 @@
 #include "pipeline/build/build_lift.h"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/hook_block.h"
+#include "pipeline/build/lift_marine.h"
 #include "pipeline/build/rope_stretch.h"
 #include "pipeline/build/spreader_body.h"
 #include "pipeline/build/spreader_start.h"
@@ -28,27 +28,6 @@ using dynamics::BodyIndex;
 using dynamics::BodyPoint;
 using dynamics::Pose;
 
-/// Mass of the cranes that stand on a vessel, kg; hook blocks and what they carry not counted.
-double mass_on(const LiftCase& lift_case, const std::string& vessel) {
-  double mass = 0;
-  for (const CraneInCase& crane : lift_case.cranes) {
-    if (!crane.base || crane.base->value != vessel) continue;
-    for (const BodyModel& body : crane.model->bodies) mass += body.mass;
-  }
-  return mass;
-}
-
-/// The load as it makes waves; none: it makes none.
-std::optional<FloatingLoad> floating_load(const LiftCase& lift_case) {
-  const LoadInCase& load = lift_case.load;
-  if (!load.draughts || !load.vessel) return std::nullopt;
-  const Pose X_WB = load.pose_afloat();
-  return FloatingLoad{.vessel = load.vessel,
-                      .draughts = load.draughts->value,
-                      .position = X_WB.p.head<2>(),
-                      .heading = std::atan2(X_WB.R(1, 0), X_WB.R(0, 0))};
-}
-
 /// Gathers the parts of a lift; the steps of `build` follow one another.
 class LiftBuilder {
  public:
@@ -61,9 +40,7 @@ class LiftBuilder {
         flexibility_(flexibility),
         marched_(std::move(marched)),
         found_(found),
-        marine_(lift_case, lift_case.gravity, floating_load(lift_case)) {
-    marine_.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
-  }
+        marine_(marine_of(lift_case)) {}
 
   BuiltLift build() {
     dynamics::MechanismBuilder builder;
@@ -594,9 +571,7 @@ LoadMass load_mass(const VesselModel& vessel) {
 }
 
 RadiationProblem radiation_problem(const LiftCase& lift_case) {
-  MarineBuilder marine(lift_case, lift_case.gravity, floating_load(lift_case));
-  marine.place([&](const std::string& vessel) { return mass_on(lift_case, vessel); });
-  return marine.radiation_problem();
+  return marine_of(lift_case).radiation_problem();
 }
 
 BuiltLift build_lift(const LiftCase& lift_case, const LoadMass& load,
