@@ -19,7 +19,7 @@ namespace {
 }
 
 std::string why_none(const structure::Deck& deck, const structure::DeckSolution& solution) {
-  if (solution.skipped.empty()) return "it has no subcase or step";
+  if (solution.skipped.empty()) return "it has no subcase or step with static loads";
   std::string text;
   for (const structure::SkippedCase& skipped : solution.skipped) {
     if (!text.empty()) text += "; ";
@@ -27,11 +27,6 @@ std::string why_none(const structure::Deck& deck, const structure::DeckSolution&
                         name_of(deck.load_cases[skipped.load_case]));
   }
   return text;
-}
-
-/// What a solver is to print, or how it is to go about.
-bool is_wish_of_solver(const structure::LedgerEntry& entry) {
-  return entry.name.starts_with("case control ") || entry.name == "PARAM";
 }
 
 /// The deck's mesh; one without mass, to which no weight belongs, is given some, since a model has a
@@ -86,7 +81,7 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
 std::vector<std::string> left_out_of_cases(const structure::Deck& deck) {
   std::vector<std::string> sentences;
   for (const structure::LedgerEntry& entry : deck.ledger) {
-    if (entry.left_out.empty() || is_wish_of_solver(entry)) continue;
+    if (entry.left_out.empty() || entry.is_wish) continue;
     const std::string how_many = entry.used < entry.read
                                      ? fmt::format("{} of {} used", entry.used, entry.read)
                                      : "used in part";

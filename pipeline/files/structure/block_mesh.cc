@@ -483,6 +483,8 @@ Format<MeshModel> mesh_model_format() {
       .required("units", &MeshModel::units,
                 choice<std::string>({{"m-kg-N", "m-kg-N"},
                                      {"mm-t-N", "mm-t-N"},
+                                     {"m-t-kN", "m-t-kN"},
+                                     {"m-kt-MN", "m-kt-MN"},
                                      {"in-lbf", "in-lbf"},
                                      {"in-slinch-lbf", "in-slinch-lbf"},
                                      {"ft-slug-lbf", "ft-slug-lbf"},

@@ -52,15 +52,15 @@ class MaterialBlocks {
 
   void finish() {
     if (!has_elasticity_) return;
-    Material& solid = material_.isotropic;
-    if (material_.is_isotropic) {
-      check_plausible(solid, "material " + solid.name, model_.units, model_.log, material_.line);
-      check_poisson_ratio(solid, "material " + solid.name);
-      material_.ply = isotropic_ply(solid);
-    }
+    const Material& solid = material_.isotropic;
+    if (material_.is_isotropic) material_.ply = isotropic_ply(solid);
     material_.ply.density = solid.density;
+    // One that is refused below is there all the same: what is made of it is not at fault.
     if (!model_.materials.try_emplace(solid.name, material_).second)
       throw CardError{fmt::format("material {} is there twice", solid.name)};
+    if (!material_.is_isotropic) return;
+    check_plausible(solid, "material " + solid.name, model_.units, model_.log, material_.line);
+    check_poisson_ratio(solid, "material " + solid.name);
   }
 
   SourceLine line() const { return material_.line; }

@@ -60,6 +60,7 @@ const std::set<std::string, std::less<>>& keywords_read() {
                                                         "TRANSVERSE SHEAR STIFFNESS",
                                                         "BEAM SECTION OFFSET",
                                                         "SOLID SECTION",
+                                                        "NORMAL",
                                                         "MASS",
                                                         "ROTARY INERTIA",
                                                         "NONSTRUCTURAL MASS",
@@ -84,8 +85,8 @@ const std::set<std::string, std::less<>>& keywords_read() {
   return names;
 }
 
-/// Keywords that change nothing in what a block weighs or how it bears a load given otherwise.
-const std::set<std::string, std::less<>>& keywords_left_out() {
+/// Keywords that ask for output, or tell a solver how to go about.
+const std::set<std::string, std::less<>>& wishes() {
   static const std::set<std::string, std::less<>> names{"PREPRINT",
                                                         "OUTPUT",
                                                         "NODE OUTPUT",
@@ -105,26 +106,32 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
                                                         "RESTART",
                                                         "MONITOR",
                                                         "STATIC",
-                                                        "FREQUENCY",
-                                                        "DYNAMIC",
-                                                        "BUCKLE",
-                                                        "MODAL DYNAMIC",
-                                                        "STEADY STATE DYNAMICS",
                                                         "CONTROLS",
                                                         "SOLVER CONTROLS",
                                                         "SECTION CONTROLS",
                                                         "HOURGLASS STIFFNESS",
                                                         "PHYSICAL CONSTANTS",
-                                                        "AMPLITUDE",
                                                         "TIME POINTS",
+                                                        "DIAGNOSTICS",
+                                                        "INTEGRATED OUTPUT SECTION",
+                                                        "WAVEFRONT MINIMIZATION"};
+  return names;
+}
+
+/// Keywords that change nothing in what a block weighs or how it bears a load given otherwise.
+const std::set<std::string, std::less<>>& keywords_left_out() {
+  static const std::set<std::string, std::less<>> names{"FREQUENCY",
+                                                        "DYNAMIC",
+                                                        "BUCKLE",
+                                                        "MODAL DYNAMIC",
+                                                        "STEADY STATE DYNAMICS",
+                                                        "AMPLITUDE",
                                                         "DASHPOT",
                                                         "INITIAL CONDITIONS",
                                                         "TEMPERATURE",
-                                                        "DIAGNOSTICS",
                                                         "SURFACE INTERACTION",
                                                         "FRICTION",
                                                         "SURFACE BEHAVIOR",
-                                                        "INTEGRATED OUTPUT SECTION",
                                                         "BASE STATE",
                                                         "MODAL DAMPING",
                                                         "CONTACT",
@@ -140,8 +147,7 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
                                                         "CONTACT STABILIZATION",
                                                         "SURFACE PROPERTY ASSIGNMENT",
                                                         "CLEARANCE",
-                                                        "GAP CONDUCTANCE",
-                                                        "WAVEFRONT MINIMIZATION"};
+                                                        "GAP CONDUCTANCE"};
   return names;
 }
 
@@ -171,7 +177,7 @@ std::string_view instead_of_keyword(const std::string& keyword) {
 const std::vector<std::string>& all_names() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names;
-    for (const auto* some : {&keywords_read(), &keywords_left_out()})
+    for (const auto* some : {&keywords_read(), &wishes(), &keywords_left_out()})
       for (const std::string& name : *some) names.push_back("*" + name);
     return names;
   }();
@@ -181,7 +187,7 @@ const std::vector<std::string>& all_names() {
 /// Gives names that are written without the blanks within them, such as ENDSTEP, their own.
 void restore_blanks(std::vector<AbaqusBlock>& blocks) {
   std::map<std::string, std::string> name_of;
-  for (const auto* names : {&keywords_read(), &keywords_left_out()})
+  for (const auto* names : {&keywords_read(), &wishes(), &keywords_left_out()})
     for (const std::string& name : *names) name_of.emplace(without_blanks(name), name);
   for (AbaqusBlock& block : blocks)
     if (const auto name = name_of.find(without_blanks(block.name)); name != name_of.end())
@@ -197,8 +203,10 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
       model.log.use("*HEADING");
     }
     if (keywords_read().count(block.name) > 0) continue;
-    if (keywords_left_out().count(block.name) > 0)
-      model.log.leave_out("*" + block.name, "what is solved, printed or met by no plate or beam");
+    if (wishes().count(block.name) > 0)
+      model.log.leave_out_wish("*" + block.name, "what is printed, or how it is solved");
+    else if (keywords_left_out().count(block.name) > 0)
+      model.log.leave_out("*" + block.name, "what no plate or beam meets in a static load case");
     else if (in_step)
       model.log.leave_out("*" + block.name, "what a step does beyond its supports and forces");
     else

@@ -180,7 +180,12 @@ class StepBlocks {
           add_spread_loads(*block);
         });
     }
-    keep(step);
+    ++step_;
+    const AbaqusBlock* other = other_procedure(blocks);
+    if (other != nullptr)
+      model_.log.remark(other->line, fmt::format("step {} is no load case: *{} is not static",
+                                                 step_, other->name));
+    keep(step, step_, other == nullptr);
     if (step.has("PERTURBATION")) now_ = kept;
   }
 
@@ -188,13 +193,30 @@ class StepBlocks {
     return block.name == "DLOAD" ? now_.on_elements : now_.on_surfaces;
   }
 
-  void keep(const AbaqusBlock& step) {
+  /// The keyword of a step that is solved in time, or for modes or heat; null for static ones, and
+  /// for those of buckling, whose loads are static.
+  static const AbaqusBlock* other_procedure(const std::vector<const AbaqusBlock*>& blocks) {
+    static const std::set<std::string, std::less<>> names{
+        "FREQUENCY",         "COMPLEX FREQUENCY",     "DYNAMIC",
+        "MODAL DYNAMIC",     "STEADY STATE DYNAMICS", "RANDOM RESPONSE",
+        "RESPONSE SPECTRUM", "HEAT TRANSFER"};
+    const auto found = std::find_if(blocks.begin(), blocks.end(), [](const AbaqusBlock* block) {
+      return names.contains(block->name);
+    });
+    return found == blocks.end() ? nullptr : *found;
+  }
+
+  void keep(const AbaqusBlock& step, long label, bool is_load_case) {
     Deck& deck = model_.deck;
-    const auto label = static_cast<long>(deck.load_cases.size()) + 1;
     const AbaqusBlock::Parameter* named = step.find("NAME");
     DeckLoadCase load_case;
     load_case.label = label;
     load_case.title = named != nullptr ? named->as_given : fmt::format("step {}", label);
+    if (!now_.supports.empty()) {
+      load_case.supports = {static_cast<int>(deck.support_sets.size())};
+      deck.support_sets.push_back({label, "supports of " + load_case.title, now_.supports});
+    }
+    if (!is_load_case) return;
     LoadSet loads;
     loads.label = label;
     loads.name = load_case.title;
@@ -203,10 +225,6 @@ class StepBlocks {
     now_.on_surfaces.add_to(loads);
     load_case.loads = {{static_cast<int>(deck.load_sets.size()), 1.0}};
     deck.load_sets.push_back(std::move(loads));
-    if (!now_.supports.empty()) {
-      load_case.supports = {static_cast<int>(deck.support_sets.size())};
-      deck.support_sets.push_back({label, "supports of " + load_case.title, now_.supports});
-    }
     deck.load_cases.push_back(load_case);
   }
 
@@ -351,6 +369,7 @@ class StepBlocks {
 
   AbaqusModel& model_;
   const AbaqusScope* scope_ = nullptr;
+  long step_ = 0;  ///< number of the last that was read
   /// What holds and acts as far as the steps go.
   struct State {
     std::vector<Support> supports;

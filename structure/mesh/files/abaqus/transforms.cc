@@ -1,4 +1,4 @@
-// Systems of axes at nodes.
+// Systems of axes at nodes, and normals that are given there.
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -19,11 +19,28 @@ class Transforms {
     for (const AbaqusScope& scope : model_.scopes) {
       scope_ = &scope;
       for (const AbaqusBlock* block : scope.blocks)
-        if (block->name == "TRANSFORM") model_.guarded(*block, [&] { add_transform(*block); });
+        if (block->name == "TRANSFORM")
+          model_.guarded(*block, [&] { add_transform(*block); });
+        else if (block->name == "NORMAL")
+          model_.guarded(*block, [&] { look_at_normals(*block); });
     }
   }
 
  private:
+  // *NORMAL / element or set, node or set, direction. Plates have the normals of their surfaces; a
+  // beam's cross-section would turn with its own.
+  void look_at_normals(const AbaqusBlock& block) {
+    model_.for_lines(block, [&](const Fields& fields) {
+      for (const int e : model_.elements_of(*scope_, fields[0])) {
+        const AbaqusDeckElement& element = model_.elements[e];
+        if (element.kind == AbaqusKind::beam)
+          throw CardError{fmt::format(
+              "the normal of beam {} is to be given by its *BEAM SECTION (n1)", element.label)};
+      }
+    });
+    model_.log.leave_out("*NORMAL", "plates have the normals of their surfaces");
+  }
+
   // *TRANSFORM, NSET = , TYPE = R | C | S / two points
   void add_transform(const AbaqusBlock& block) {
     const std::string type = block.value("TYPE");

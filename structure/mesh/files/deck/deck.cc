@@ -13,6 +13,8 @@ const std::vector<UnitSystem>& all_unit_systems() {
   constexpr double inch = 0.0254, foot = 0.3048, pound_force = 4.4482216152605;  // exact
   static const std::vector<UnitSystem> systems{{"m-kg-N", 1, 1},
                                                {"mm-t-N", 1e-3, 1},
+                                               {"m-t-kN", 1, 1e3},
+                                               {"m-kt-MN", 1, 1e6},
                                                {"in-slinch-lbf", inch, pound_force},
                                                {"in-lbf", inch, pound_force},
                                                {"ft-slug-lbf", foot, pound_force}};

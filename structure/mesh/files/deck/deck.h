@@ -26,7 +26,7 @@ struct UnitSystem {
   double moment() const { return force * length; }                        ///< N m
 };
 
-/// m-kg-N, mm-t-N (MPa), in-slinch-lbf (psi; also in-lbf), ft-slug-lbf.
+/// m-kg-N, mm-t-N (MPa), m-t-kN, m-kt-MN (MPa), in-slinch-lbf (psi; also in-lbf), ft-slug-lbf.
 /// @throws ModelError naming them all if there is none of this name.
 UnitSystem unit_system(const std::string& name);
 
@@ -37,6 +37,7 @@ struct LedgerEntry {
   int used = 0;          ///< how many of them are in the model
   std::string left_out;  ///< why the rest, or a part of each, is not; empty: all is used
   std::string place;     ///< file:line of the first
+  bool is_wish = false;  ///< what a solver is to print, or how it is to go about
 };
 
 /// What a user of the deck should know; not an error.

@@ -64,6 +64,11 @@ void DeckLog::leave_out(std::string_view name, const std::string& reason) {
   if (card.left_out.empty()) card.left_out = reason;
 }
 
+void DeckLog::leave_out_wish(std::string_view name, const std::string& reason) {
+  leave_out(name, reason);
+  entry(name).is_wish = true;
+}
+
 bool DeckLog::leaves_out(const std::string& name, const DeckOptions& options) {
   const bool is_asked =
       std::any_of(options.leave_out.begin(), options.leave_out.end(),

@@ -34,6 +34,8 @@ class DeckLog {
   void use(std::string_view name, int count = 1) { entry(name).used += count; }
   /// Why a card, or a part of it, is not in the model; the first reason stays.
   void leave_out(std::string_view name, const std::string& reason);
+  /// Leaves out what asks a solver to print, or to go about its work in some way.
+  void leave_out_wish(std::string_view name, const std::string& reason);
 
   /// Does the deck's user ask to do without what has this name? It is noted that the deck has it.
   bool leaves_out(const std::string& name, const DeckOptions& options);

@@ -1,6 +1,7 @@
 // Supports, equations, combinations of loads, and the subcases that name them.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -236,6 +237,16 @@ class CaseControl {
     return is_same(key, "SUBCOM") || is_same(key, "SUBSEQ") || is_same(key, "REPCASE");
   }
 
+  /// Loads of case control that no card read here says: temperatures, enforced lengths, loads of
+  /// before, matrices and loads in time.
+  static bool asks_for_a_load(std::string_view key) {
+    static constexpr std::array<std::string_view, 8> beginnings{"TEMP", "DEFO", "STATS", "K2GG",
+                                                                "M2GG", "K2PP", "P2G",   "DLOA"};
+    const std::string name = upper(key);
+    return std::any_of(beginnings.begin(), beginnings.end(),
+                       [&](std::string_view beginning) { return name.starts_with(beginning); });
+  }
+
   void read_line(const CaseControlLine& line) {
     const auto equals = line.text.find('=');
     std::string_view key = trimmed(line.text.substr(0, equals));
@@ -282,9 +293,12 @@ class CaseControl {
       model_.log.leave_out(name, "combinations of subcases: each is a load case alone");
       in_combination_ = true;
     } else {
-      const std::string name = "case control " + upper(key.substr(0, key.find_first_of(" \t,")));
+      const std::string name = "case control " + upper(key.substr(0, key.find_first_of(" \t,(")));
       model_.log.read(name, line.line);
-      model_.log.leave_out(name, "what the solver is to do or print");
+      if (asks_for_a_load(key))
+        model_.log.leave_out(name, "loads other than forces, moments, pressures and gravity");
+      else
+        model_.log.leave_out_wish(name, "what the solver is to do or print");
     }
   }
 

@@ -146,7 +146,7 @@ class Grids {
 /// PARAM NAME VALUE: one of them changes the model.
 void read_parameter(NastranModel& model, const CardView& card) {
   if (!card.is(0, "WTMASS")) {
-    model.log.leave_out("PARAM", "what the solver is to do; WTMASS alone is used");
+    model.log.leave_out_wish("PARAM", "what the solver is to do; WTMASS alone is used");
     return;
   }
   model.mass_factor = card.real(1, "value of WTMASS");

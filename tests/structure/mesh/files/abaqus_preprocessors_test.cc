@@ -439,5 +439,68 @@ TEST(Preprocessors, DistributingCouplingsAndLinks) {
               HasSubstr("deck.inp:23: error: *DISTRIBUTING COUPLING: a weight must be positive"));
 }
 
+// What is printed, and how a step is solved, is no part of the model; modes are no load case.
+TEST(Preprocessors, StepsThatAreNotStaticAreNoLoadCases) {
+  const std::string bar = R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+*ELEMENT, TYPE=B31, ELSET=BAR
+1, 1, 2
+*MATERIAL, NAME=S
+*ELASTIC
+206.E9, .3
+*DENSITY
+7850.
+*BEAM SECTION, ELSET=BAR, MATERIAL=S, SECTION=RECT
+.1, .1
+0., 0., 1.
+*BOUNDARY
+1, 1, 6
+)";
+  const Deck deck = abaqus(bar + R"(*STEP
+*FREQUENCY
+5
+*EL PRINT
+*TEMPERATURE
+1, 20.
+*END STEP
+*STEP
+*STATIC
+*CLOAD
+2, 2, 100.
+*END STEP
+)");
+  ASSERT_EQ(deck.load_cases.size(), 1U);
+  EXPECT_EQ(deck.load_cases[0].label, 2);
+  EXPECT_EQ(deck.support_sets.size(), 2U);
+  EXPECT_THAT(deck.remarks.at(0).text, HasSubstr("step 1 is no load case: *FREQUENCY"));
+  EXPECT_TRUE(entry(deck, "*EL PRINT").is_wish);
+  EXPECT_TRUE(entry(deck, "*STATIC").is_wish);
+  EXPECT_FALSE(entry(deck, "*TEMPERATURE").is_wish);
+  EXPECT_THAT(complaints_of_abaqus(bar + "*NORMAL\nBAR, 1, 0., 1., 0.\n"),
+              HasSubstr("the normal of beam 1 is to be given by its *BEAM SECTION (n1)"));
+}
+
+// A material that is refused is not said to be missing where it is used.
+TEST(Preprocessors, AWrongMaterialIsSaidOnce) {
+  const std::string complaints = complaints_of_abaqus(R"(*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+*ELEMENT, TYPE=S4, ELSET=P
+1, 1, 2, 3, 4
+*MATERIAL, NAME=S
+*ELASTIC
+206.E3, .3
+*DENSITY
+7850.
+*SHELL SECTION, ELSET=P, MATERIAL=S
+.01
+)");
+  EXPECT_THAT(complaints, HasSubstr("deck.inp:8: error: *MATERIAL: material S has a Young's"));
+  EXPECT_THAT(complaints, testing::Not(HasSubstr("does not exist")));
+}
+
 }  // namespace
 }  // namespace blocklift::structure::test

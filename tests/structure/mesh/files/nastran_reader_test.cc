@@ -112,6 +112,7 @@ TEST(NastranReader, SectionsBeforeBulkDataAndTitles) {
   EXPECT_EQ(deck.load_cases[0].label, 3);
   EXPECT_EQ(deck.load_cases[0].title, "first");
   EXPECT_EQ(entry(deck, "case control ECHO").used, 0);
+  EXPECT_TRUE(entry(deck, "case control ECHO").is_wish);
 }
 
 TEST(NastranReader, IncludesFilesBelowItsFolder) {
@@ -336,6 +337,9 @@ TEST(NastranReader, UnitsAndTheirPlausibility) {
   const Deck weighed = nastran("PARAM,WTMASS,.00259\n" + inches, "in-lbf");
   EXPECT_NEAR(weighed.mesh.materials[0].density, 7860, 10);
   EXPECT_THROW(unit_system("cm"), ModelError);
+  EXPECT_DOUBLE_EQ(unit_system("m-t-kN").mass(), 1e3);
+  EXPECT_DOUBLE_EQ(unit_system("m-kt-MN").stress(), 1e6);
+  EXPECT_DOUBLE_EQ(unit_system("m-kt-MN").density(), 1e6);
 }
 
 // A density in kg/m^3 where t/mm^3 are due: what uses the material does not say so again.
