@@ -35,6 +35,14 @@ std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
   return text;
 }
 
+/// @throws InputError with what is wrong with the study's case as it stands, before any change.
+void check_unchanged_case(const StudyFile& study) {
+  Diagnostics diagnostics;
+  ModelLibrary library = ModelLibrary::of_installation();
+  read_lift_case(study.case_path(), library, diagnostics);
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+}
+
 }  // namespace
 
 LiftCase MemberCases::of(const Eigen::VectorXd& values, const std::vector<int>* only) {
@@ -47,6 +55,7 @@ LiftCase MemberCases::of(const Eigen::VectorXd& values, const std::vector<int>* 
     lift_case->laws = study_.laws;
     return std::move(*lift_case);
   }
+  check_unchanged_case(study_);
   // Complaints name the study's own lines, or those of the case and its models as they were
   // changed.
   diagnostics.error(study_.place, fmt::format("a member of the study is impossible: {}",

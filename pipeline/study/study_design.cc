@@ -107,6 +107,13 @@ OT::Sample sample_of(const StudyFile& study, const OT::Distribution& joint) {
 }
 
 std::string unit_of(const Exponents& exponents) {
+  using Named = std::pair<Exponents, const char*>;
+  static const std::array<Named, 8> named{
+      Named{{1, 1, -2, 0}, "N"},     Named{{2, 1, -2, 0}, "N m"},   Named{{0, 1, -2, 0}, "N/m"},
+      Named{{-1, 1, -2, 0}, "Pa"},   Named{{1, 0, -1, 0}, "m/s"},   Named{{1, 0, -2, 0}, "m/s^2"},
+      Named{{0, 1, -1, 0}, "N s/m"}, Named{{-3, 1, 0, 0}, "kg/m^3"}};
+  for (const auto& [known, name] : named)
+    if (known == exponents) return name;
   const std::array<std::pair<const char*, int>, 4> bases = {
       std::pair{"m", exponents.metre}, std::pair{"kg", exponents.kilogram},
       std::pair{"s", exponents.second}, std::pair{"rad", exponents.radian}};

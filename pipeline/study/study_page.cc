@@ -26,7 +26,9 @@ constexpr const char* style =
     "svg{width:420px;max-width:100%;height:auto}svg text{font:10px system-ui,sans-serif}"
     "svg .title{font-weight:600;font-size:11px}svg path{fill:none;stroke-width:1.4}"
     "svg .grid{stroke:#ddd}"
-    ".bar{display:inline-block;height:.8em;background:#2f6db3}.bar.minus{background:#c2571a}"
+    ".range{display:inline-block;position:relative;width:16em;height:.8em;"
+    "background:linear-gradient(#8888,#8888) center/1px 100% no-repeat}"
+    ".bar{position:absolute;top:0;height:100%;background:#2f6db3}.bar.minus{background:#c2571a}"
     ".note{color:#5a6675}.scroll{overflow-x:auto}"
     "@media (prefers-color-scheme:dark){body{color:#e3e8ee;background:#14191f}"
     "th,td{border-color:#38424d}svg{background:#fff}.note{color:#a9b4c0}}";
@@ -109,9 +111,13 @@ std::string extremes_table(const StudyResults& results) {
          rows + "</table></div>\n";
 }
 
+/// From the middle to the right for what is positive, to the left for what is negative.
 std::string bar(double share) {
-  return fmt::format("<span class=\"bar{}\" style=\"width:{:.1f}em\"></span> {:+.2f}",
-                     share < 0 ? " minus" : "", 8 * std::min(1.0, std::abs(share)), share);
+  const double percent = 50 * std::min(1.0, std::abs(share));
+  return fmt::format(
+      "<span class=\"range\"><span class=\"bar{}\" style=\"left:{:.1f}%;width:{:.1f}%\"></span>"
+      "</span> {:+.2f}",
+      share < 0 ? " minus" : "", share < 0 ? 50 - percent : 50.0, percent, share);
 }
 
 /// Variables of a figure, the strongest first.

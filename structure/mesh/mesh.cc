@@ -96,11 +96,15 @@ std::vector<int> vertices_of(const MotionEquation& equation) {
 
 double balance(const Mesh& mesh, MotionEquation& equation) {
   const Vector3 origin = mesh.vertices[equation.terms.front().vertex];
-  // Rotations count over a length, so that all coefficients are of one kind.
-  double size = 0, largest = 0;
-  for (const MotionEquation::Term& term : equation.terms)
+  // Rotations count over a length, so that all coefficients are of one kind. Places that differ by
+  // rounding are one.
+  constexpr double rounding = 1e-10;
+  double size = 0, largest = 0, reach = 0;
+  for (const MotionEquation::Term& term : equation.terms) {
     size = std::max(size, (mesh.vertices[term.vertex] - origin).norm());
-  if (!(size > 0)) size = 1;
+    reach = std::max(reach, mesh.vertices[term.vertex].norm());
+  }
+  if (!(size > rounding * reach)) size = 1;
   for (const MotionEquation::Term& term : equation.terms)
     largest = std::max({largest, term.of_displacement.cwiseAbs().maxCoeff(),
                         term.of_rotation.cwiseAbs().maxCoeff() / size});

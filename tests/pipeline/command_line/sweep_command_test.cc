@@ -218,6 +218,16 @@ TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {
   EXPECT_FALSE(fs::exists("out"));
 }
 
+// What is wrong with the case itself is no member's fault.
+TEST_F(SweepCommand, SaysWhatIsWrongWithTheCaseItselfAlone) {
+  write_study(weight);
+  fs::remove("lift/ropes/tackle.yaml");
+  const Outcome outcome = run("sweep study.yaml -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("tackle"));
+  EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("a member of the study")));
+}
+
 // Which figures a lift has its first member tells.
 TEST_F(SweepCommand, RefusesFiguresThatTheLiftDoesNotHave) {
   write_study(

@@ -128,7 +128,7 @@ TEST(StudyDesign, ValuesAreWrittenWithTheirUnit) {
   EXPECT_EQ(value_text(plain, 0.1), "0.1");
   StudyVariable stiffness;
   stiffness.values = {{{2, {0, 1, -2, 0}}, {}}};
-  EXPECT_EQ(value_text(stiffness, 5e6), "5000000 kg s^-2");
+  EXPECT_EQ(value_text(stiffness, 5e6), "5000000 N/m");
 }
 
 // Ishigami and Homma (1990), closed forms in Saltelli et al. (2008), Global Sensitivity Analysis,

@@ -80,6 +80,40 @@ class SpreadLoads {
   ByKey<Vector3> gravity_;
 };
 
+/// Forces and moments on nodes as far as the steps go: those of one step on a freedom add up, and
+/// take the place of what the steps before had there (OP = MOD).
+class NodeLoads {
+ public:
+  void begin_step() { ++step_; }
+  /// OP = NEW.
+  void drop_earlier() {
+    std::erase_if(all_, [&](const auto& one) { return one.second.step != step_; });
+  }
+  /// @param freedom 0 to 5. @param vector force or moment.
+  void add(int node, long freedom, const Vector3& vector) {
+    Given& given = all_[{node, freedom}];
+    if (given.step != step_) given = {step_, Vector3::Zero()};
+    given.vector += vector;
+  }
+  void add_to(LoadSet& set) const {
+    for (const auto& [key, given] : all_) {
+      if (set.point_loads.empty() || set.point_loads.back().vertex != key.first)
+        set.point_loads.push_back({key.first, Vector3::Zero(), Vector3::Zero()});
+      PointLoad& load = set.point_loads.back();
+      (key.second < 3 ? load.force : load.moment) += given.vector;
+    }
+  }
+
+ private:
+  struct Given {
+    int step = 0;
+    Vector3 vector = Vector3::Zero();
+  };
+
+  int step_ = 0;
+  std::map<std::pair<int, long>, Given> all_;  ///< by node, then freedom
+};
+
 class StepBlocks {
  public:
   explicit StepBlocks(AbaqusModel& model) : model_(model) {}
@@ -149,9 +183,10 @@ class StepBlocks {
     // A perturbation begins without the loads of the steps before.
     const State kept = now_;
     if (step.has("PERTURBATION")) {
-      now_.points.clear();
+      now_.points = {};
       now_.on_elements = now_.on_surfaces = {};
     }
+    now_.points.begin_step();
     now_.on_elements.begin_step();
     now_.on_surfaces.begin_step();
     // OP = NEW stands at each block of a step, and drops what the steps before have left.
@@ -166,12 +201,16 @@ class StepBlocks {
                                            "taken in full");
       if (block->name == "BOUNDARY")
         model_.guarded(*block, [&] {
-          if (renews(*block)) now_.supports.clear();
+          if (renews(*block)) {
+            now_.supports.clear();
+            now_.is_held_as_moved = false;
+          }
+          now_.is_held_as_moved |= block->has("FIXED");
           add_supports(*block);
         });
       if (block->name == "CLOAD")
         model_.guarded(*block, [&] {
-          if (renews(*block)) now_.points.clear();
+          if (renews(*block)) now_.points.drop_earlier();
           add_point_loads(*block);
         });
       if (block->name == "DLOAD" || block->name == "DSLOAD")
@@ -181,11 +220,10 @@ class StepBlocks {
         });
     }
     ++step_;
-    const AbaqusBlock* other = other_procedure(blocks);
-    if (other != nullptr)
-      model_.log.remark(other->line, fmt::format("step {} is no load case: *{} is not static",
-                                                 step_, other->name));
-    keep(step, step_, other == nullptr);
+    const std::string why_not = why_no_load_case(blocks);
+    if (!why_not.empty())
+      model_.log.remark(step.line, fmt::format("step {} is no load case: {}", step_, why_not));
+    keep(step, step_, why_not.empty());
     if (step.has("PERTURBATION")) now_ = kept;
   }
 
@@ -193,17 +231,17 @@ class StepBlocks {
     return block.name == "DLOAD" ? now_.on_elements : now_.on_surfaces;
   }
 
-  /// The keyword of a step that is solved in time, or for modes or heat; null for static ones, and
-  /// for those of buckling, whose loads are static.
-  static const AbaqusBlock* other_procedure(const std::vector<const AbaqusBlock*>& blocks) {
-    static const std::set<std::string, std::less<>> names{
+  /// Steps that are solved in time, or for modes or heat; those of buckling have static loads. Empty
+  /// for a load case.
+  std::string why_no_load_case(const std::vector<const AbaqusBlock*>& blocks) const {
+    static const std::set<std::string, std::less<>> others{
         "FREQUENCY",         "COMPLEX FREQUENCY",     "DYNAMIC",
         "MODAL DYNAMIC",     "STEADY STATE DYNAMICS", "RANDOM RESPONSE",
         "RESPONSE SPECTRUM", "HEAT TRANSFER"};
-    const auto found = std::find_if(blocks.begin(), blocks.end(), [](const AbaqusBlock* block) {
-      return names.contains(block->name);
-    });
-    return found == blocks.end() ? nullptr : *found;
+    for (const AbaqusBlock* block : blocks)
+      if (others.contains(block->name)) return fmt::format("*{} is not static", block->name);
+    if (now_.is_held_as_moved) return "*BOUNDARY, FIXED holds what the steps before have moved";
+    return {};
   }
 
   void keep(const AbaqusBlock& step, long label, bool is_load_case) {
@@ -220,12 +258,20 @@ class StepBlocks {
     LoadSet loads;
     loads.label = label;
     loads.name = load_case.title;
-    loads.point_loads = now_.points;
+    now_.points.add_to(loads);
     now_.on_elements.add_to(loads);
     now_.on_surfaces.add_to(loads);
-    load_case.loads = {{static_cast<int>(deck.load_sets.size()), 1.0}};
-    deck.load_sets.push_back(std::move(loads));
+    if (acts(loads)) {
+      load_case.loads = {{static_cast<int>(deck.load_sets.size()), 1.0}};
+      deck.load_sets.push_back(std::move(loads));
+    }
     deck.load_cases.push_back(load_case);
+  }
+
+  /// Is there a load in a set at all? Those that are not known here have been left out.
+  static bool acts(const LoadSet& loads) {
+    return !loads.point_loads.empty() || !loads.plate_loads.empty() || !loads.solid_loads.empty() ||
+           !loads.beam_loads.empty() || !loads.gravity.isZero(0);
   }
 
   // *CLOAD / node or set, freedom, value
@@ -234,27 +280,17 @@ class StepBlocks {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"node, freedom and value are due"};
       const long freedom = abaqus_label(fields[1], "freedom");
+      if (freedom < 1) throw CardError{"freedoms go from 1 to 6"};
       if (freedom > 6) {
         model_.log.leave_out("*CLOAD", "freedoms beyond displacements and rotations");
         return;
       }
       const double value = abaqus_real(fields, 2, "value");
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
-        const Vector3 direction = model_.axes(node).col((freedom - 1) % 3);
-        PointLoad& load = load_of(node);
-        // A load on the same freedom again replaces the one before.
-        Vector3& vector = freedom <= 3 ? load.force : load.moment;
         const double unit = freedom <= 3 ? model_.units.force : model_.units.moment();
-        vector += (value * unit - vector.dot(direction)) * direction;
+        now_.points.add(node, freedom - 1, value * unit * model_.axes(node).col((freedom - 1) % 3));
       }
     });
-  }
-
-  PointLoad& load_of(int node) {
-    for (PointLoad& load : now_.points)
-      if (load.vertex == node) return load;
-    now_.points.push_back({node, Vector3::Zero(), Vector3::Zero()});
-    return now_.points.back();
   }
 
   // *DLOAD / element or set, P | P1 ... | GRAV | PX ..., magnitude, direction; *DSLOAD / surface,
@@ -373,8 +409,9 @@ class StepBlocks {
   /// What holds and acts as far as the steps go.
   struct State {
     std::vector<Support> supports;
-    std::vector<PointLoad> points;
+    NodeLoads points;
     SpreadLoads on_elements, on_surfaces;
+    bool is_held_as_moved = false;  ///< at displacements that the steps before have found
   };
   State now_;
 };

@@ -402,6 +402,17 @@ TEST(Preprocessors, CalculixWaysOfSaying) {
   EXPECT_EQ(deck.support_sets.at(0).supports.size(), 1U);
 }
 
+// A node that lies on another but for rounding follows it: their distance is no arm.
+TEST(Preprocessors, TiesOfNodesAtOnePlace) {
+  Mesh mesh;
+  mesh.vertices = {{0.1 + 0.2, 0, 1.2192}, {0.3, 0, 1.2192}};
+  MotionEquation equation;
+  equation.terms = {{0, Vector3::UnitY()}, {1, -Vector3::UnitY()}};
+  EXPECT_LT(balance(mesh, equation), 1e-12);
+  mesh.vertices[1].z() += 0.1;
+  EXPECT_GT(balance(mesh, equation), 1e-3);
+}
+
 // Abaqus' older couplings, and bars of no weight and any stiffness.
 TEST(Preprocessors, DistributingCouplingsAndLinks) {
   const std::string plate = R"(*NODE
@@ -474,6 +485,22 @@ TEST(Preprocessors, StepsThatAreNotStaticAreNoLoadCases) {
   EXPECT_EQ(deck.load_cases[0].label, 2);
   EXPECT_EQ(deck.support_sets.size(), 2U);
   EXPECT_THAT(deck.remarks.at(0).text, HasSubstr("step 1 is no load case: *FREQUENCY"));
+  const Deck later = abaqus(bar + R"(*STEP
+*STATIC
+*DLOAD
+BAR, CENTRIF, 100., 0., 0., 0., 0., 0., 1.
+*END STEP
+*STEP
+*STATIC
+*BOUNDARY, FIXED
+2, 1, 3
+*CLOAD
+2, 4, 100.
+*END STEP
+)");
+  ASSERT_EQ(later.load_cases.size(), 1U);
+  EXPECT_TRUE(later.load_cases[0].loads.empty());
+  EXPECT_THAT(later.remarks.at(0).text, HasSubstr("step 2 is no load case: *BOUNDARY, FIXED"));
   EXPECT_TRUE(entry(deck, "*EL PRINT").is_wish);
   EXPECT_TRUE(entry(deck, "*STATIC").is_wish);
   EXPECT_FALSE(entry(deck, "*TEMPERATURE").is_wish);

@@ -355,8 +355,8 @@ Plate, P, 1000.
   EXPECT_THAT(entry(deck, "*OUTPUT").left_out, HasSubstr("printed"));
 }
 
-// What is given again in a later step takes the place of what was there; within a step pressures add
-// up. OP = NEW, which preprocessors write at each block of a step, drops the steps before alone.
+// What is given again in a later step takes the place of what was there; within a step loads add
+// up, forces on a node's freedom too. OP = NEW, which preprocessors write at each block of a step, drops the steps before alone.
 TEST(AbaqusReader, LaterStepsChangeLoads) {
   const Deck deck = abaqus(square_plate + R"(*SURFACE, NAME=TOP
 PLATE, SPOS
@@ -366,6 +366,9 @@ PLATE, SPOS
 1, 1, 6
 *CLOAD
 2, 3, 100.
+3, 3, 7.
+*CLOAD
+2, 3, -40.
 *DLOAD
 PLATE, P, 1000.
 PLATE, P, 500.
@@ -378,6 +381,8 @@ TOP, P, 7.
 *DLOAD
 PLATE, P, 400.
 , GRAV, 3., 0., 1., 0.
+*CLOAD
+3, 3, 8.
 *END STEP
 *STEP
 *STATIC
@@ -406,6 +411,9 @@ PLATE, P, 6.
   expect_near(deck.load_sets[1].gravity, Vector3(0, 3, 0), 1e-12);
   EXPECT_DOUBLE_EQ(pressure(2), 11 - 7);
   EXPECT_TRUE(deck.load_sets[2].gravity.isZero());
+  EXPECT_DOUBLE_EQ(deck.load_sets[0].point_loads.at(0).force.z(), 60);
+  EXPECT_DOUBLE_EQ(deck.load_sets[1].point_loads.at(0).force.z(), 60);
+  EXPECT_DOUBLE_EQ(deck.load_sets[1].point_loads.at(1).force.z(), 8);
   EXPECT_EQ(deck.load_sets[2].point_loads.size(), 2U);
   EXPECT_EQ(deck.support_sets.at(2).supports.size(), 2U);
 }
