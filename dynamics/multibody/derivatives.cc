@@ -196,6 +196,10 @@ void compute_inverse_dynamics_derivatives(const Mechanism& mechanism, const Kine
     if (link->carrier == world_index) continue;
     add_composite(d.composites[link->body], d.composites[link->carrier]);
   }
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    d.mass(mode.v_index, mode.v_index) = mode.modal_mass;
+    d.dtau_dv(mode.v_index, mode.v_index) = mode.damping();
+  }
 }
 
 // ---- forward dynamics ---------------------------------------------------------------------------
@@ -310,6 +314,9 @@ void coordinate_increments(const Mechanism& mechanism, ConstVectorRef q,
         link.kind, q.data() + link.q_offset,
         increments.block(link.v_offset, link.q_offset, link.nv, coordinate_count(link.kind)));
   }
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    increments(mode.v_index, mode.q_index) = 1.0;
+  }
 }
 
 void rate_derivatives(const Mechanism& mechanism, ConstVectorRef q, ConstVectorRef v,
@@ -321,6 +328,9 @@ void rate_derivatives(const Mechanism& mechanism, ConstVectorRef q, ConstVectorR
     joint_rate_derivatives(link.kind, q.data() + link.q_offset, v.data() + link.v_offset,
                            by_q.block(link.q_offset, link.q_offset, nq, nq),
                            by_v.block(link.q_offset, link.v_offset, nq, link.nv));
+  }
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    by_v(mode.q_index, mode.v_index) = 1.0;
   }
 }
 

@@ -38,6 +38,14 @@ double calc_kinetic_energy(const Mechanism& mechanism, const Kinematics& kinemat
   return energy;
 }
 
+double calc_vibration_energy(const Mechanism& mechanism, ConstVectorRef v) {
+  double energy = 0;
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    energy += 0.5 * mode.modal_mass * v[mode.v_index] * v[mode.v_index];
+  }
+  return energy;
+}
+
 double calc_gravity_potential(const Mechanism& mechanism, const Kinematics& kinematics) {
   double energy = 0;
   for_each_mass(mechanism, kinematics,

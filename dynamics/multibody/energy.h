@@ -4,8 +4,11 @@
 
 namespace blocklift::dynamics {
 
-/// Kinetic energy of all bodies in W, J.
+/// Kinetic energy of all bodies in W, as rigid ones, J.
 double calc_kinetic_energy(const Mechanism& mechanism, const Kinematics& kinematics);
+
+/// Kinetic energy of the elastic modes, J.
+double calc_vibration_energy(const Mechanism& mechanism, ConstVectorRef v);
 
 /// Potential energy of gravity, -sum m g . p_WBcm, J: zero where all masses lie at Wo.
 double calc_gravity_potential(const Mechanism& mechanism, const Kinematics& kinematics);
@@ -14,7 +17,7 @@ double calc_gravity_potential(const Mechanism& mechanism, const Kinematics& kine
 /// `force`).
 ForceVector calc_momentum(const Mechanism& mechanism, const Kinematics& kinematics);
 
-/// Power that the joints' viscous damping takes out, sum d v^2, W.
+/// Power that the viscous damping of joints and elastic modes takes out, sum d v^2, W.
 double calc_damping_power(const Mechanism& mechanism, ConstVectorRef v);
 
 /// Mass, centre of mass and inertia about it, in W, of a body and all that it carries; of the whole

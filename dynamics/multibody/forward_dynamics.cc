@@ -15,7 +15,7 @@ constexpr double singular = 1e-13;
 
 // Names the first body, counted from the world, whose motion or force is not finite.
 [[noreturn]] void report_not_finite(const Mechanism& mechanism, const Kinematics& kinematics,
-                                    const std::vector<ForceVector>& F_Bo_W) {
+                                    const std::vector<ForceVector>& F_Bo_W, const double* vdot) {
   for (std::size_t b = 1; b < F_Bo_W.size(); ++b) {
     const std::string start = "body \"" + mechanism.bodies()[b].name + "\": ";
     if (!kinematics.X_WB[b].R.allFinite() || !kinematics.X_WB[b].p.allFinite()) {
@@ -30,6 +30,11 @@ constexpr double singular = 1e-13;
     if (!F_Bo_W[b].moment.allFinite() || !F_Bo_W[b].force.allFinite()) {
       throw SimulationError(start + "the external force on it is not finite");
     }
+  }
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    if (std::isfinite(vdot[mode.v_index])) continue;
+    throw SimulationError("elastic mode \"" + mode.name +
+                          "\": its velocity, or the force on it, is not finite");
   }
   throw SimulationError(
       "a joint force, or a prescribed acceleration, is not finite, or the state is "
@@ -146,6 +151,12 @@ class Recursion {
     return true;
   }
 
+  // An elastic mode moves no body: it answers the force on it alone.
+  void vibrate(const ElasticMode& mode) const {
+    const int k = mode.v_index;
+    vdot_[k] = (tau_[k] - damping_[k] * v_[k]) / mode.modal_mass;
+  }
+
   // Away from the base (eq. 15, 16).
   void outwards(const Link& link) {
     const std::size_t b = index(link.body);
@@ -234,6 +245,7 @@ void compute_forward_dynamics(const Mechanism& mechanism, const Kinematics& kine
   recursion.start(F_Bo_W);
   const std::vector<Link>& links = mechanism.links();
   bool finite = true;
+  for (const ElasticMode& mode : mechanism.elastic_modes()) recursion.vibrate(mode);
   for (auto link = links.rbegin(); link != links.rend(); ++link) {
     finite = finite && recursion.inwards(*link);
   }
@@ -242,7 +254,8 @@ void compute_forward_dynamics(const Mechanism& mechanism, const Kinematics& kine
     recursion.carry_fixed_bodies();
   }
   // One number that is not finite makes this sum so.
-  if (!finite || !std::isfinite(vdot.sum())) report_not_finite(mechanism, kinematics, F_Bo_W);
+  if (!finite || !std::isfinite(vdot.sum()))
+    report_not_finite(mechanism, kinematics, F_Bo_W, vdot.data());
 }
 
 }  // namespace blocklift::dynamics

@@ -46,6 +46,10 @@ void compute_inverse_dynamics(const Mechanism& mechanism, const Kinematics& kine
     const auto parent = static_cast<std::size_t>(body.parent);
     F[parent] += shift_to(F[b], kinematics.X_WB[b].p - kinematics.X_WB[parent].p);
   }
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    const int k = mode.v_index;
+    tau[k] = mode.modal_mass * vdot[k] + mode.damping() * v[k];
+  }
 }
 
 }  // namespace blocklift::dynamics

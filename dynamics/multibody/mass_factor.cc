@@ -53,8 +53,12 @@ MassFactor::MassFactor(const Mechanism& mechanism, const std::vector<BodyIndex>&
   std::sort(together.begin(), together.end());
   together.erase(std::unique(together.begin(), together.end()), together.end());
   for (const int k : mechanism.free_velocities()) {
-    // From k towards the world, then turned round; from the first of those tied on, all of them.
-    std::vector<int> chain = path_to_world(mechanism, free_index, mechanism.body_of_velocity(k), k);
+    // From k towards the world, then turned round; from the first of those tied on, all of them. An
+    // elastic mode stands alone.
+    std::vector<int> chain =
+        mechanism.is_elastic_mode(k)
+            ? std::vector<int>{free_index[k]}
+            : path_to_world(mechanism, free_index, mechanism.body_of_velocity(k), k);
     const auto first_tied = std::find_if(chain.begin(), chain.end(), [&](int i) {
       return std::binary_search(together.begin(), together.end(), i);
     });

@@ -48,6 +48,9 @@ void compute_mass_matrix(const Mechanism& mechanism, const Kinematics& kinematic
                   workspace.composite[index(link->carrier)]);
     }
   }
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    mass_matrix(mode.v_index, mode.v_index) = mode.modal_mass;
+  }
 }
 
 }  // namespace blocklift::dynamics

@@ -215,6 +215,10 @@ bool Mechanism::has_body(std::string_view name) const {
 }
 
 std::string Mechanism::velocity_name(int k) const {
+  if (is_elastic_mode(k)) {
+    const int mode = k - nv_ + static_cast<int>(elastic_modes_.size());
+    return "\"" + elastic_modes_.at(mode).name + "\" (elastic mode)";
+  }
   const Body& owner = body(body_of_velocity(k));
   std::string name = "\"" + owner.name + "\" (" + std::string(joint_kind_name(owner.joint.kind));
   if (owner.nv() > 1) {
@@ -245,7 +249,7 @@ bool Mechanism::loop_row_is_angle(int row) const {
 }
 
 Eigen::VectorXd Mechanism::zero_configuration() const {
-  Eigen::VectorXd q(nq_);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(nq_);
   for (const Body& body : bodies_) {
     q.segment(body.q_offset, body.nq()) = zero_coordinates(body.joint.kind);
   }
@@ -257,6 +261,7 @@ void Mechanism::calc_rates(ConstVectorRef q, ConstVectorRef v, VectorRef rates) 
     joint_rates(link.kind, q.data() + link.q_offset, v.data() + link.v_offset,
                 rates.data() + link.q_offset);
   }
+  for (const ElasticMode& mode : elastic_modes_) rates[mode.q_index] = v[mode.v_index];
 }
 
 void Mechanism::integrate(ConstVectorRef q, ConstVectorRef v, double s, VectorRef result) const {
@@ -264,12 +269,18 @@ void Mechanism::integrate(ConstVectorRef q, ConstVectorRef v, double s, VectorRe
     integrate_joint(link.kind, q.data() + link.q_offset, v.data() + link.v_offset, s,
                     result.data() + link.q_offset);
   }
+  for (const ElasticMode& mode : elastic_modes_) {
+    result[mode.q_index] = q[mode.q_index] + s * v[mode.v_index];
+  }
 }
 
 void Mechanism::difference(ConstVectorRef q_from, ConstVectorRef q_to, VectorRef v) const {
   for (const Link& link : links_) {
     difference_joint(link.kind, q_from.data() + link.q_offset, q_to.data() + link.q_offset,
                      v.data() + link.v_offset);
+  }
+  for (const ElasticMode& mode : elastic_modes_) {
+    v[mode.v_index] = q_to[mode.q_index] - q_from[mode.q_index];
   }
 }
 
@@ -300,8 +311,8 @@ Body MechanismBuilder::world() {
 
 BodyIndex MechanismBuilder::add_body(const BodyDefinition& definition) {
   if (definition.name.empty()) throw ModelError("a body has no name; each needs one of its own");
-  if (find_body(bodies_, definition.name) != bodies_.end()) {
-    fail(definition.name, "there is a body of this name already; names must differ");
+  if (is_taken(definition.name)) {
+    fail(definition.name, "there is a body or mode of this name already; names must differ");
   }
   const auto parent = find_body(bodies_, definition.parent);
   if (parent == bodies_.end()) {
@@ -330,6 +341,31 @@ BodyIndex MechanismBuilder::add_body(const BodyDefinition& definition) {
   body.v_offset = bodies_.back().v_offset + bodies_.back().nv();
   bodies_.push_back(std::move(body));
   return static_cast<BodyIndex>(bodies_.size()) - 1;
+}
+
+bool MechanismBuilder::is_taken(const std::string& name) const {
+  return find_body(bodies_, name) != bodies_.end() ||
+         std::any_of(elastic_modes_.begin(), elastic_modes_.end(),
+                     [&](const ElasticModeDefinition& mode) { return mode.name == name; });
+}
+
+int MechanismBuilder::add_elastic_mode(const ElasticModeDefinition& definition) {
+  const auto refuse = [&](const std::string& what) {
+    throw ModelError("elastic mode \"" + definition.name + "\": " + what);
+  };
+  const auto is_positive = [](double value) { return value > 0 && std::isfinite(value); };
+  if (definition.name.empty()) throw ModelError("an elastic mode has no name; each needs one");
+  if (is_taken(definition.name)) refuse("there is a body or mode of this name already");
+  if (definition.body <= world_index || definition.body >= static_cast<int>(bodies_.size()))
+    refuse("the body that vibrates is not there; it comes before its modes");
+  if (!is_positive(definition.modal_mass))
+    refuse(text("its mass is ", definition.modal_mass, " kg; it must be positive"));
+  if (!is_positive(definition.angular_frequency))
+    refuse(text("its frequency is ", definition.angular_frequency, " rad/s; it must be positive"));
+  if (!(definition.damping_ratio >= 0) || !std::isfinite(definition.damping_ratio))
+    refuse(text("its damping ratio is ", definition.damping_ratio, "; it is zero or positive"));
+  elastic_modes_.push_back(definition);
+  return static_cast<int>(elastic_modes_.size()) - 1;
 }
 
 int MechanismBuilder::add_loop(const LoopDefinition& definition) {
@@ -397,6 +433,16 @@ Mechanism MechanismBuilder::build() const {
       const bool driven = body.driven[rates ? static_cast<std::size_t>(k) : 0];
       (driven ? m.driven_q_ : m.free_q_).push_back(body.q_offset + k);
     }
+  }
+  for (const ElasticModeDefinition& definition : elastic_modes_) {
+    const ElasticMode& mode =
+        m.elastic_modes_.emplace_back(ElasticMode{definition, m.nq_++, m.nv_++});
+    m.angular_.push_back(0);
+    m.damping_.push_back(mode.damping());
+    m.driven_.push_back(0);
+    m.velocity_body_.push_back(mode.body);
+    m.free_v_.push_back(mode.v_index);
+    m.free_q_.push_back(mode.q_index);
   }
   return m;
 }

@@ -28,6 +28,31 @@ struct BodyDefinition {
   std::vector<bool> driven = {};
 };
 
+/// A natural mode of a body that gives way: a coordinate eta of its own, which moves no body's frame
+/// and so has neither weight nor momentum. With f the generalised force on it (N),
+///   m (eta'' + 2 zeta omega eta') = f:
+/// inertia and damping are the mechanism's, the spring m omega^2 is of whoever knows the shape.
+/// A shape phi that is normalised to phi^T M phi = m, m being the body's mass, makes eta the root of
+/// the mean square displacement over the mass, in m.
+struct ElasticModeDefinition {
+  std::string name;
+  BodyIndex body = -1;                      ///< that vibrates
+  double modal_mass = not_a_number;         ///< m, kg
+  double angular_frequency = not_a_number;  ///< omega of the free body, rad/s
+  double damping_ratio = 0.0;               ///< zeta: of the critical damping
+};
+
+/// One elastic mode of a mechanism, immutable.
+struct ElasticMode : ElasticModeDefinition {
+  int q_index = -1;  ///< of eta within q
+  int v_index = -1;  ///< of its rate within v
+
+  double stiffness() const { return modal_mass * angular_frequency * angular_frequency; }  ///< N/m
+  double damping() const {
+    return 2.0 * damping_ratio * modal_mass * angular_frequency;
+  }  ///< N s/m
+};
+
 /// One body of a mechanism, immutable.
 struct Body {
   std::string name;
@@ -75,7 +100,8 @@ struct Link {
 /// threads.
 ///
 /// Looking up by name is for set-up only. Indices order everything: body i of the mechanism is
-/// entry i of every per-body array, and body i's joint owns q[q_offset ..] and v[v_offset ..].
+/// entry i of every per-body array, and body i's joint owns q[q_offset ..] and v[v_offset ..]. The
+/// coordinates and velocities of elastic modes, one a mode, stand behind those of all joints.
 class Mechanism {
  public:
   int body_count() const { return static_cast<int>(bodies_.size()); }  ///< with the world
@@ -93,15 +119,21 @@ class Mechanism {
   /// Bodies on a fixed joint, parents first.
   const std::vector<BodyIndex>& fixed_bodies() const { return fixed_bodies_; }
 
+  /// Natural modes of bodies that give way, in the order in which they were added.
+  const std::vector<ElasticMode>& elastic_modes() const { return elastic_modes_; }
+  /// Is entry k of v the rate of an elastic mode?
+  bool is_elastic_mode(int k) const { return k >= nv_ - static_cast<int>(elastic_modes_.size()); }
+
   /// For each v: does it follow a prescribed motion?
   const std::vector<char>& driven() const { return driven_; }
   /// For each v: does it turn the body (true) or displace it (false)?
   const std::vector<char>& angular() const { return angular_; }
   /// For each v, viscous damping, N s/m or N m s.
   const std::vector<double>& damping() const { return damping_; }
-  /// The body whose joint owns entry k of v.
+  /// The body whose joint owns entry k of v, or that vibrates in the elastic mode.
   BodyIndex body_of_velocity(int k) const { return velocity_body_.at(k); }
-  /// "trolley (prismatic)" or "hook (universal, second angle)": entry k of v in words.
+  /// "trolley (prismatic)", "hook (universal, second angle)" or "beam.mode_1 (elastic mode)": entry
+  /// k of v in words.
   std::string velocity_name(int k) const;
 
   const std::vector<int>& free_velocities() const { return free_v_; }  ///< integrated entries of v
@@ -145,6 +177,7 @@ class Mechanism {
 
   std::vector<Body> bodies_;
   std::vector<Link> links_;
+  std::vector<ElasticMode> elastic_modes_;
   std::vector<BodyIndex> fixed_bodies_;
   std::vector<BodyIndex> velocity_body_;
   std::vector<char> driven_;
@@ -171,6 +204,12 @@ class MechanismBuilder {
   /// universal axes not perpendicular, or damping or drives not one a velocity.
   BodyIndex add_body(const BodyDefinition& definition);
 
+  /// Adds a natural mode of a body that has been added before.
+  /// @returns its index among the elastic modes.
+  /// @throws ModelError if the name is empty or taken, the body is not there or is the world, mass
+  ///   or frequency is not positive, or the damping negative.
+  int add_elastic_mode(const ElasticModeDefinition& definition);
+
   /// Adds a loop; its bodies must have been added before.
   /// @returns its index among the loops.
   /// @throws ModelError if the name is empty or taken, a body unknown, both bodies are the same or
@@ -185,8 +224,10 @@ class MechanismBuilder {
 
  private:
   void check_carried_mass() const;
+  bool is_taken(const std::string& name) const;
 
   std::vector<Body> bodies_{world()};
+  std::vector<ElasticModeDefinition> elastic_modes_;
   std::vector<Loop> loops_;
   Vector3 gravity_ = Vector3(0, 0, -9.80665);
 

@@ -79,12 +79,14 @@ ElasticBody::ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ro
     const std::size_t slot = first_point_[local] + (end.last ? rope.points().size() - 1 : 0);
     places_.push_back({static_cast<Eigen::Index>(local), static_cast<Eigen::Index>(slot)});
   }
-  for (const BodyIndex mode : d_.modes) {
-    if (mode <= 0 || mode >= mechanism.body_count() ||
-        mechanism.body(mode).joint.kind != JointKind::prismatic || mechanism.body(mode).driven[0])
-      refuse(d_, "a mode must be a body on a prismatic joint that no drive moves");
-    mode_q_.push_back(mechanism.body(mode).q_offset);
-    mode_v_.push_back(mechanism.body(mode).v_offset);
+  for (std::size_t k = 0; k < d_.modes.size(); ++k) {
+    const int mode = d_.modes[k];
+    if (mode < 0 || mode >= static_cast<int>(mechanism.elastic_modes().size()))
+      refuse(d_, "there is no elastic mode " + std::to_string(mode));
+    const ElasticMode& added = modes_.emplace_back(mechanism.elastic_modes()[mode]);
+    if (added.body != d_.body) refuse(d_, "mode \"" + added.name + "\" is another body's");
+    if (std::count(d_.modes.begin(), d_.modes.end(), mode) > 1)
+      refuse(d_, "mode \"" + added.name + "\" is named twice");
   }
 }
 
@@ -222,10 +224,15 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
                              VectorRef tau) const {
   w.modal.setZero();
   w.modal_rate.setZero();
-  for (std::size_t k = 0; k < mode_q_.size(); ++k) {
+  w.energy = 0.0;
+  for (std::size_t k = 0; k < modes_.size(); ++k) {
+    const ElasticMode& mode = modes_[k];
     const auto shape = d_.shapes.col(k);
-    w.modal += q[mode_q_[k]] * shape;
-    w.modal_rate += v[mode_v_[k]] * shape;
+    const double eta = q[mode.q_index];
+    w.modal += eta * shape;
+    w.modal_rate += v[mode.v_index] * shape;
+    tau[mode.v_index] -= mode.stiffness() * eta;
+    w.energy += 0.5 * mode.stiffness() * eta * eta;
   }
   std::fill(w.stretched.begin(), w.stretched.end(), static_cast<char>(1));
   w.u.setZero();
@@ -239,7 +246,7 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
     // The last pass's forces belong to the displacement that its directions were found at.
     if (pass + 1 < passes_) w.u = w.next_u;
   }
-  w.energy = 0.5 * w.force.dot(w.u);
+  w.energy += 0.5 * w.force.dot(w.u);
   for (std::size_t i = 0; i < ropes_.size(); ++i) {
     const auto local = static_cast<Eigen::Index>(i);
     const auto index = static_cast<std::size_t>(ropes_[i]);
@@ -258,8 +265,8 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
     if (load.tension == 0.0) continue;
     ropes.ropes[index].calc_path(kinematics, ropes.path, &ropes.shifts[index]);
     ropes.ropes[index].add_forces(ropes.path, load.tension, F_Bo_W);
-    for (std::size_t k = 0; k < mode_v_.size(); ++k)
-      tau[mode_v_[k]] -= load.tension * w.gradient.col(local).dot(d_.shapes.col(k));
+    for (std::size_t k = 0; k < modes_.size(); ++k)
+      tau[modes_[k].v_index] -= load.tension * w.gradient.col(local).dot(d_.shapes.col(k));
   }
 }
 
@@ -323,10 +330,10 @@ void ElasticBody::gather_points(const Kinematics& kinematics, const Ropes& ropes
   for (std::size_t e = 0; e < d_.ends.size(); ++e) {
     const auto end = static_cast<Eigen::Index>(3 * e);
     const Eigen::Index row = 3 * places_[e].slot;
-    for (std::size_t k = 0; k < mode_v_.size(); ++k) {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
       const Vector3 shape_W = R_WB * d_.shapes.block<3, 1>(end, static_cast<Eigen::Index>(k));
-      w.motion.block<3, 1>(row, mode_v_[k]) += shape_W;
-      w.velocity_q.block<3, 1>(row, mode_v_[k]) += spin.cross(shape_W);
+      w.motion.block<3, 1>(row, modes_[k].v_index) += shape_W;
+      w.velocity_q.block<3, 1>(row, modes_[k].v_index) += spin.cross(shape_W);
     }
   }
 }
@@ -379,11 +386,11 @@ void ElasticBody::add_turning(const Kinematics& kinematics, const Ropes& ropes,
     const Matrix3 turned = skew(-tension * (R_WB * g_B));
     w.moment.noalias() = turned * w.relaxed.middleRows<3>(end);
     w.dtau_dq.noalias() -= w.turn.transpose() * w.moment;
-    for (std::size_t k = 0; k < mode_v_.size(); ++k) {
+    for (std::size_t k = 0; k < modes_.size(); ++k) {
       const Vector3 shape_W = R_WB * d_.shapes.block<3, 1>(end, static_cast<Eigen::Index>(k));
       const Vector3 coupling = turned.transpose() * shape_W;
-      w.dtau_dq.row(mode_v_[k]).noalias() += coupling.transpose() * w.turn;
-      w.dtau_dq.col(mode_v_[k]).noalias() += w.turn.transpose() * coupling;
+      w.dtau_dq.row(modes_[k].v_index).noalias() += coupling.transpose() * w.turn;
+      w.dtau_dq.col(modes_[k].v_index).noalias() += w.turn.transpose() * coupling;
     }
   }
 }
@@ -421,6 +428,7 @@ void ElasticBody::add_derivatives(const Kinematics& kinematics, const Ropes& rop
   w.df_dv.noalias() = -w.pulling * w.rope_rows;
   w.dtau_dq.noalias() = w.motion.transpose() * w.df_dq;
   w.dtau_dv.noalias() = w.motion.transpose() * w.df_dv;
+  for (const ElasticMode& mode : modes_) w.dtau_dq(mode.v_index, mode.v_index) -= mode.stiffness();
   if (!derivatives.stretch_only()) add_turning(kinematics, ropes, w);
   derivatives.add_generalised(w.dtau_dq, w.dtau_dv);
 }

@@ -16,11 +16,11 @@ namespace blocklift::dynamics {
 ///   d = Phi eta + u,   u = C F,
 /// F being the forces of the stretched ropes on the body (3 numbers an end, N, in B), C a
 /// compliance that follows at once (m/N), and eta generalised elastic coordinates (m) that have
-/// inertia of their own. Each of those is the position of a body on a prismatic joint to the world,
-/// level, so that its weight does not move it, held by a joint spring; what pulls at the lugs
-/// drives it by Phi^T F. With a natural mode of the free body, phi^T M phi = m, that is its motion
-/// if the body has the mass m and the spring the stiffness m omega^2, but for the couplings with
-/// the rigid motion that vanish with the deformation (mean axes).
+/// inertia of their own: the mechanism's elastic modes of the body (ElasticMode), each driven by
+/// what pulls at the lugs and drawn back by its spring,
+///   m (eta'' + 2 zeta omega eta' + omega^2 eta) = phi^T F.
+/// With phi a natural mode of the free body, phi^T M phi = m, that is its motion but for the
+/// couplings with the rigid motion that vanish with the deformation (mean axes).
 ///
 /// With L the lengths of the ropes at the displaced ends, the elastic forces T = k (L - L0) of the
 /// ropes that are stretched, L > L0, make Pi = sum k (L - L0)^2 / 2 + F^T C F / 2 stationary over
@@ -48,9 +48,9 @@ class ElasticBody {
     std::string name;
     BodyIndex body = -1;
     std::vector<End> ends;
-    Eigen::MatrixXd compliance;    ///< C, 3 ends square, symmetric, m/N
-    Eigen::MatrixXd shapes;        ///< Phi, 3 ends x modes, 1
-    std::vector<BodyIndex> modes;  ///< the bodies whose prismatic joints are the coordinates eta
+    Eigen::MatrixXd compliance;  ///< C, 3 ends square, symmetric, m/N
+    Eigen::MatrixXd shapes;      ///< Phi, 3 ends x modes, 1
+    std::vector<int> modes;      ///< of the mechanism's elastic modes, those whose columns Phi has
   };
 
   /// What one evaluation writes; made once.
@@ -65,7 +65,7 @@ class ElasticBody {
     Eigen::VectorXd flexibility, rope_damping;  ///< 1/k and c
     Eigen::MatrixXd matrix;                     ///< 1/k + g^T C g
     Eigen::LLT<Eigen::MatrixXd> factor;
-    double energy = 0.0;  ///< F^T C F / 2, J
+    double energy = 0.0;  ///< stored in the body: F^T C F / 2, and in the springs of its modes, J
 
     // Of the derivatives.
     Eigen::VectorXd spring;                              // k of stretched ropes, else 0
@@ -96,7 +96,7 @@ class ElasticBody {
 
   /// @throws ModelError if an end is not at a point of the body, is named twice or lies at a rope
   /// with an end at itself or with weight, sizes do not fit, the compliance is not symmetric or not
-  /// positive semidefinite, or a mode is not on a prismatic joint that no drive moves.
+  /// positive semidefinite, or a mode is not there, is another body's or is named twice.
   ElasticBody(const Mechanism& mechanism, const std::vector<Rope>& ropes, Definition definition);
 
   const Definition& definition() const { return d_; }
@@ -141,8 +141,8 @@ class ElasticBody {
   std::vector<int> ropes_;
   std::vector<std::size_t> first_point_;  // of each rope
   std::size_t points_ = 0;
-  std::vector<Place> places_;         // of each end
-  std::vector<int> mode_q_, mode_v_;  // of each mode
+  std::vector<Place> places_;  // of each end
+  std::vector<ElasticMode> modes_;
 };
 
 }  // namespace blocklift::dynamics

@@ -68,7 +68,8 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
 
 StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w) {
   StoredEnergy energy;
-  energy.kinetic = calc_kinetic_energy(system.mechanism(), w.kinematics);
+  energy.kinetic = calc_kinetic_energy(system.mechanism(), w.kinematics) +
+                   calc_vibration_energy(system.mechanism(), w.v);
   if (const AddedInertiaWorkspace* water = w.added()) {
     energy.kinetic += 0.5 * w.water_velocity.dot(water->matrix * w.water_velocity);
   }

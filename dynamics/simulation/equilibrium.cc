@@ -148,6 +148,10 @@ void EquilibriumSolver::Implementation::calc_scales() {
   const double g = std::max(1.0, mechanism.gravity().norm());
   for (Eigen::Index i = 0; i < n; ++i) {
     const int k = free[i];
+    if (mechanism.is_elastic_mode(k)) {
+      free_weight[i] = g * free_mass(i, i);
+      continue;
+    }
     const SpatialInertia& carried = workspace.composite[mechanism.body_of_velocity(k)];
     const bool turns = mechanism.angular()[k] != 0;
     const double inertia = free_mass(i, i);

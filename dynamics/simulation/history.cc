@@ -61,6 +61,11 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
     b.acceleration.resize(n, 6);
     b.load.resize(n, 6);
   }
+  for (const ElasticMode& mode : system.mechanism().elastic_modes()) {
+    ElasticModeHistory& m = elastic_modes.emplace_back();
+    m.name = mode.name;
+    for (auto* values : {&m.coordinate, &m.rate, &m.acceleration}) values->resize(n);
+  }
   for (const Rope& rope : system.ropes()) {
     RopeHistory& r = ropes.emplace_back();
     r.name = rope.name();
@@ -105,6 +110,10 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
 
 const BodyHistory& History::body(std::string_view name) const {
   return find_by_name(bodies, name, "body");
+}
+
+const ElasticModeHistory& History::elastic_mode(std::string_view name) const {
+  return find_by_name(elastic_modes, name, "elastic mode");
 }
 
 const RopeHistory& History::rope(std::string_view name) const {
@@ -216,6 +225,12 @@ void History::record_loops(const LiftSystem& system, Eigen::Index sample, const 
 void History::record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w) {
   time[sample] = t;
   record_bodies(system, sample, w);
+  for (std::size_t i = 0; i < elastic_modes.size(); ++i) {
+    const ElasticMode& mode = system.mechanism().elastic_modes()[i];
+    elastic_modes[i].coordinate[sample] = w.q[mode.q_index];
+    elastic_modes[i].rate[sample] = w.v[mode.v_index];
+    elastic_modes[i].acceleration[sample] = w.vdot[mode.v_index];
+  }
   record_ropes(system, sample, w);
   record_loops(system, sample, w);
   const std::vector<int>& driven = system.mechanism().driven_velocities();

@@ -45,6 +45,14 @@ struct EdgeHistory {
   bool touches(Eigen::Index sample) const { return wrap[sample] > 0.0; }
 };
 
+/// What is known of an elastic mode at each sample.
+struct ElasticModeHistory {
+  std::string name;
+  Eigen::VectorXd coordinate;    ///< eta, m
+  Eigen::VectorXd rate;          ///< m/s
+  Eigen::VectorXd acceleration;  ///< m/s2
+};
+
 /// What is known of a rope at each sample.
 struct RopeHistory {
   using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
@@ -93,8 +101,8 @@ struct EnergyHistory {
 };
 
 /// Record of an operation at samples in time: static (a sweep of equilibria, rates zero) or
-/// dynamic (a time integration). Bodies, ropes, drives and pads in the order of the system; the
-/// world is body 0 in the system and is left out here, so that bodies[i - 1] is body i.
+/// dynamic (a time integration). Bodies, elastic modes, ropes, drives and pads in the order of the
+/// system; the world is body 0 in the system and is left out here, so that bodies[i - 1] is body i.
 class History {
  public:
   History(const LiftSystem& system, Eigen::Index sample_count, bool with_works);
@@ -103,6 +111,7 @@ class History {
 
   Eigen::VectorXd time;  ///< s
   std::vector<BodyHistory> bodies;
+  std::vector<ElasticModeHistory> elastic_modes;
   std::vector<RopeHistory> ropes;
   std::vector<DriveHistory> drives;
   std::vector<SupportHistory> supports;
@@ -112,6 +121,7 @@ class History {
   /// For set-up and evaluation afterwards.
   /// @throws ModelError if there is none of that name; the message lists those that exist.
   const BodyHistory& body(std::string_view name) const;
+  const ElasticModeHistory& elastic_mode(std::string_view name) const;
   const RopeHistory& rope(std::string_view name) const;
   const LoopHistory& loop(std::string_view name) const;
 

@@ -26,6 +26,21 @@ std::vector<char> mark_elastic_ends(const LiftDefinition& d) {
   return marks;
 }
 
+// An elastic mode without a shape would have no spring either.
+void check_elastic_modes(const LiftDefinition& d) {
+  const std::vector<ElasticMode>& modes = d.mechanism.elastic_modes();
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    std::ptrdiff_t count = 0;
+    for (const ElasticBody& body : d.elastic_bodies) {
+      const std::vector<int>& own = body.definition().modes;
+      count += std::count(own.begin(), own.end(), static_cast<int>(i));
+    }
+    if (count == 1) continue;
+    throw ModelError("elastic mode \"" + modes[i].name + "\" has its shape from " +
+                     std::to_string(count) + " elastic bodies; one is due");
+  }
+}
+
 void check_wish(const LiftDefinition& d, const Steering& steering) {
   const auto check_point = [&](const BodyPoint& point) {
     if (point.body < 0 || point.body >= d.mechanism.body_count() || !point.p_BoQ_B.allFinite())
@@ -87,6 +102,7 @@ LiftSystem::LiftSystem(LiftDefinition definition) : d_(std::move(definition)) {
     }
   }
   ends_elastically_ = mark_elastic_ends(d_);
+  check_elastic_modes(d_);
   for (const Winch& winch : d_.operation.winches()) {
     if (winch.rope < 0 || winch.rope >= static_cast<int>(d_.ropes.size()))
       throw ModelError("winch \"" + winch.name + "\" has no rope");

@@ -84,7 +84,8 @@ struct LiftDefinition {
 class LiftSystem {
  public:
   /// A driven joint without a drive in the operation stands still where q_start has it.
-  /// @throws ModelError if sizes do not fit, two ropes share a name, or a winch has no rope.
+  /// @throws ModelError if sizes do not fit, two ropes share a name, a winch has no rope, or an
+  ///   elastic mode of the mechanism is not one of exactly one elastic body.
   explicit LiftSystem(LiftDefinition definition);
 
   const Mechanism& mechanism() const { return d_.mechanism; }

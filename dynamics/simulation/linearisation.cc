@@ -150,6 +150,12 @@ Eigen::MatrixXd direction_form(const Mechanism& mechanism, const Kinematics& kin
       form += moment * turn_weights[w] * turn.row(k).transpose() * turn.row(k);
     }
   }
+  // Elastic modes of one frequency are told apart by their order.
+  double weight = 7.0;
+  for (const ElasticMode& mode : mechanism.elastic_modes()) {
+    form(mode.v_index, mode.v_index) += weight * mode.modal_mass;
+    weight += 1.0;
+  }
   return form;
 }
 

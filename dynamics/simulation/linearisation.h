@@ -26,7 +26,15 @@ struct BodyModeMotion {
   Eigen::Vector3cd rotation;             ///< rotation vector in W, rad
   Eigen::Vector3cd displacement;         ///< of the body's origin Bo in W, m
   Eigen::Vector3cd displacement_centre;  ///< of its centre of mass in W, m
-  double energy_share = 0.0;             ///< of the mode's kinetic energy, 0 to 1
+  /// Of the mode's kinetic energy, that of the body's elastic modes included, 0 to 1.
+  double energy_share = 0.0;
+};
+
+/// The part that the vibration of a body in one of its own elastic modes has in a mode.
+struct ElasticModeMotion {
+  int mode = -1;                   ///< index in the mechanism
+  std::complex<double> amplitude;  ///< of the coordinate eta, m
+  double energy_share = 0.0;       ///< of the mode's kinetic energy, 0 to 1
 };
 
 /// One natural mode of small vibration about an equilibrium:  e(t) = Re(shape exp(lambda t)).
@@ -34,11 +42,13 @@ struct Mode {
   ModeKind kind = ModeKind::neutral;
   std::complex<double> eigenvalue;  ///< lambda, 1/s; of a pair the one with positive imaginary part
   /// Tangent increments, nv; driven entries zero. Scaled so that the largest displacement of a
-  /// centre of mass, or turn by the mechanism's radius of gyration of that body, is 1 m, and is
-  /// real there.
+  /// centre of mass, or turn by the mechanism's radius of gyration of that body, or coordinate of an
+  /// elastic mode, is 1 m, and is real there.
   Eigen::VectorXcd shape;
-  std::vector<BodyModeMotion> bodies;  ///< one a moving body that has mass
-  /// Part of the restoring energy that is stored in ropes, springs and pads, 0 to 1; the rest is
+  std::vector<BodyModeMotion> bodies;            ///< one a moving body that has mass
+  std::vector<ElasticModeMotion> elastic_modes;  ///< in the order of the mechanism
+  /// Part of the restoring energy that is stored in ropes, springs, pads and bodies that give way, 0
+  /// to 1; the rest is
   /// weight and tension that have turned: a pendulum has 0, a bounce 1.
   double elastic_share = 0.0;
   /// Bodies and their motion, from `bodies`: "load: pendulum along x", "hook: bounce against load".

@@ -88,6 +88,20 @@ std::string motion_in_words(Motion motion, const BodyModeMotion& body, double el
   return {};
 }
 
+// The elastic mode of a body that has most of the energy, where vibration is most of the body's
+// motion; else null.
+const ElasticModeMotion* main_vibration(const Mechanism& mechanism, const Mode& mode,
+                                        const BodyModeMotion& body) {
+  const ElasticModeMotion* most = nullptr;
+  double sum = 0.0;
+  for (const ElasticModeMotion& motion : mode.elastic_modes) {
+    if (mechanism.elastic_modes()[motion.mode].body != body.body) continue;
+    sum += motion.energy_share;
+    if (!most || motion.energy_share > most->energy_share) most = &motion;
+  }
+  return sum > 0.5 * body.energy_share ? most : nullptr;
+}
+
 // The motion of a body that tells with or against which way it goes.
 Complex3 telling(Motion motion, const BodyModeMotion& body) {
   const bool turns = motion == Motion::tilt || motion == Motion::yaw;
@@ -107,10 +121,17 @@ std::string listed(const Mechanism& mechanism, const std::vector<const BodyModeM
 
 void find_body_motions(const Mechanism& mechanism, const Kinematics& kinematics, Mode& mode) {
   mode.bodies.clear();
+  mode.elastic_modes.clear();
   Eigen::Matrix<double, 6, Eigen::Dynamic> jacobian(6, mechanism.nv());
   double total = 0.0;
   double largest = 0.0;
   std::complex<double> there = 1.0;
+  // The first of equals, so that the choice does not hang on rounding.
+  const auto take = [&](const std::complex<double>& amplitude) {
+    if (std::abs(amplitude) <= largest * (1.0 + 1e-9)) return;
+    largest = std::abs(amplitude);
+    there = amplitude;
+  };
   for (BodyIndex i = 1; i < mechanism.body_count(); ++i) {
     const auto b = static_cast<std::size_t>(i);
     const RigidBodyInertia& inertia = mechanism.bodies()[b].inertia;
@@ -125,15 +146,21 @@ void find_body_motions(const Mechanism& mechanism, const Kinematics& kinematics,
     total += body.energy_share;
     const double gyration = std::sqrt(I_W.trace() / (3.0 * inertia.mass));
     for (Eigen::Index k = 0; k < 3; ++k) {
-      for (const std::complex<double> amplitude :
-           {body.displacement_centre[k], gyration * body.rotation[k]}) {
-        // The first of equals, so that the choice does not hang on rounding.
-        if (std::abs(amplitude) <= largest * (1.0 + 1e-9)) continue;
-        largest = std::abs(amplitude);
-        there = amplitude;
-      }
+      take(body.displacement_centre[k]);
+      take(gyration * body.rotation[k]);
     }
     mode.bodies.push_back(body);
+  }
+  for (std::size_t i = 0; i < mechanism.elastic_modes().size(); ++i) {
+    const ElasticMode& elastic = mechanism.elastic_modes()[i];
+    const std::complex<double> amplitude = mode.shape[elastic.v_index];
+    const double energy = elastic.modal_mass * std::norm(amplitude);
+    total += energy;
+    take(amplitude);
+    mode.elastic_modes.push_back({static_cast<int>(i), amplitude, energy});
+    for (BodyModeMotion& body : mode.bodies) {
+      if (body.body == elastic.body) body.energy_share += energy;
+    }
   }
   if (!(total > 0.0) || !(largest > 0.0)) return;
   mode.shape /= there;
@@ -142,6 +169,10 @@ void find_body_motions(const Mechanism& mechanism, const Kinematics& kinematics,
     body.displacement /= there;
     body.displacement_centre /= there;
     body.energy_share /= total;
+  }
+  for (ElasticModeMotion& motion : mode.elastic_modes) {
+    motion.amplitude /= there;
+    motion.energy_share /= total;
   }
 }
 
@@ -161,10 +192,12 @@ std::string mode_name(const Mechanism& mechanism, const Kinematics& kinematics, 
   }
   const BodyModeMotion& first = *order.front();
   const auto b = static_cast<std::size_t>(first.body);
+  const std::string bodies = listed(mechanism, order, count) + ": ";
+  if (const ElasticModeMotion* vibration = main_vibration(mechanism, mode, first))
+    return bodies + "vibration in " + mechanism.elastic_modes()[vibration->mode].name;
   const Motion motion = main_motion(
       energies(first, mechanism.bodies()[b].inertia.mass, inertia_W(mechanism, kinematics, b)));
-  std::string name =
-      listed(mechanism, order, count) + ": " + motion_in_words(motion, first, mode.elastic_share);
+  std::string name = bodies + motion_in_words(motion, first, mode.elastic_share);
   for (std::size_t i = count; i < order.size() && order[i]->energy_share >= 0.05; ++i) {
     const double phase = telling(motion, first).dot(telling(motion, *order[i])).real();
     if (phase >= 0.0) continue;

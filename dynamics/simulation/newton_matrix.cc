@@ -47,6 +47,10 @@ NewtonMatrix::NewtonMatrix(const LiftSystem& system)
     joint.nq = coordinate_count(link.kind);
     joint.nv = link.nv;
   }
+  for (const ElasticMode& mode : m.elastic_modes()) {
+    plain_q_.push_back(place(m.free_coordinates(), mode.q_index));
+    plain_v_.push_back(place(m.free_velocities(), mode.v_index));
+  }
 }
 
 void NewtonMatrix::set_point(const LiftSystem& system, double t, LiftWorkspace& w) {

@@ -116,6 +116,9 @@ void StateProjection::remove_what_opens_loops(VectorRef error, const LiftWorkspa
     increment_.segment(link.v_offset, link.nv).noalias() =
         increments * error_q_.segment(link.q_offset, nq);
   }
+  for (const ElasticMode& mode : m.elastic_modes()) {
+    increment_[mode.v_index] = error_q_[mode.q_index];
+  }
   projector_->remove_normal_part(increment_);
   projector_->remove_normal_part(error_v_);
   m.calc_rates(w.q, increment_, error_q_);

@@ -204,29 +204,19 @@ class LiftBuilder {
     register_body(builder, load, "load", {box_around(case_.load)});
   }
 
-  /// The load's natural modes: each a body of the load's mass that slides level.
+  /// The load's natural modes, where ropes end at its lugs and so may feel them.
   void add_modes(dynamics::MechanismBuilder& builder) {
+    const bool felt = std::any_of(case_.ropes.begin(), case_.ropes.end(), [](const RopeInCase& r) {
+      return !r.path.front().lug.empty() || !r.path.back().lug.empty();
+    });
+    if (!felt) return;
     for (Eigen::Index k = 0; k < flexibility_->angular_frequencies.size(); ++k) {
-      BodyDefinition mode;
-      mode.name = fmt::format("load.mode_{}", k + 1);
-      mode.joint.kind = dynamics::JointKind::prismatic;
-      mode.joint.axis = Vector3::UnitX();
-      mode.mass = load_.mass;
-      modes_.push_back(builder.add_body(mode));
-    }
-  }
-
-  void add_mode_springs(const dynamics::Mechanism& mechanism,
-                        dynamics::ForceElements& elements) const {
-    for (std::size_t k = 0; k < modes_.size(); ++k) {
-      const double omega = flexibility_->angular_frequencies[k];
-      std::get<std::vector<dynamics::JointSpring>>(elements).emplace_back(
-          mechanism, dynamics::JointSpring::Definition{
-                         .name = mechanism.body(modes_[k]).name,
-                         .body = modes_[k],
-                         .stiffness = load_.mass * omega * omega,
-                         .damping = 2 * flexibility_->damping_ratio * load_.mass * omega,
-                         .free_coordinate = 0});
+      modes_.push_back(
+          builder.add_elastic_mode({.name = fmt::format("load.mode_{}", k + 1),
+                                    .body = body_of_.at("load"),
+                                    .modal_mass = load_.mass,
+                                    .angular_frequency = flexibility_->angular_frequencies[k],
+                                    .damping_ratio = flexibility_->damping_ratio}));
     }
   }
 
@@ -349,7 +339,6 @@ class LiftBuilder {
     dynamics::ForceElements elements;
     add_wind_areas(at_rest, elements);
     for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements);
-    add_mode_springs(mechanism, elements);
     add_bearings(mechanism, elements);
     marine_.add_elements(place(), radiation_, at_rest, elements);
     const LoadInCase& load = case_.load;
@@ -531,7 +520,7 @@ class LiftBuilder {
   MarchedWater marched_;
   const FoundMotion& found_;
   MarineBuilder marine_;
-  std::vector<BodyIndex> modes_;
+  std::vector<int> modes_;  // among the mechanism's elastic ones
   std::map<std::string, BodyIndex> body_of_;
   std::deque<PartsBuilder> crane_parts_;
   std::deque<CranePose> crane_poses_;

@@ -161,8 +161,8 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 ///
 /// @param radiation of radiation_problem(), or `marched` made of it; neither: vessels make no
 /// waves.
-/// @param flexibility of the load; null: it is rigid. Its modes are bodies "load.mode_1" on joints
-///   to the world, see dynamics::ElasticBody.
+/// @param flexibility of the load; null: it is rigid. Its modes are the mechanism's elastic modes
+///   "load.mode_1", ..., see dynamics::ElasticBody.
 /// @param found of the operation by running it; see schedule_operation.
 /// @throws InputError if moves do not fit behind those instants.
 /// @throws std::invalid_argument if the case is a load table, which has no dynamics.

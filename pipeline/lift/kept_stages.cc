@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,12 @@ template <class Values, class Body>
 requires std::is_same_v<std::remove_const_t<Body>, dynamics::BodyHistory>
 void pass(Values& values, Body& body) {
   values(body.name, body.pose, body.velocity, body.acceleration, body.load);
+}
+
+template <class Values, class Mode>
+requires std::is_same_v<std::remove_const_t<Mode>, dynamics::ElasticModeHistory>
+void pass(Values& values, Mode& mode) {
+  values(mode.name, mode.coordinate, mode.rate, mode.acceleration);
 }
 
 template <class Values, class Edge>
@@ -57,8 +64,8 @@ void pass(Values& values, Energy& energy) {
 template <class Values, class History>
 requires std::is_same_v<std::remove_const_t<History>, dynamics::History>
 void pass(Values& values, History& history) {
-  values(history.time, history.bodies, history.ropes, history.drives, history.supports,
-         history.loops, history.energy);
+  values(history.time, history.bodies, history.elastic_modes, history.ropes, history.drives,
+         history.supports, history.loops, history.energy);
 }
 
 // What else a time integration found.
@@ -96,10 +103,17 @@ void pass(Values& values, Motion& motion) {
          motion.energy_share);
 }
 
+template <class Values, class Motion>
+requires std::is_same_v<std::remove_const_t<Motion>, dynamics::ElasticModeMotion>
+void pass(Values& values, Motion& motion) {
+  values(motion.mode, motion.amplitude, motion.energy_share);
+}
+
 template <class Values, class Mode>
 requires std::is_same_v<std::remove_const_t<Mode>, dynamics::Mode>
 void pass(Values& values, Mode& mode) {
-  values(mode.kind, mode.eigenvalue, mode.shape, mode.bodies, mode.elastic_share, mode.name);
+  values(mode.kind, mode.eigenvalue, mode.shape, mode.bodies, mode.elastic_modes,
+         mode.elastic_share, mode.name);
 }
 
 template <class Values, class Modes>
@@ -180,7 +194,7 @@ LiftRun motion_of(const std::string& bytes, BuiltLift model) {
   // Their sizes are those of the bytes.
   dynamics::History at_rest(model.at_rest(), 0, false), in_motion(model.system, 0, true);
   const auto parts = [](const dynamics::History& history) {
-    return std::pair(history.bodies.size(), history.ropes.size());
+    return std::tuple(history.bodies.size(), history.elastic_modes.size(), history.ropes.size());
   };
   const auto due = parts(in_motion);
   LiftRun run{std::move(model),

@@ -16,6 +16,7 @@ namespace blocklift::pipeline {
 namespace {
 
 using dynamics::BodyModeMotion;
+using dynamics::ElasticModeMotion;
 using dynamics::Mode;
 using Json = nlohmann::ordered_json;
 
@@ -71,13 +72,21 @@ Json mode_json(const dynamics::Mechanism& mechanism, const Mode& mode) {
     if (body.energy_share >= 5e-4)
       shares[mechanism.body(body.body).name] = std::round(1e3 * body.energy_share) / 1e3;
   }
-  return {{"name", mode.name},
-          {"kind", dynamics::mode_kind_name(mode.kind)},
-          {"period_s", json_number(mode.period())},
-          {"frequency_Hz", mode.natural_frequency() / (2 * std::numbers::pi)},
-          {"damping_ratio", mode.damping_ratio()},
-          {"elastic_share", mode.elastic_share},
-          {"energy_share_by_body", shares}};
+  Json json{{"name", mode.name},
+            {"kind", dynamics::mode_kind_name(mode.kind)},
+            {"period_s", json_number(mode.period())},
+            {"frequency_Hz", mode.natural_frequency() / (2 * std::numbers::pi)},
+            {"damping_ratio", mode.damping_ratio()},
+            {"elastic_share", mode.elastic_share},
+            {"energy_share_by_body", shares}};
+  Json vibration = Json::object();
+  for (const ElasticModeMotion& motion : mode.elastic_modes) {
+    if (motion.energy_share >= 5e-4)
+      vibration[mechanism.elastic_modes()[motion.mode].name] =
+          std::round(1e3 * motion.energy_share) / 1e3;
+  }
+  if (!vibration.empty()) json["energy_share_by_elastic_mode"] = vibration;
+  return json;
 }
 
 void write_shapes(ResultsWriter& file, const dynamics::Mechanism& mechanism,
@@ -96,6 +105,18 @@ void write_shapes(ResultsWriter& file, const dynamics::Mechanism& mechanism,
         {"rad, m",
          "complex amplitudes in the world, a row a mode: real parts of the rotation "
          "vector and of the displacement of the body's origin, then imaginary parts"});
+  }
+  for (std::size_t k = 0; k < modes.front().elastic_modes.size(); ++k) {
+    RowMajorMatrix amplitude(static_cast<Eigen::Index>(modes.size()), 2);
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+      const std::complex<double>& eta = modes[i].elastic_modes[k].amplitude;
+      amplitude.row(i) << eta.real(), eta.imag();
+    }
+    const std::string& name = mechanism.elastic_modes()[modes.front().elastic_modes[k].mode].name;
+    file.write_matrix(layout::join(group, "elastic_modes", name, "amplitude"), amplitude,
+                      {"m",
+                       "complex amplitude of the elastic mode's coordinate, a row a mode: real "
+                       "part, imaginary part"});
   }
 }
 
@@ -122,7 +143,9 @@ void write_instant(ResultsWriter& file, const dynamics::Mechanism& mechanism,
   file.write(layout::join(group, "period"), periods, {"s", "2 pi / |lambda|; infinite if neutral"});
   file.write(layout::join(group, "damping_ratio"), damping, {"1", "-Re(lambda) / |lambda|"});
   file.write(layout::join(group, "elastic_share"), elastic,
-             {"1", "part of the restoring energy that is stored in ropes, springs and pads"});
+             {"1",
+              "part of the restoring energy that is stored in ropes, springs, pads and bodies that "
+              "give way"});
   file.write_matrix(layout::join(group, "eigenvalue"), eigenvalues,
                     {"s-1", "lambda, real and imaginary part"});
   write_shapes(file, mechanism, group, list);

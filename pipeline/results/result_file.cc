@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -56,6 +57,21 @@ void write_body(ResultsWriter& file, std::string_view group, const dynamics::Bod
   file.write_matrix(
       layout::join(path, "acceleration"), body.acceleration,
       {"rad/s2, m/s2", "angular acceleration, then acceleration of the origin, in the world"});
+}
+
+void write_elastic_mode(ResultsWriter& file, std::string_view group,
+                        const dynamics::ElasticMode& mode, const std::string& body,
+                        const dynamics::ElasticModeHistory& history) {
+  const std::string path = layout::join(group, "elastic_modes", mode.name);
+  file.write(layout::join(path, "coordinate"), span_of(history.coordinate),
+             {"m", "root of the mean square displacement in the mode, over the body's mass"});
+  file.write(layout::join(path, "rate"), span_of(history.rate), {"m/s", "rate of the coordinate"});
+  file.write(layout::join(path, "acceleration"), span_of(history.acceleration),
+             {"m/s2", "second rate of the coordinate"});
+  file.write_attribute(path, "body", body);
+  file.write_attribute(path, "frequency_Hz", mode.angular_frequency / (2 * std::numbers::pi));
+  file.write_attribute(path, "damping_ratio", mode.damping_ratio);
+  file.write_attribute(path, "modal_mass_kg", mode.modal_mass);
 }
 
 void write_drive(ResultsWriter& file, std::string_view group, const dynamics::DriveHistory& drive) {
@@ -171,6 +187,11 @@ void write_history(ResultsWriter& file, std::string_view group, const LiftSystem
   }
   for (const DrawnTackle& tackle : scene.hoists) write_hoist(file, group, history, tackle);
   for (const auto& body : history.bodies) write_body(file, group, body);
+  const dynamics::Mechanism& mechanism = system.mechanism();
+  for (std::size_t i = 0; i < history.elastic_modes.size(); ++i) {
+    const dynamics::ElasticMode& mode = mechanism.elastic_modes()[i];
+    write_elastic_mode(file, group, mode, mechanism.body(mode.body).name, history.elastic_modes[i]);
+  }
   for (const auto& drive : history.drives) write_drive(file, group, drive);
   for (std::size_t i = 0; i < system.supports().size(); ++i) {
     file.write(layout::join(group, "supports", history.supports[i].name, "normal_force"),

@@ -29,6 +29,11 @@
 ///     bodies/<body>/pose           (o) m, 1 [n x 7], X_WB
 ///     bodies/<body>/velocity       (o) rad/s, m/s [n x 6], angular then linear (acceleration
 ///                                      alike)
+///     elastic_modes/<mode>/coordinate (o) m [n], of a natural mode in which a body gives way: root
+///                                      of the mean square displacement over its mass; rate m/s
+///                                      [n], acceleration m/s2 [n]; attributes of the group: body,
+///                                      frequency_Hz of the free body, damping_ratio,
+///                                      modal_mass_kg
 ///     drives/<drive>/position      (o) m or rad [n]                      force (o) N or N m [n]
 ///     loops/<loop>/force           (o) N m, N [n x 6], on its second body at its frame, in W
 ///                                      multipliers (o) N or N m [n x its equations]
@@ -50,6 +55,7 @@
 ///     bodies/<body>/motion             rad, m [m x 12], complex amplitudes in W: rotation vector,
 ///                                      displacement of the origin (real parts), then both
 ///                                      imaginary; largest motion 1 m
+///     elastic_modes/<mode>/amplitude (o) m [m x 2], complex amplitude of its coordinate
 ///   /scene                         (o) what the drawing shows; bodies are those of .../bodies, or
 ///                                      "world"
 ///     bodies/<body>/boxes              m, m, 1 [b x 10], size x y z, centre x y z, quaternion, in
@@ -170,8 +176,9 @@
 ///                      peak_von_mises_Pa, peak_point_m, force_residual, moment_residual}], without
 ///                      it, in the padeye's frame}]
 ///   natural_periods (o) [{instant, time_s, modes: [{name, kind, period_s, frequency_Hz,
-///                      damping_ratio, elastic_share, energy_share_by_body: {body: share}}]}],
-///                      modes slowest first; period_s null where nothing brings the motion back
+///                      damping_ratio, elastic_share, energy_share_by_body: {body: share},
+///                      energy_share_by_elastic_mode (o): {mode: share}, which the share of its
+///                      body includes}]}], modes slowest first; period_s null where nothing brings the motion back
 ///   radiation      (o) {method, vessels, memory_states (o), memory_error (o), turn_of_all:
 ///                      LARGEST, straying: [{vessels, both_in_water, distance (o): LARGEST, turn
 ///                      (o): LARGEST, at_hull_ends (o): LARGEST, limit_m (o), share_of_time_beyond

@@ -302,10 +302,11 @@ Rule structure() {
 }
 
 Rule natural_periods() {
-  const Rule mode = with(
-      table(
-          {{"name", text(), true}, {"kind", text()}, {"energy_share_by_body", by_name(number())}}),
-      numbers({"period_s", "frequency_Hz", "damping_ratio", "elastic_share"}));
+  const Rule mode = with(table({{"name", text(), true},
+                                {"kind", text()},
+                                {"energy_share_by_body", by_name(number())},
+                                {"energy_share_by_elastic_mode", by_name(number())}}),
+                         numbers({"period_s", "frequency_Hz", "damping_ratio", "elastic_share"}));
   return list(
       table({{"instant", text(), true}, {"time_s", number()}, {"modes", list(mode), true}}));
 }

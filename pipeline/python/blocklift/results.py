@@ -105,7 +105,8 @@ class Result:
 
         Variables, as far as the run has them: tension and elongation (time, rope), hoist_tension,
         hoist_length (time, hoist), pose (time, body, x y z qw qx qy qz), velocity and acceleration
-        (time, body, rx ry rz x y z; in the world), drive_position, drive_force (time, drive),
+        (time, body, rx ry rz x y z; in the world), elastic_coordinate, elastic_rate and
+        elastic_acceleration (time, elastic_mode), drive_position, drive_force (time, drive),
         energy (time, term).
 
         Raises KeyError if the run has no such history.
@@ -124,6 +125,9 @@ class Result:
                                      "elongation": "hoist_elongation", "swing": "hoist_swing"}),
                 ("bodies", "body", {"pose": "pose", "velocity": "velocity",
                                     "acceleration": "acceleration"}),
+                ("elastic_modes", "elastic_mode", {"coordinate": "elastic_coordinate",
+                                                   "rate": "elastic_rate",
+                                                   "acceleration": "elastic_acceleration"}),
                 ("drives", "drive", {"position": "drive_position", "force": "drive_force"}),
             ):
                 for member, variable in members.items():

@@ -3,6 +3,7 @@
 // make up.
 #include "dynamics/rope/elastic_body.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,8 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/multibody/energy.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/jacobian.h"
+#include "dynamics/simulation/linearisation.h"
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"
 
@@ -27,6 +30,7 @@ struct Sample {
   Eigen::MatrixXd shapes{};       ///< 3 ropes x modes
   Eigen::VectorXd frequencies{};  ///< of the modes, rad/s
   double modal_damping = 0;
+  double modal_mass = 1;
   double damping_time = 0;
   double inclination = 0;  ///< sideways distance of the ropes' upper ends, m
   double lean = 0.3;       ///< of each further rope, across the beam, m
@@ -46,26 +50,15 @@ LiftSystem hang(const Sample& sample) {
   beam.p_BoBcm_B = Vector3(middle, 0, -1);
   beam.I_BBcm_B = Vector3(300, 5000, 5000).asDiagonal();
   const BodyIndex body = builder.add_body(beam);
-  std::vector<BodyIndex> modes;
+  std::vector<int> modes;
   for (Eigen::Index k = 0; k < sample.frequencies.size(); ++k) {
-    BodyDefinition mode;
-    mode.name = "mode " + std::to_string(k + 1);
-    mode.joint.kind = JointKind::prismatic;
-    mode.joint.axis = Vector3::UnitX();
-    mode.mass = 1;
-    modes.push_back(builder.add_body(mode));
+    modes.push_back(builder.add_elastic_mode({.name = "mode " + std::to_string(k + 1),
+                                              .body = body,
+                                              .modal_mass = sample.modal_mass,
+                                              .angular_frequency = sample.frequencies[k],
+                                              .damping_ratio = sample.modal_damping}));
   }
   const Mechanism mechanism = builder.build();
-  ForceElements elements;
-  for (std::size_t k = 0; k < modes.size(); ++k) {
-    const double omega = sample.frequencies[k];
-    std::get<std::vector<JointSpring>>(elements).emplace_back(
-        mechanism, JointSpring::Definition{.name = "mode " + std::to_string(k + 1),
-                                           .body = modes[k],
-                                           .stiffness = omega * omega,
-                                           .damping = 2 * sample.modal_damping * omega,
-                                           .free_coordinate = 0});
-  }
   std::vector<Rope> ropes;
   ElasticBody::Definition elastic{"beam", body, {}, sample.compliance, sample.shapes, modes};
   for (int i = 0; i < sample.ropes; ++i) {
@@ -85,7 +78,7 @@ LiftSystem hang(const Sample& sample) {
   }
   Eigen::VectorXd q = mechanism.zero_configuration();
   q[2] = 20 - rope_length - 0.02;
-  LiftDefinition definition{mechanism, ropes, {}, elements, OperationBuilder().build(2), q};
+  LiftDefinition definition{mechanism, ropes, {}, {}, OperationBuilder().build(2), q};
   if (sample.compliance.size() > 0) {
     elastic.shapes.conservativeResize(3 * sample.ropes, sample.frequencies.size());
     definition.elastic_bodies.emplace_back(mechanism, ropes, elastic);
@@ -336,6 +329,15 @@ double free_beam_mode(double bL, double x_over_length) {
   return hyperbolic + std::cos(a) - (1 - rest) * std::sin(a);
 }
 
+// bL of the n-th of them, by Newton's method.
+double free_beam_root(int n) {
+  double bL = (n + 0.5) * std::numbers::pi;
+  for (int i = 0; i < 5; ++i)
+    bL -= (std::cos(bL) - 1 / std::cosh(bL)) /
+          (-std::sin(bL) + std::sinh(bL) / std::pow(std::cosh(bL), 2));
+  return bL;
+}
+
 // A uniform beam of its own weight on three upright ropes of stiffness k, at its ends and its
 // middle, level at first. From the deflection 5 W L^3 / 384 EI of the simply supported beam less R
 // L^3 / 48 EI by the middle rope, equal to what the ropes give, R / k - (W - R) / 2k:
@@ -350,10 +352,7 @@ TEST(ElasticBody, AUniformBeamOnThreeRopesSharesItsWeight) {
     Sample sample{.lean = 0};
     sample.compliance = Eigen::MatrixXd::Zero(9, 9);
     for (int mode = 1; mode <= 18; ++mode) {
-      double bL = (mode + 0.5) * std::numbers::pi;
-      for (int i = 0; i < 5; ++i)
-        bL -= (std::cos(bL) - 1 / std::cosh(bL)) /
-              (-std::sin(bL) + std::sinh(bL) / std::pow(std::cosh(bL), 2));
+      const double bL = free_beam_root(mode);
       Eigen::VectorXd shape = Eigen::VectorXd::Zero(9);
       for (int rope = 0; rope < 3; ++rope)
         shape[3 * rope + 2] = free_beam_mode(bL, place(rope) / length);
@@ -366,6 +365,152 @@ TEST(ElasticBody, AUniformBeamOnThreeRopesSharesItsWeight) {
     EXPECT_NEAR(tension[0], (weight - middle) / 2, 1e-4 * weight);
     EXPECT_NEAR(tension[2], tension[0], 1e-6 * weight);
   }
+}
+
+// A uniform beam that hangs from its middle on one upright rope of stiffness k vibrates upright
+// where the beam's receptance there is -1/k. Of the free beam, with x = bL / 2, by its halves, whose
+// slope vanishes in the middle (Bishop and Johnson 1960, The Mechanics of Vibration, chapter 7):
+//   k (1 + cos x cosh x) = 2 EI b^3 (sin x cosh x + cos x sinh x).
+// This is against six modes of the free beam and the compliance of 34 more, whose inertia is
+// neglected: a frequency changes by about (omega / omega_13)^4. What the modes beyond have of the
+// compliance, 8e-12 m/N, is 2e-6 of the rope's.
+TEST(ElasticBody, AFreeBeamOnARopeVibratesAsItsReceptanceSays) {
+  const double length = 8, slowest = 20;  // m, rad/s
+  const double EI = std::pow(slowest * std::pow(length / free_beam_root(1), 2), 2) * mass / length;
+  Sample sample{.ropes = 1, .modal_mass = mass};
+  sample.compliance = Eigen::MatrixXd::Zero(3, 3);
+  sample.shapes = Eigen::MatrixXd::Zero(3, 6);
+  sample.frequencies.resize(6);
+  const auto frequency = [&](int n) {
+    return slowest * std::pow(free_beam_root(n) / free_beam_root(1), 2);
+  };
+  for (int i = 0; i < 40; ++i) {
+    const int n = 2 * i + 1;  // the others stand still in the middle
+    const double shape = free_beam_mode(free_beam_root(n), 0.5);
+    if (i < 6) {
+      sample.frequencies[i] = frequency(n);
+      sample.shapes(2, i) = shape;
+    } else {
+      sample.compliance(2, 2) += shape * shape / (mass * std::pow(frequency(n), 2));
+    }
+  }
+  const LiftSystem system = hang(sample);
+  Eigen::VectorXd q = system.q_start();
+  EquilibriumSolver solver(system);
+  solver.solve(0, q);
+  const std::vector<Mode> modes = linearise(system, 0, solver.workspace()).modes;
+
+  const auto equation = [&](double x) {
+    const double b = 2 * x / length;
+    return stiffness * (1 / std::cosh(x) + std::cos(x)) -
+           2 * EI * std::pow(b, 3) * (std::sin(x) + std::cos(x) * std::tanh(x));
+  };
+  int found = 0;
+  for (double x = 0.1; found < 3; x += 0.01) {
+    if (equation(x) * equation(x + 0.01) > 0) continue;
+    double low = x, high = x + 0.01;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = (low + high) / 2;
+      (equation(low) * equation(middle) > 0 ? low : high) = middle;
+    }
+    const double omega = std::sqrt(EI * length / mass) * std::pow(2 * low / length, 2);
+    const auto nearest =
+        std::min_element(modes.begin(), modes.end(), [&](const Mode& one, const Mode& other) {
+          return std::abs(one.natural_frequency() - omega) <
+                 std::abs(other.natural_frequency() - omega);
+        });
+    EXPECT_NEAR(nearest->natural_frequency() / omega, 1, 1e-6 + std::pow(omega / frequency(13), 4));
+    double energy = 0;
+    for (const ElasticModeMotion& motion : nearest->elastic_modes) energy += motion.energy_share;
+    if (found == 2) {
+      EXPECT_EQ(nearest->name, "beam: vibration in mode 2");
+      EXPECT_GT(energy, 0.5);
+    }
+    EXPECT_NEAR(nearest->bodies.front().energy_share, 1, 1e-9);
+    ++found;
+  }
+}
+
+// With nothing that pulls at it a mode is an oscillator of one degree of freedom:
+//   eta = eta0 exp(-zeta omega t) (cos wt + zeta omega / w sin wt),  w^2 = omega^2 (1 - zeta^2).
+TEST(ElasticBody, AModeThatNoRopeFeelsDiesAwayAsAnOscillator) {
+  const double omega = 20, zeta = 0.05, start = 1;
+  Sample sample{
+      .frequencies = Eigen::VectorXd::Constant(1, omega), .modal_damping = zeta, .modal_mass = 700};
+  sample.compliance = Eigen::MatrixXd::Zero(9, 9);
+  sample.shapes = Eigen::MatrixXd::Zero(9, 1);
+  const LiftSystem system = hang(sample);
+  Eigen::VectorXd q = system.q_start();
+  EquilibriumSolver(system).solve(0, q);
+  q[system.mechanism().elastic_modes()[0].q_index] = start;
+  const History history = integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()),
+                                    {.relative_tolerance = 1e-10, .sample_interval = 0.01})
+                              .history;
+  const ElasticModeHistory& mode = history.elastic_mode("mode 1");
+  const double w = omega * std::sqrt(1 - zeta * zeta);
+  for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
+    const double t = history.time[i], decay = start * std::exp(-zeta * omega * t);
+    EXPECT_NEAR(mode.coordinate[i], decay * (std::cos(w * t) + zeta * omega / w * std::sin(w * t)),
+                1e-7 * start);
+    EXPECT_NEAR(mode.rate[i], -decay * omega * omega / w * std::sin(w * t), 1e-6 * start * omega);
+    EXPECT_NEAR(mode.acceleration[i],
+                -omega * omega * mode.coordinate[i] - 2 * zeta * omega * mode.rate[i],
+                1e-12 * start * omega * omega);
+  }
+}
+
+// Two bodies in space, joined by stretched ropes; one of them vibrates. What the ropes do to one
+// they do to the other, at points that the vibration displaces; the modes have no momentum.
+TEST(ElasticBody, AVibratingBodyOnRopesToAnotherKeepsMomentum) {
+  MechanismBuilder builder;
+  builder.set_gravity(Vector3::Zero());
+  BodyDefinition beam{.name = "beam", .joint = {.kind = JointKind::free}, .mass = mass};
+  beam.I_BBcm_B = Vector3(300, 5000, 5000).asDiagonal();
+  BodyDefinition block = beam;
+  block.name = "block";
+  const BodyIndex body = builder.add_body(beam), other = builder.add_body(block);
+  ElasticBody::Definition elastic{"beam", body, {}, coupled_compliance(3, 4e-6), {}, {}};
+  elastic.shapes = Eigen::MatrixXd::NullaryExpr(
+      9, 2, [](auto i, auto k) { return std::cos(1.0 + static_cast<double>(i * (k + 2))); });
+  for (const double omega : {20.0, 45.0}) {
+    elastic.modes.push_back(builder.add_elastic_mode({.name = std::to_string(omega),
+                                                      .body = body,
+                                                      .modal_mass = mass,
+                                                      .angular_frequency = omega}));
+  }
+  const Mechanism mechanism = builder.build();
+  std::vector<Rope> ropes;
+  for (int i = 0; i < 3; ++i) {
+    RopeDefinition rope;
+    rope.name = std::to_string(i);
+    rope.points = {{other, Vector3(i, 0.5 * i, -0.2)}, {body, Vector3(2.0 * i - 2, 0.3 * i, 0.5)}};
+    rope.axial_stiffness = stiffness * rope_length;
+    rope.unstretched_length =
+        (Vector3(0, 0, rope_length) + rope.points[0].p_BoQ_B - rope.points[1].p_BoQ_B).norm() -
+        0.05;
+    ropes.emplace_back(mechanism, rope);
+    elastic.ends.push_back({i, true});
+  }
+  Eigen::VectorXd q = mechanism.zero_configuration(), v = Eigen::VectorXd::Zero(mechanism.nv());
+  q[mechanism.body(other).q_offset + 2] = rope_length;
+  v << 0.02, -0.01, 0.03, 0.1, 0.2, -0.1, -0.05, 0.02, 0.01, -0.1, 0.3, 0.2, 0.1, -0.2;
+  LiftDefinition definition{mechanism, ropes, {}, {}, OperationBuilder().build(2), q};
+  definition.elastic_bodies.emplace_back(mechanism, ropes, elastic);
+  const IntegrationResult result = integrate(LiftSystem(std::move(definition)), q, v,
+                                             {.relative_tolerance = 1e-10, .sample_interval = 0.1});
+  const auto momentum = [&](const Eigen::VectorXd& q_now, const Eigen::VectorXd& v_now) {
+    Kinematics kinematics(mechanism);
+    compute_kinematics(mechanism, q_now, v_now, kinematics);
+    return calc_momentum(mechanism, kinematics);
+  };
+  const ForceVector before = momentum(q, v), after = momentum(result.q_end, result.v_end);
+  EXPECT_LT((after.force - before.force).norm(), 1e-6 * before.force.norm());
+  EXPECT_LT((after.moment - before.moment).norm(), 1e-6 * before.moment.norm());
+  EXPECT_GT(result.history.elastic_modes[0].coordinate.cwiseAbs().maxCoeff(), 0.005);
+  const EnergyHistory& energy = result.history.energy;
+  const Eigen::VectorXd sum = energy.kinetic + energy.elastic;
+  const double exchanged = energy.elastic.maxCoeff() - energy.elastic.minCoeff();
+  EXPECT_LT((sum.array() - sum[0]).abs().maxCoeff(), 1e-6 * exchanged);
 }
 
 TEST(ElasticBody, SlackRopesLeaveTheirLoadToTheOthers) {
@@ -420,6 +565,18 @@ TEST(ElasticBody, WhatCannotBeIsRefused) {
   sample.compliance = Eigen::MatrixXd::Identity(9, 9);
   sample.compliance(0, 1) = 0.1;
   EXPECT_THROW(hang(sample), ModelError);
+}
+
+// A mode that no elastic body gives a shape would have no spring.
+TEST(ElasticBody, EveryModeHasAShape) {
+  Sample sample{.frequencies = Eigen::Vector2d(20, 45)};
+  try {
+    hang(sample);
+    FAIL() << "modes of a rigid body";
+  } catch (const ModelError& error) {
+    EXPECT_STREQ(error.what(),
+                 "elastic mode \"mode 1\" has its shape from 0 elastic bodies; one is due");
+  }
 }
 
 }  // namespace

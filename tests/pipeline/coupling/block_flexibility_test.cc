@@ -2,10 +2,12 @@
 #include "pipeline/coupling/block_flexibility.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "dynamics/simulation/equilibrium.h"
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/lift/lift_run.h"
+#include "pipeline/lift/natural_modes.h"
 #include "pipeline/results/lift_scene.h"
 #include "tests/pipeline/small_lift.h"
 
@@ -65,10 +67,36 @@ TEST(BlockFlexibility, AStifferBlockComesToTheRigidOne) {
 
 TEST(BlockFlexibility, ModesAtRestAreTheStaticCompliance) {
   const BuiltLift modal = build(Flexibility::modal);
-  EXPECT_EQ(modal.system.mechanism().body_count(),
-            build(Flexibility::rigid).system.mechanism().body_count() + 4);
+  const dynamics::Mechanism& mechanism = modal.system.mechanism();
+  EXPECT_EQ(mechanism.body_count(), build(Flexibility::rigid).system.mechanism().body_count());
+  ASSERT_EQ(mechanism.elastic_modes().size(), 4U);
+  EXPECT_EQ(mechanism.elastic_modes()[3].name, "load.mode_4");
+  EXPECT_EQ(mechanism.elastic_modes()[3].body, modal.load);
   const Eigen::VectorXd still = tensions(build(Flexibility::static_));
   EXPECT_LT((tensions(modal) - still).norm(), 1e-5 * still.norm());
+}
+
+// Vibration of the block counts as the load's motion, and is told by the mode that has most of it.
+TEST(BlockFlexibility, NaturalModesTellOfVibration) {
+  const LiftRun run = run_lift(
+      lift_case(Flexibility::modal), build(Flexibility::modal), [](auto&&...) {},
+      RunExtent{.energy = false});
+  EXPECT_EQ(run.dynamic_history().elastic_modes.size(), 4U);
+  EXPECT_GT(run.dynamic_history().elastic_mode("load.mode_1").coordinate.norm(), 0);
+  const nlohmann::ordered_json list =
+      natural_periods_json(run.model.system.mechanism(), run.natural_modes)[0]["modes"];
+  int found = 0;
+  for (const nlohmann::ordered_json& mode : list) {
+    const auto name = mode["name"].get<std::string>();
+    if (!name.starts_with("load: vibration in load.mode_")) continue;
+    ++found;
+    double vibration = 0;
+    for (const auto& [which, share] : mode["energy_share_by_elastic_mode"].items())
+      vibration += share.get<double>();
+    EXPECT_GT(vibration, 0.3) << name;
+    EXPECT_GE(mode["energy_share_by_body"]["load"].get<double>(), vibration - 0.005) << name;
+  }
+  EXPECT_GE(found, 2);
 }
 
 // The two stages agree on the balance of the block in each state, or assess_block throws.
