@@ -8,6 +8,7 @@
 
 #include "structure/batches.h"
 #include "structure/large_pages.h"
+#include "structure/mesh/solid_lugs.h"
 
 namespace blocklift::structure {
 
@@ -205,17 +206,20 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
   if (squares == 0) envelope.checked_von_mises = envelope.field_von_mises = envelope.peak_von_mises;
   envelope.largest_principal = at_point(peaks.largest_principal);
   envelope.smallest_principal = at_point(peaks.smallest_principal);
+  const std::vector<char> is_solid_lug = groups_of_solid_lugs(mesh);
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[mesh.groups[g].material];
     const TimedExtreme peak_of_group = at_point(peaks.von_mises[g]);
-    GroupEnvelope group{
-        mesh.groups[g].name, material.name, material.yield_stress, peak_of_group, {},
-        peak_of_group};
+    GroupEnvelope group;
+    group.group = mesh.groups[g].name;
+    group.material = material.name;
+    group.yield_stress = material.yield_stress;
+    group.peak_von_mises = peak_of_group;
     if (maxima.groups[g].all.point >= 0) {
       group.checked_von_mises = named(maxima.groups[g].all);
       group.at_site = named_by_site(maxima.groups[g]);
-    } else {
-      group.at_site[SquareSite::field] = peak_of_group;
+    } else if (is_solid_lug[g] == 0) {
+      group.checked_von_mises = group.at_site[SquareSite::field] = peak_of_group;
     }
     envelope.groups.push_back(std::move(group));
   }

@@ -22,7 +22,7 @@ struct GroupEnvelope {
   std::string group;
   std::string material;
   double yield_stress = 0;  ///< Pa
-  /// Over squares of plating; of a group that has none (beams, solids) the peak.
+  /// Over squares of plating; of a group that has none (beams, solids) the peak. Lugs of solids: 0.
   TimedExtreme checked_von_mises;
   /// Likewise, of the squares of each site; without squares the peak as a field's. Instant -1:
   /// none.

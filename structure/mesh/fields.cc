@@ -11,6 +11,8 @@
 
 #include <Eigen/Dense>
 
+#include "structure/mesh/solid_lugs.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -45,6 +47,37 @@ EdgeMap collect_edges(const Mesh& mesh) {
       if (key.first != key.second) edges[key].push_back({shell, edge});
     }
   return edges;
+}
+
+/// Where lugs of solids stand: edges of shells, joints as those with lugs of shells are, and the
+/// vertices at the ends, their toes.
+struct BelowLugs {
+  std::set<EdgeKey> edges;
+  std::set<int> toes;
+};
+
+BelowLugs find_below_lugs(const Mesh& mesh, const EdgeMap& edges) {
+  constexpr double same_place = 1e-6;  // m
+  BelowLugs below;
+  for (const SolidLugBase& base : find_solid_lug_bases(mesh)) {
+    const Vector3 way = base.to - base.from;
+    const auto lies_on = [&](int vertex) {
+      const Vector3 off = mesh.vertices[vertex] - base.from;
+      const double share = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
+      return (off - share * way).norm() < same_place;
+    };
+    const auto is_end = [&](int vertex) {
+      return (mesh.vertices[vertex] - base.from).norm() < same_place ||
+             (mesh.vertices[vertex] - base.to).norm() < same_place;
+    };
+    for (const auto& [key, shells] : edges) {
+      if (!lies_on(key.first) || !lies_on(key.second)) continue;
+      below.edges.insert(key);
+      for (const int vertex : {key.first, key.second})
+        if (is_end(vertex)) below.toes.insert(vertex);
+    }
+  }
+  return below;
 }
 
 Eigen::Matrix<double, 3, 2> tangents(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
@@ -114,12 +147,13 @@ double corner_angle(const Mesh& mesh, int shell, int vertex) {
 class FieldFinder {
  public:
   FieldFinder(const Mesh& mesh, double kink, const GoesOn& goes_on)
-      : mesh_(mesh), edges_(collect_edges(mesh)) {
+      : mesh_(mesh), edges_(collect_edges(mesh)), below_lugs_(find_below_lugs(mesh, edges_)) {
     const auto joins = [&](const EdgeKey& key, int a, int b) {
       return goes_on ? goes_on(a, b, key.first, key.second) : same_section(mesh, a, b);
     };
     for (const auto& [key, shells] : edges_) {
-      const bool is_inside = shells.size() == 2 && joins(key, shells[0].shell, shells[1].shell) &&
+      const bool is_inside = shells.size() == 2 && meeting(key) == 2 &&
+                             joins(key, shells[0].shell, shells[1].shell) &&
                              is_smooth(mesh, shells[0], shells[1], kink);
       if (is_inside) {
         inside_.insert(key);
@@ -136,6 +170,8 @@ class FieldFinder {
     for (int shell = 0; shell < static_cast<int>(mesh_.shells.size()); ++shell)
       if (result_.field_of_shell[shell] < 0) grow(shell);
     for (PlateField& field : result_.fields) outline(field);
+    result_.singular_vertices.insert(result_.singular_vertices.end(), below_lugs_.toes.begin(),
+                                     below_lugs_.toes.end());
     std::sort(result_.singular_vertices.begin(), result_.singular_vertices.end());
     const auto last =
         std::unique(result_.singular_vertices.begin(), result_.singular_vertices.end());
@@ -144,6 +180,11 @@ class FieldFinder {
   }
 
  private:
+  /// How many plates meet at an edge; a lug of solids is one.
+  std::size_t meeting(const EdgeKey& key) const {
+    return edges_.at(key).size() + below_lugs_.edges.count(key);
+  }
+
   void grow(int first) {
     const int number = static_cast<int>(result_.fields.size());
     PlateField& field = result_.fields.emplace_back();
@@ -223,7 +264,7 @@ class FieldFinder {
     constexpr double straight = 0.09;  // rad
     const auto found = structural_edges_.find(end_of(before));
     return std::abs(angle - std::numbers::pi) > straight || found->second != 2 ||
-           edges_.at(key_of(mesh_, before)).size() != edges_.at(key_of(mesh_, after)).size();
+           meeting(key_of(mesh_, before)) != meeting(key_of(mesh_, after));
   }
 
   std::vector<FieldEdge> divide(const std::vector<EdgeOfShell>& loop,
@@ -249,8 +290,8 @@ class FieldFinder {
 
   void note_singular(const EdgeOfShell& before, const EdgeOfShell& after, double angle) {
     const bool is_straight = std::abs(angle - std::numbers::pi) < 0.3;
-    const auto meeting = [&](const EdgeOfShell& e) { return edges_.at(key_of(mesh_, e)).size(); };
-    if (angle > std::numbers::pi + 0.3 || (is_straight && meeting(before) != meeting(after)))
+    if (angle > std::numbers::pi + 0.3 ||
+        (is_straight && meeting(key_of(mesh_, before)) != meeting(key_of(mesh_, after))))
       result_.singular_vertices.push_back(end_of(before));
   }
 
@@ -274,12 +315,13 @@ class FieldFinder {
                           .norm();
     }
     edge.length += piece.length;
-    edge.is_free = edges_.at(key_of(mesh_, part)).size() == 1;
+    edge.is_free = meeting(key_of(mesh_, part)) == 1;
     edge.pieces.push_back(piece);
   }
 
   const Mesh& mesh_;
   EdgeMap edges_;
+  BelowLugs below_lugs_;
   std::set<EdgeKey> inside_;             ///< edges within fields
   std::map<int, int> structural_edges_;  ///< how many other edges meet in a vertex
   std::vector<bool> is_flipped_;

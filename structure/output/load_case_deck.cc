@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -57,6 +59,7 @@ class DeckMaker {
     deck_.mesh = model.mesh();
     for (Material& material : mesh_.materials) material.yield_stress = 0;
     curve_shells(elements == DeckElements::quadratic);
+    spell_out_surface_points();
     divide_beams();
     place_nodes();
   }
@@ -102,6 +105,62 @@ class DeckMaker {
       const std::vector<int> around = corners_around(mesh_.shells[s]);
       for (std::size_t i = 0; i < around.size(); ++i)
         middle_of_[std::minmax({around[i], around[(i + 1) % around.size()]})] = middles_[s][i];
+    }
+  }
+
+  /// What lies on a shell, middles of its edges apart, moves as a sum of its nodes' motions: a deck
+  /// says so by equations. Rigid arms that stand there are part of them.
+  void spell_out_surface_points() {
+    std::set<int> turning;  // vertices whose rotation means something
+    for (const Shell& shell : mesh_.shells)
+      turning.insert(shell.vertices.begin(), shell.vertices.end());
+    for (const Beam& beam : mesh_.beams) turning.insert(beam.vertices.begin(), beam.vertices.end());
+    std::vector<SurfacePoint> middles;
+    for (const SurfacePoint& point : mesh_.surface_points) {
+      const std::vector<int>& known = middles_[point.shell];
+      if (std::find(known.begin(), known.end(), point.vertex) != known.end()) {
+        middles.push_back(point);
+        continue;
+      }
+      const Shell& shell = mesh_.shells[point.shell];
+      Shares shares{corners_around(shell),
+                    deck_shell_values(shell.is_triangle(), !known.empty(), point.xi)};
+      shares.vertices.insert(shares.vertices.end(), known.begin(), known.end());
+      add_equations(point.vertex, shares, turning.count(point.vertex) > 0);
+      std::erase_if(mesh_.rigid_links, [&](const RigidLink& link) {
+        const bool is_arm = link.master == point.vertex && link.bound[0] && link.bound[1] &&
+                            link.bound[2] && link.axes.isIdentity(0);
+        for (std::size_t i = 0; is_arm && i < link.slaves.size(); ++i)
+          add_equations(
+              link.slaves[i], shares,
+              link.bound[3] && link.bound[4] && link.bound[5] && turning.count(link.slaves[i]) > 0);
+        return is_arm;
+      });
+    }
+    mesh_.surface_points = std::move(middles);
+  }
+
+  /// u = sum N_i (u_i + theta_i x arm), and theta = sum N_i theta_i if it turns along.
+  void add_equations(int vertex, const Shares& shares, bool turns) {
+    Vector3 foot = Vector3::Zero();
+    for (std::size_t i = 0; i < shares.vertices.size(); ++i)
+      foot += shares.values[i] * mesh_.vertices[shares.vertices[i]];
+    const Vector3 arm = mesh_.vertices[vertex] - foot;
+    for (int axis = 0; axis < (turns ? 6 : 3); ++axis) {
+      const Vector3 unit = Vector3::Unit(axis % 3);
+      const bool is_rotation = axis >= 3;
+      MotionEquation equation;
+      equation.label = static_cast<long>(mesh_.equations.size()) + 1;
+      equation.terms.push_back({vertex, is_rotation ? Vector3(Vector3::Zero()) : unit,
+                                is_rotation ? unit : Vector3(Vector3::Zero())});
+      for (std::size_t i = 0; i < shares.vertices.size(); ++i) {
+        const double value = shares.values[i];
+        if (std::abs(value) < 1e-12) continue;
+        equation.terms.push_back(
+            {shares.vertices[i], is_rotation ? Vector3(Vector3::Zero()) : Vector3(-value * unit),
+             is_rotation ? Vector3(-value * unit) : Vector3(-value * arm.cross(unit))});
+      }
+      mesh_.equations.push_back(std::move(equation));
     }
   }
 

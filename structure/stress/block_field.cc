@@ -28,21 +28,28 @@ SteelPlace find_cell(const Space& space, const Vector3& place) {
 Eigen::MatrixXd displacements_at(const ElasticModel& model,
                                  const Eigen::Ref<const Eigen::MatrixXd>& motions,
                                  const Eigen::Matrix3Xd& places, const Vector3& normal) {
+  return displacements_of_arms(model, motions, places, places, normal);
+}
+
+Eigen::MatrixXd displacements_of_arms(const ElasticModel& model,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                      const Eigen::Matrix3Xd& feet, const Eigen::Matrix3Xd& points,
+                                      const Vector3& normal) {
   const Space& space = model.space();
   const SteelFinder finder(space);
-  Eigen::MatrixXd result(3 * places.cols(), motions.cols());
-  for (Eigen::Index p = 0; p < places.cols(); ++p) {
-    const SteelPlace place = finder.find(places.col(p), normal);
+  Eigen::MatrixXd result(3 * feet.cols(), motions.cols());
+  for (Eigen::Index p = 0; p < feet.cols(); ++p) {
+    const SteelPlace place = finder.find(feet.col(p), normal);
     if (place.cell < 0)
       throw ModelError(
-          fmt::format("there is no material of the block at ({:.6g}, {:.6g}, {:.6g}) m",
-                      places(0, p), places(1, p), places(2, p)));
+          fmt::format("there is no material of the block at ({:.6g}, {:.6g}, {:.6g}) m", feet(0, p),
+                      feet(1, p), feet(2, p)));
     const Eigen::VectorXd values = space.shell_values(place.xi);
     const int* nodes = space.shell_nodes(place.cell);
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(6, motions.cols());
     for (int i = 0; i < space.nodes_per_shell(); ++i)
       moved += values[i] * motions.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
-    const Vector3 arm = places.col(p) - space.place(place.cell, place.xi);
+    const Vector3 arm = points.col(p) - space.place(place.cell, place.xi);
     for (Eigen::Index k = 0; k < motions.cols(); ++k)
       result.block<3, 1>(3 * p, k) =
           moved.col(k).head<3>() + Vector3(moved.col(k).tail<3>()).cross(arm);

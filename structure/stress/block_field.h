@@ -39,6 +39,13 @@ Eigen::MatrixXd displacements_at(const ElasticModel& model,
                                  const Eigen::Matrix3Xd& places,
                                  const Vector3& normal = Vector3::Zero());
 
+/// The same of points that stand on plates by rigid arms, from the place that each has there.
+/// @param feet a column a point, as places of displacements_at.
+Eigen::MatrixXd displacements_of_arms(const ElasticModel& model,
+                                      const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                      const Eigen::Matrix3Xd& feet, const Eigen::Matrix3Xd& points,
+                                      const Vector3& normal = Vector3::Zero());
+
 /// Stresses at a place, row a component (xx, yy, zz, xy, yz, zx) in the block's axes, a column for
 /// each of `motions`, Pa. At the height z: membrane + 2 z / t bending, and 3/2 (1 - (2 z / t)^2) of
 /// the mean shear.

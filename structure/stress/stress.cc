@@ -7,6 +7,7 @@
 
 #include "structure/batches.h"
 #include "structure/index.h"
+#include "structure/mesh/solid_lugs.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
@@ -124,7 +125,7 @@ Maxima find_displacements(const Space& space, const Eigen::Ref<const Eigen::Vect
 void fill_in(const MotionStress& recovery, const Mesh& mesh, const Maxima& checked,
              const BySite<Maxima>& at_site, const Maxima& peak, const Maxima& moved,
              LoadCaseResult& result) {
-  // Beams and solids have no squares: their peak counts as a field's.
+  // Beams and solids have no squares: their peak counts as a field's, but not that of lugs.
   const auto by_site = [&](const Extreme& instead, const auto& extreme_of) {
     BySite<Extreme> extremes;
     for (const SquareSite site : square_sites) extremes[site] = extreme_of(at_site[site]);
@@ -134,12 +135,13 @@ void fill_in(const MotionStress& recovery, const Mesh& mesh, const Maxima& check
   result.checked_von_mises = checked.is_empty() ? peak.all() : checked.all();
   result.peak_von_mises = peak.all();
   result.displacement = moved.all();
+  const std::vector<char> is_solid_lug = groups_of_solid_lugs(mesh);
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const Material& material = mesh.materials[mesh.groups[g].material];
+    const Extreme instead = checked.is_empty(g) && is_solid_lug[g] == 0 ? peak.group(g) : Extreme();
     result.groups.push_back({mesh.groups[g].name, material.name, material.yield_stress,
-                             checked.is_empty(g) ? peak.group(g) : checked.group(g),
-                             by_site(checked.is_empty(g) ? peak.group(g) : Extreme(),
-                                     [&](const Maxima& of) { return of.group(g); }),
+                             checked.is_empty(g) ? instead : checked.group(g),
+                             by_site(instead, [&](const Maxima& of) { return of.group(g); }),
                              peak.group(g)});
   }
   for (std::size_t i = 0; i < mesh.lifting_points.size(); ++i) {

@@ -17,6 +17,7 @@
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/files/nastran/writer.h"
+#include "structure/mesh/padeye/padeye_in_block.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/unit_responses.h"
 #include "tests/structure/hull_block.h"
@@ -147,6 +148,60 @@ TEST(LoadCaseDeck, ForcesAtNodesDoWhatTheLoadsDo) {
   const Eigen::VectorXd expected = responses.without_rigid_motion(responses.displacement(load));
   // Small moments stand as pairs of forces.
   EXPECT_LT((found - expected).norm(), 2e-3 * expected.norm());
+}
+
+/// The small block with its first lug as a padeye of solids.
+Mesh box_with_solid_lug(double largest_element) {
+  BlockDescription block = testing::small_block();
+  block.largest_element = largest_element;
+  Mesh mesh = generate_shell_mesh(block);
+  Eigen::Matrix3d R_BP;
+  R_BP << -Vector3::UnitX(), Vector3::UnitZ(), Vector3::UnitY();
+  stand_padeye(
+      mesh,
+      {"L1", {0.12, 0.03, 0.06, 0.057, 0.09, 0.01, 0.25, 0.4, 0.4}, R_BP, block.lugs[0].p_BPin});
+  return mesh;
+}
+
+// What lies within a shell is said by equations, which the reader takes for the same tie.
+TEST(LoadCaseDeck, PlacesWithinShellsAreEquations) {
+  for (const int degree : {1, 2}) {
+    const ElasticModel model(box_with_solid_lug(1), {degree, {}});
+    const UnitResponses responses(model, 1);
+    const LoadCase load = pull(model);
+    const Deck deck = deck_of(responses, load);
+    expect_balance(deck, 1e-12);
+    // Middles of the edges of quadratic shells are nodes of the deck, and arms there rigid links.
+    EXPECT_EQ(deck.mesh.surface_points.empty(), degree == 1);
+    EXPECT_EQ(deck.mesh.rigid_links.empty(), degree == 1);
+    EXPECT_FALSE(deck.mesh.equations.empty());
+    for (MotionEquation equation : deck.mesh.equations)
+      EXPECT_LT(balance(deck.mesh, equation), 1e-12);
+    Deck read = again(deck);
+    for (Material& material : read.mesh.materials) material.yield_stress = 355e6;  // none in a deck
+    const ElasticModel other(read.mesh, {degree, {}});
+    const UnitResponses again_responses(other, 1);
+    Eigen::VectorXd loads = Eigen::VectorXd::Zero(other.freedoms());
+    for (const PointLoad& point : read.load_sets.at(0).point_loads) {
+      const Eigen::Index row =
+          6 * static_cast<Eigen::Index>(other.space().node_of_vertex(point.vertex));
+      loads.segment<3>(row) += point.force;
+      loads.segment<3>(row + 3) += point.moment;
+    }
+    const Eigen::Matrix3Xd found =
+        displacement_against(read.support_sets.at(0).supports, other, again_responses.solve(loads));
+    const Eigen::Matrix3Xd expected =
+        displacement_against(deck.support_sets.at(0).supports, model, responses.displacement(load));
+    double difference = 0, size = 0;
+    for (std::size_t v = 0; v < model.mesh().vertices.size(); ++v) {
+      const auto column = static_cast<Eigen::Index>(v);
+      if (expected.col(column).hasNaN() || found.col(column).hasNaN()) continue;
+      difference += (found.col(column) - expected.col(column)).squaredNorm();
+      size += expected.col(column).squaredNorm();
+    }
+    // Small moments stand as pairs of forces, and a deck's quadratic shells have eight nodes.
+    EXPECT_LT(std::sqrt(difference / size), degree == 1 ? 2e-3 : 0.03);
+  }
 }
 
 #ifdef BLOCKLIFT_CALCULIX
