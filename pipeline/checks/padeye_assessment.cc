@@ -36,7 +36,7 @@ class PadeyeRun {
  public:
   PadeyeRun(const LiftCase& lift_case, const LugModel& lug, int lug_index,
             const PadeyeDesign& design, const UnitResponses& responses)
-      : responses_(responses), lug_(lug_index) {
+      : responses_(responses), lug_(lug_index), is_solid_(lug.is_solid.value) {
     const BlockModel& block = *lift_case.load.model;
     std::vector<std::string> faults;
     result_.lug = lug.name.value;
@@ -111,8 +111,12 @@ class PadeyeRun {
     // Across the lug's own thickness: the pad or a deck may meet it there.
     Vector3 across = result_.placed.R_BP.col(2);
     if (is_on_mesh_ && !goes_on_below(places)) across = result_.placed.R_BP.col(1);
-    base_ =
-        structure::displacements_at(responses_.model(), responses_.displacements(), places, across);
+    // Of a lug of solids no plate has its thickness: they stand on the edge below by rigid arms.
+    Eigen::Matrix3Xd feet = places;
+    for (Eigen::Index i = 0; is_solid_ && i < feet.cols(); ++i)
+      feet.col(i) -= across.dot(feet.col(i) - result_.placed.p_BP) * across;
+    base_ = structure::displacements_of_arms(responses_.model(), responses_.displacements(), feet,
+                                             places, across);
   }
 
   // The material of the plate below the pin, as a place in Mesh::materials.
@@ -152,6 +156,7 @@ class PadeyeRun {
 
   const UnitResponses& responses_;
   int lug_;
+  bool is_solid_ = false;
   bool is_on_mesh_ = false;
   Eigen::MatrixXd base_;
   PadeyeAssessment result_;

@@ -10,6 +10,7 @@
 #include "pipeline/build/describe_block.h"
 #include "pipeline/files/structure/deck_supports.h"
 #include "structure/error.h"
+#include "structure/mesh/padeye/padeye_in_block.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/practice/hot_spot.h"
 #include "structure/response/line_loads.h"
@@ -63,6 +64,25 @@ bool check_edges(const BlockModel& block, const structure::Space& space, Diagnos
   return beside_plates;
 }
 
+/// Puts padeyes of solids where lugs ask for them; complains about those that have no room.
+bool stand_padeyes(const BlockModel& block, structure::Mesh& mesh, Diagnostics& diagnostics) {
+  bool all_stand = true;
+  for (const LugModel& lug : block.lugs) {
+    if (!lug.is_solid.value) continue;
+    std::vector<std::string> faults;  // none: looked for when the file was read
+    const PlacedPadeye placed = *place_padeye(*block.find_padeye(lug), block, lug, faults);
+    try {
+      structure::stand_padeye(mesh, {lug.name.value, placed.geometry, placed.R_BP, placed.p_BP});
+    } catch (const structure::ModelError& error) {
+      all_stand = false;
+      diagnostics.error(lug.is_solid.mark, error.what(),
+                        {"a solid padeye stands on the free edge of a plate, or of a plate that "
+                         "others cross there, by its base alone; as: shells takes any lug"});
+    }
+  }
+  return all_stand;
+}
+
 }  // namespace
 
 std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
@@ -78,11 +98,13 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
       const double largest = settings.largest_element;
       return {settings.element_degree, [largest](const structure::Vector3&) { return largest; }};
     }();
-    auto model = std::make_unique<structure::ElasticModel>(
+    structure::Mesh mesh =
         block.mesh
             ? block.mesh->deck->mesh
-            : structure::generate_shell_mesh(describe_block(block, name, settings.largest_element)),
-        resolution, stated(block.mass), stated(block.centre_of_mass));
+            : structure::generate_shell_mesh(describe_block(block, name, settings.largest_element));
+    if (!stand_padeyes(block, mesh, diagnostics)) return nullptr;
+    auto model = std::make_unique<structure::ElasticModel>(
+        std::move(mesh), resolution, stated(block.mass), stated(block.centre_of_mass));
     const bool edges_are_sound = check_edges(block, model->space(), diagnostics);
     const bool spots_are_sound = check_hot_spots(settings, model->space(), diagnostics);
     return edges_are_sound && spots_are_sound ? std::move(model) : nullptr;

@@ -280,6 +280,13 @@ std::string displacement_sentence(const LiftRun& lift) {
       lift.elastic_displacement->time);
 }
 
+std::string names_of_solid_lugs(const BlockModel& block) {
+  std::string names;
+  for (const LugModel& lug : block.lugs)
+    if (lug.is_solid.value) names += (names.empty() ? "" : ", ") + lug.name.value;
+  return names;
+}
+
 std::string deck_sentence(const MeshModel& mesh) {
   std::string left_out;
   for (const structure::LedgerEntry& entry : unused_cards(mesh))
@@ -341,6 +348,13 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
   list.emplace_back(
       "In the block each rope's force is spread over its lug plate; contact of the pin and welds "
       "are not part of it.");
+  if (const std::string lugs = names_of_solid_lugs(*assessment.lift_case.load.model); !lugs.empty())
+    list.push_back(fmt::format(
+        "Solids in the block are the padeyes of {}: they stand on the pad's edge, whose "
+        "displacement and rotation their base follows with plane cross-sections, and the force is "
+        "spread over the whole bore. Their elements are not divided where plates' are; their "
+        "strength is that of the padeyes' own fine meshes and formulae.",
+        lugs));
   if (const auto& mesh = assessment.lift_case.load.model->mesh)
     list.push_back(deck_sentence(*mesh));
   const BlockRun& block = assessment.block;

@@ -439,8 +439,11 @@ void check_lug(const BlockModel& block, const LugModel& lug, Reading& reading) {
 }
 
 void check_padeye(const BlockModel& block, const LugModel& lug, Reading& reading) {
-  if (!lug.padeye) return;
   const std::string user = "lug " + lug.name.value;
+  if (lug.is_solid.value && !lug.padeye)
+    reading.error(lug.is_solid.mark, user + " is to be a solid and names no padeye",
+                  {"padeye: NAME, one of the block's padeyes, says how it is made"});
+  if (!lug.padeye) return;
   const PadeyeDesign* design = look_up(*lug.padeye, block.padeyes, user, "padeye", reading);
   if (!design || !std::isfinite(design->radius + design->thickness + design->hole + design->pin))
     return;

@@ -462,6 +462,10 @@ Table<Written<LugModel>>& lug_keys(Table<Written<LugModel>>& table, const Axes& 
       .optional("padeye", &LugModel::padeye, reference(),
                 "one of the block's padeyes: what the lug is made as, checked by hand formulae and "
                 "by a fine mesh")
+      .by_default("as", &LugModel::is_solid,
+                  located(choice<bool>({{"shells", false}, {"solid", true}})), "shells",
+                  "what the model has of it: its plate as shells, or its padeye as a solid that "
+                  "stands on the pad's edge")
       .rule([of_normal](const Written<LugModel>& lug, Reading& reading, const Mark& mark) {
         check_rectangle(lug, of_normal, reading, mark);
       });

@@ -118,6 +118,8 @@ struct LugModel : Rectangle {
   Located<Vector3> pin{Vector3::Constant(std::numeric_limits<double>::quiet_NaN()), {}};
   Vector3 pin_in_plate = Vector3::Zero();      ///< (u, v, n) where the lug is in a plate's frame, m
   std::optional<Located<std::string>> padeye;  ///< that it is made as
+  /// Its padeye stands in the block's mesh as a solid, in place of the lug plate's shells.
+  Located<bool> is_solid{false, {}};
   // On a mesh.
   std::optional<Located<int>> node;         ///< the number of the node that it stands at
   std::optional<Located<std::string>> set;  ///< of plates, bars or nodes that carry it

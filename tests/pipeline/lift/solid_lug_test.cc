@@ -1,0 +1,243 @@
+// Lugs of a block that are solids, from their keys to the figures of a lift.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/assessment/assess.h"
+#include "pipeline/files/library/model_library.h"
+#include "pipeline/lift/block_preparation.h"
+#include "pipeline/results/assumptions.h"
+#include "tests/pipeline/small_lift.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct SolidLugBlock {
+  std::shared_ptr<const BlockModel> block;
+  std::string complaints;  ///< of its file and, without any, of its mesh
+};
+
+SolidLugBlock block_of(const std::string& text) {
+  const test::TemporaryFolder folder;
+  folder.write("block.yaml", text);
+  ModelLibrary library({});
+  Diagnostics diagnostics;
+  SolidLugBlock result;
+  result.block = library.read_block("block.yaml", diagnostics);
+  if (!diagnostics.has_errors()) check_block_model(*result.block, "block", diagnostics);
+  result.complaints = diagnostics.to_text();
+  return result;
+}
+
+/// The block of the small lift after a change of its file.
+std::string small_box_with(const std::string& old_text, const std::string& new_text) {
+  std::ifstream file(fs::path(BLOCKLIFT_SMALL_LIFT) / "block.yaml");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto place = text.find(old_text);
+  EXPECT_NE(place, std::string::npos) << old_text;
+  return text.replace(place, old_text.size(), new_text);
+}
+
+const char* const padeye_of_first = "padeye: small}";
+
+std::string small_box_with_solid(const std::string& more = {}) {
+  return small_box_with(padeye_of_first, "padeye: small, as: solid}") + more;
+}
+
+TEST(SolidLug, IsAskedForByAKey) {
+  const SolidLugBlock read = block_of(small_box_with_solid());
+  ASSERT_EQ(read.complaints, "");
+  EXPECT_TRUE(read.block->lugs[0].is_solid.value);
+  EXPECT_FALSE(read.block->lugs[1].is_solid.value);
+  Diagnostics diagnostics;
+  const auto model =
+      make_block_model(*read.block, "box", test::read_small_lift().structure, diagnostics);
+  ASSERT_TRUE(model) << diagnostics.to_text();
+  const structure::Mesh& mesh = model->mesh();
+  EXPECT_FALSE(mesh.solids.empty());
+  EXPECT_GE(mesh.lifting_points[0].vertex, 0);
+  EXPECT_EQ(mesh.lifting_points[1].vertex, -1);
+  EXPECT_TRUE(std::all_of(mesh.solids.begin(), mesh.solids.end(), [&](const auto& solid) {
+    return solid.region == mesh.lifting_points[0].region;
+  }));
+  EXPECT_NEAR(model->mass_properties().mass, 8000, 1e-6);
+  const SolidLugBlock shells =
+      block_of(small_box_with(padeye_of_first, "padeye: small, as: shells}"));
+  EXPECT_EQ(shells.complaints, "");
+  EXPECT_FALSE(shells.block->lugs[0].is_solid.value);
+}
+
+TEST(SolidLug, IsCopiedAndMirrored) {
+  const std::string half =
+      "kind: block\n"
+      "materials: {S: {youngs_modulus: 206 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3, "
+      "yield_stress: 355 MPa}}\n"
+      "plates:\n"
+      "  deck: {normal: z, at: 2 m, x: [0 m, 4 m], y: [-3 m, 3 m], thickness: 12 mm}\n"
+      "  web: {normal: x, at: 1 m, y: [0 m, 3 m], z: [0 m, 2 m], thickness: 12 mm}\n"
+      "pads: {P: {plate: web, normal: x, at: 1 m, y: [1 m, 3 m], z: [1 m, 2 m], thickness: 35 "
+      "mm}}\n"
+      "padeyes: {small: {radius: 120 mm, thickness: 30 mm, hole: 60 mm, pin: 57 mm}}\n"
+      "lugs: {L: {pad: P, normal: x, at: 1 m, y: [2 m, 2.7 m], z: [2 m, 2.4 m], thickness: 35 mm, "
+      "pin: [1 m, 2.3 m, 2.25 m], padeye: small, as: solid}}\n"
+      "repeat:\n  - {parts: [web, P, L], count: 1, step: [2 m, 0 m, 0 m]}\n"
+      "mirror:\n  - {parts: [web, P, L], normal: y, at: 0 m}\n";
+  const SolidLugBlock read = block_of(half);
+  ASSERT_EQ(read.complaints, "");
+  Diagnostics diagnostics;
+  StructureSettings settings;
+  settings.element_degree = 2;
+  settings.largest_element = 1;
+  const auto model = make_block_model(*read.block, "block", settings, diagnostics);
+  ASSERT_TRUE(model) << diagnostics.to_text();
+  ASSERT_EQ(model->lug_count(), 4);
+  EXPECT_EQ(model->mesh().distributing_links.size(), 4U);
+  for (const structure::LiftingPoint& point : model->mesh().lifting_points)
+    EXPECT_LT((model->mesh().vertices[point.vertex] - point.p_BPin).norm(), 1e-12);
+  // Mirror images move alike under forces across the deck.
+  const structure::UnitResponses responses(*model);
+  std::vector<double> moved;
+  for (int lug = 0; lug < 4; ++lug)
+    moved.push_back(
+        model->lug_loads()
+            .col(3 * lug + 2)
+            .dot(responses.without_rigid_motion(responses.displacements().col(3 * lug + 2))));
+  std::sort(moved.begin(), moved.end());
+  EXPECT_NEAR(moved[1], moved[0], 1e-3 * moved[0]);
+  EXPECT_NEAR(moved[3], moved[2], 1e-3 * moved[2]);
+}
+
+/// A plate by its corners, 2 m along u and 1.5 m along v, with a lug in its own plane.
+std::string slope_with_lug(const std::string& pad, const std::string& lug) {
+  return "kind: block\n"
+         "materials: {S: {youngs_modulus: 206 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3, "
+         "yield_stress: 355 MPa}}\n"
+         "plates:\n"
+         "  slope: {corners: [[0 m, 0 m, 0 m], [2 m, 0 m, 0 m], [2 m, 1.2 m, 0.9 m], "
+         "[0 m, 1.2 m, 0.9 m]], thickness: 12 mm}\n"
+         "  floor: {normal: z, at: 0 m, x: [0 m, 2 m], y: [0 m, 1.2 m], thickness: 12 mm}\n"
+         "pads: {P: {plate: slope, u: [0.6 m, 1.4 m], v: " +
+         pad +
+         ", thickness: 30 mm}}\n"
+         "padeyes: {small: {radius: 120 mm, thickness: 30 mm, hole: 60 mm, pin: 57 mm}}\n"
+         "lugs: {L1: {pad: P, normal: n, at: 0 m, u: [0.7 m, 1.3 m], v: " +
+         lug + ", padeye: small, as: solid}}\n";
+}
+
+TEST(SolidLug, StandsOnPlatesOfAnyOrientation) {
+  const SolidLugBlock read = block_of(slope_with_lug(
+      "[0.9 m, 1.5 m]", "[1.5 m, 1.9 m], thickness: 30 mm, pin: [1 m, 1.75 m, 0 m]"));
+  ASSERT_EQ(read.complaints, "");
+  Diagnostics diagnostics;
+  StructureSettings settings;
+  settings.element_degree = 2;
+  settings.largest_element = 0.5;
+  const auto model = make_block_model(*read.block, "block", settings, diagnostics);
+  ASSERT_TRUE(model) << diagnostics.to_text();
+  const structure::LiftingPoint& point = model->mesh().lifting_points[0];
+  const Vector3 pin(1, 1.75 * 0.8, 1.75 * 0.6);
+  EXPECT_LT((point.p_BPin - pin).norm(), 1e-9);
+  EXPECT_LT((model->mesh().vertices[point.vertex] - pin).norm(), 1e-9);
+  const structure::UnitResponses responses(*model);
+  structure::LoadCase load;
+  load.lug_forces_B = {Vector3(1, 2, 3)};
+  load.field = structure::balancing_field(model->mass_properties(),
+                                          {load.lug_forces_B[0], pin.cross(load.lug_forces_B[0])});
+  EXPECT_LT(responses.balance(load).reaction_over_weight, 1e-8);
+}
+
+TEST(SolidLug, WhatCannotBeOneIsSaidWithFileLineAndKey) {
+  const auto say = [](const std::string& text, const std::string& wanted) {
+    const std::string complaints = block_of(text).complaints;
+    EXPECT_THAT(complaints, ::testing::StartsWith("block.yaml:"));
+    EXPECT_THAT(complaints, HasSubstr(wanted));
+  };
+  say(small_box_with("pin: [3.6 m, 0 m, 2.25 m]}", "pin: [3.6 m, 0 m, 2.25 m], as: solid}"),
+      "error: lug L2 is to be a solid and names no padeye");
+  say(small_box_with(padeye_of_first, "padeye: small, as: solids}"), "did you mean \"solid\"?");
+  say(small_box_with(padeye_of_first, "padeye: large, as: solid}"),
+      "lug L1 names padeye \"large\", which the block does not have");
+  say(small_box_with("z: [2 m, 2.4 m], thickness: 35 mm, pin: [0.4 m, 0 m, 2.25 m], padeye: small",
+                     "z: [1.5 m, 1.9 m], thickness: 35 mm, pin: [0.4 m, 0 m, 1.7 m], padeye: "
+                     "small, as: solid"),
+      "lug L1 cannot be made as padeye small: it lies within its pad pad_1");
+  const std::string braced = small_box_with(
+      "plates:\n",
+      "plates:\n  bracket: {normal: x, at: 0.4 m, y: [0 m, 0.4 m], z: [2 m, 2.3 m], thickness: 12 "
+      "mm}\n");
+  const auto with_key = [](std::string text) {
+    const std::string old_text = padeye_of_first;
+    return text.replace(text.find(old_text), old_text.size(), "padeye: small, as: solid}");
+  };
+  EXPECT_EQ(block_of(braced).complaints, "");
+  say(with_key(braced), "error: lug L1 cannot be a solid: bracket at x = 0.4 m");
+  say(with_key(braced), "as: shells takes any lug");
+  // In the midst of its plate a lug is no padeye.
+  say(slope_with_lug("[0.5 m, 0.9 m]", "[0.9 m, 1.3 m], thickness: 30 mm, pin: [1 m, 1.15 m, 0 m]"),
+      "lug L1 cannot be a solid: slope is joined to its plate");
+}
+
+/// The small lift with its first lug as a solid or as shells.
+Assessment lift_of(const std::string& block, Flexibility flexibility) {
+  LiftCase lift_case = test::read_small_lift();
+  const SolidLugBlock read = block_of(block);
+  EXPECT_EQ(read.complaints, "");
+  lift_case.load.model = read.block;
+  lift_case.dynamics.flexibility = flexibility;
+  return assess(std::move(lift_case), [](const std::string&, double, const std::string&) {});
+}
+
+double largest_of_padeye(const Assessment& assessment) {
+  const PadeyeState& state = assessment.block.padeyes.padeyes.at(0).governing_state();
+  return std::max(state.result.main_plate.checked_von_mises.value,
+                  state.result.cheeks.checked_von_mises.value);
+}
+
+// A rigid block moves as with shells, since mass and centre are stated but for the inertia of the
+// outfitting that makes up for the lug: its figures are close, and so are those of the fine padeye
+// that the block drives along the same base.
+TEST(SolidLug, ALiftHasNearlyTheFiguresThatShellsGive) {
+  const Assessment solid = lift_of(small_box_with_solid(), Flexibility::rigid),
+                   shells = lift_of(small_box_with(padeye_of_first, padeye_of_first),
+                                    Flexibility::rigid);
+  const auto& ours = solid.block.history->dynamic_state;
+  const auto& theirs = shells.block.history->dynamic_state;
+  EXPECT_NEAR(ours.checked_von_mises.at.value, theirs.checked_von_mises.at.value,
+              0.05 * theirs.checked_von_mises.at.value);
+  EXPECT_NEAR(largest_of_padeye(solid), largest_of_padeye(shells),
+              0.05 * largest_of_padeye(shells));
+  EXPECT_LT(ours.largest_force_residual, largest_balance_residual);
+  EXPECT_EQ(solid.checks.size(), shells.checks.size());
+  EXPECT_GT(solid.block.accuracy.steps.size(), 1U);  // shells were divided with the tie in place
+  EXPECT_GT(solid.block.error.relative, 0);
+  EXPECT_LT(solid.block.error.relative, 1);
+  EXPECT_THAT(list_assumptions(solid),
+              Contains(HasSubstr("Solids in the block are the padeyes of L1: they stand")));
+  EXPECT_THAT(list_assumptions(shells), Not(Contains(HasSubstr("Solids in the block"))));
+}
+
+TEST(SolidLug, RopesFeelItGiveWay) {
+  for (const Flexibility flexibility : {Flexibility::static_, Flexibility::modal}) {
+    const Assessment lift = lift_of(small_box_with_solid(), flexibility);
+    ASSERT_TRUE(lift.lift->elastic_displacement);
+    EXPECT_GT(lift.lift->elastic_displacement->size, 0);
+    EXPECT_LT(lift.lift->elastic_displacement->size, 0.05);
+    EXPECT_LT(lift.block.history->dynamic_state.largest_force_residual, largest_balance_residual);
+  }
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
