@@ -277,7 +277,7 @@ std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment&
       for (const HistoryState* state : {&history->static_state, &history->dynamic_state})
         for (const HistoryGroup& group : state->groups) {
           const HistoryExtreme& found = site ? group.at_site[*site] : group.checked_von_mises;
-          if (!site || found.at.instant >= 0)
+          if (found.at.instant >= 0)
             consider(group.material, group.yield_stress, found.at.value, found.time, found.at.part,
                      site);
         }
@@ -286,7 +286,7 @@ std::vector<Check> check_block(const LiftCase& lift_case, const BlockAssessment&
       for (const BlockState* state : {&way.static_state, &way.dynamic_state})
         for (const structure::GroupStress& group : state->result.groups) {
           const structure::Extreme& found = site ? group.at_site[*site] : group.checked_von_mises;
-          if (!site || !found.part.empty())
+          if (!found.part.empty())
             consider(group.material, group.yield_stress, found.value, state->time, found.part,
                      site);
         }
