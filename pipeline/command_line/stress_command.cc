@@ -19,6 +19,7 @@
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
 #include "structure/stress_tensor.h"
+#include "structure/system/shared_factor.h"
 
 namespace blocklift::pipeline {
 
@@ -243,12 +244,20 @@ int stress_of(const StressOptions& options, structure::PartTeam* team) {
 }  // namespace
 
 int stress(const StressOptions& options) {
-  if (kind_of_file(options.part) == FileKind::block) return stress_of_deck(options);
-  if (structure::ProcessGroup::launched() == 1) return stress_of(options, nullptr);
+  const bool is_block = kind_of_file(options.part) == FileKind::block;
+  if (structure::ProcessGroup::launched() == 1)
+    return is_block ? stress_of_deck(options) : stress_of(options, nullptr);
   const structure::ProcessGroup& group = structure::ProcessGroup::of_this_run();
   if (!group.leads()) {
-    structure::follow_part_team(group);
+    if (is_block)
+      structure::follow_factor_team(group);
+    else
+      structure::follow_part_team(group);
     return exit_code::done;
+  }
+  if (is_block) {
+    const structure::FactorTeam team(group);
+    return stress_of_deck(options);
   }
   structure::PartTeam team(group);
   return stress_of(options, &team);

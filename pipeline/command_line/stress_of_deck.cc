@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/terminal/text_table.h"
+#include "structure/process_group.h"
 
 namespace blocklift::pipeline {
 
@@ -116,6 +117,8 @@ void print_deck_cases(const DeckAssessment& assessment) {
              deck.mesh.shells.size(), deck.mesh.beams.size(), deck.mesh.solids.size(),
              assessment.block->mesh->file.value, model.space().degree(), model.space().unknowns(),
              assessment.mass());
+  if (const int processes = structure::ProcessGroup::launched(); processes > 1)
+    fmt::print("factorised on {} processes\n", processes);
   print_titles(assessment);
   print_stresses(assessment);
   print_forces(assessment);

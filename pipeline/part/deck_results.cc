@@ -13,6 +13,7 @@
 #include "pipeline/results/result_file.h"
 #include "pipeline/version.h"
 #include "structure/output/vtu.h"
+#include "structure/process_group.h"
 
 namespace blocklift::pipeline {
 
@@ -90,6 +91,7 @@ Json make_summary(const DeckAssessment& assessment) {
                {"solids", deck.mesh.solids.size()},
                {"element_degree", model.space().degree()},
                {"unknowns", model.space().unknowns()},
+               {"processes", structure::ProcessGroup::launched()},
                {"mass_kg", assessment.mass()}};
   if (!assessment.is_massless)
     summary["centre_of_mass_m"] = triple_of(model.mass_properties().centre_of_mass_B);

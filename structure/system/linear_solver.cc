@@ -1,72 +1,25 @@
 #include "structure/system/linear_solver.h"
 
-#include <SuiteSparse_config.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <Eigen/CholmodSupport>
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/large_pages.h"
 #include "structure/limits.h"
+#include "structure/system/cholesky_factor.h"
+#include "structure/system/shared_factor.h"
 
 namespace blocklift::structure {
 
-namespace {
-
-void* allocate_in_large_pages(std::size_t bytes) {
-  void* const memory = std::malloc(bytes);
-  prefer_large_pages(memory, bytes);
-  return memory;
-}
-
-/// The factor is the largest there is of a block.
-void let_cholmod_use_large_pages() {
-  static const bool once = [] {
-    SuiteSparse_config.malloc_func = allocate_in_large_pages;
-    return true;
-  }();
-  static_cast<void>(once);
-}
-
-}  // namespace
-
-struct ConstrainedSystem::Factor : public Eigen::CholmodSupernodalLLT<SparseLower, Eigen::Lower> {
-  Factor() {
-    let_cholmod_use_large_pages();
-    cholmod().nmethods = 1;
-    cholmod().method[0].ordering = CHOLMOD_NATURAL;
-    cholmod().postorder = 0;  // the unknowns come in postorder already
-    cholmod().print = 0;
-  }
-  /// Eigen does not ask whether CHOLMOD found the memory for its analysis.
-  bool is_analysed() const { return m_cholmodFactor != nullptr; }
-  bool is_short_of_memory() { return cholmod().status == CHOLMOD_OUT_OF_MEMORY; }
-  double bytes() const {
-    return 8.0 * static_cast<double>(m_cholmodFactor->xsize) +
-           8.0 * static_cast<double>(m_cholmodFactor->ssize);
-  }
-  /// The column at which the matrix ceased to be positive definite; the number of columns if none.
-  Eigen::Index first_failure() const { return static_cast<Eigen::Index>(m_cholmodFactor->minor); }
-  /// Diagonal of L. Source: CHOLMOD's user guide, the supernodal factor.
-  Eigen::VectorXd diagonal() const {
-    const cholmod_factor& factor = *m_cholmodFactor;
-    Eigen::VectorXd values(static_cast<Eigen::Index>(factor.n));
-    const auto* super = static_cast<const long*>(factor.super);
-    const auto* rows = static_cast<const long*>(factor.pi);
-    const auto* start = static_cast<const long*>(factor.px);
-    const auto* entries = static_cast<const double*>(factor.x);
-    for (std::size_t s = 0; s < factor.nsuper; ++s)
-      for (long column = super[s]; column < super[s + 1]; ++column)
-        values[column] = entries[start[s] + (column - super[s]) * (rows[s + 1] - rows[s] + 1)];
-    return values;
-  }
+struct ConstrainedSystem::Factor {
+  std::optional<CholeskyFactor> own;
+  std::optional<SharedFactor> shared;  ///< where a team of processes is there
+  Eigen::VectorXd held;                ///< diagonal of the stiffness
 };
 
 double available_memory() {
@@ -81,12 +34,13 @@ ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedU
     : fixed_(std::move(fixed)), factor_(new Factor) {
   stiffness_.swap(stiffness);  // Eigen's sparse matrices do not move, they copy
   separate_fixed();
-  factor_->analyzePattern(stiffness_);
-  if (!factor_->is_analysed())
-    throw NotEnoughMemory(
-        fmt::format("the memory did not suffice to analyse the stiffness matrix of {} unknowns for "
-                    "its factorisation",
-                    stiffness_.rows()));
+  factor_->held = stiffness_.diagonal();
+  if (const FactorTeam* team = FactorTeam::present()) {
+    factor_->shared.emplace(*team, stiffness_);
+    SparseLower().swap(stiffness_);  // each process has its part
+    return;
+  }
+  factor_->own.emplace(stiffness_);
   const double needed = 1.3 * factor_bytes(), available = available_memory();
   if (needed > available)
     throw NotEnoughMemory(fmt::format(
@@ -97,7 +51,9 @@ ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedU
 
 ConstrainedSystem::~ConstrainedSystem() = default;
 
-double ConstrainedSystem::factor_bytes() const { return factor_->bytes(); }
+double ConstrainedSystem::factor_bytes() const {
+  return factor_->shared ? factor_->shared->bytes() : factor_->own->bytes();
+}
 
 // Keeps the rows of fixed unknowns aside, empties them in the matrix and leaves their diagonal.
 void ConstrainedSystem::separate_fixed() {
@@ -138,23 +94,8 @@ void ConstrainedSystem::separate_fixed() {
 }
 
 void ConstrainedSystem::factorise() {
-  const Eigen::VectorXd stiffness = stiffness_.diagonal();
-  factor_->factorize(stiffness_);
-  if (factor_->is_short_of_memory())
-    throw NotEnoughMemory(fmt::format(
-        "the memory did not suffice to factorise the stiffness matrix of {} unknowns; use larger "
-        "elements or a lower element degree",
-        stiffness_.rows()));
-  const char* const loose =
-      "the stiffness matrix is not positive definite: the supports leave a part free to move";
-  if (factor_->info() != Eigen::Success)
-    throw LooseUnknown(loose, static_cast<int>(factor_->first_failure()));
-  // What is left of an unknown's stiffness where nothing resists it: rounding, some tens of the
-  // unit of it. Slender blocks leave 1e-9 and more.
-  constexpr double rounding = 1e-14;
-  Eigen::Index least = 0;
-  const double left = (factor_->diagonal().array().square() / stiffness.array()).minCoeff(&least);
-  if (!(left > rounding)) throw LooseUnknown(loose, static_cast<int>(least));
+  if (factor_->shared) return factor_->shared->factorise(factor_->held);
+  factor_->own->factorise(stiffness_, factor_->held);
   SparseLower().swap(stiffness_);
 }
 
@@ -169,10 +110,8 @@ Eigen::MatrixXd ConstrainedSystem::solve(Eigen::MatrixXd loads,
                                          const Eigen::MatrixXd& given) const {
   if (!given.isZero(0)) loads -= fixed_rows_.transpose() * given;
   for (const FixedUnknown& fixed : fixed_) loads.row(fixed.unknown).setZero();
-  Eigen::MatrixXd displacements = factor_->solve(loads);
-  if (factor_->info() != Eigen::Success)
-    throw NotEnoughMemory(
-        fmt::format("the memory did not suffice to solve for {} loads", loads.cols()));
+  Eigen::MatrixXd displacements =
+      factor_->shared ? factor_->shared->solve(loads) : factor_->own->solve(std::move(loads));
   for (std::size_t i = 0; i < fixed_.size(); ++i)
     displacements.row(fixed_[i].unknown) = given.row(i);
   return displacements;

@@ -4,6 +4,7 @@
 #include <regex>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -115,6 +116,94 @@ TEST_F(ParallelStress, OtherCommandsAreRefused) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err,
               HasSubstr("only \"blocklift stress\" and \"blocklift sweep\" run on several"));
+}
+
+/// A plate of 4 x 2 m and 12 mm in 16 x 8 shells, clamped along x = 0, with an upright plate along
+/// its middle; its free edge follows a node rigidly, which carries 3 kN down. Nodes along y, then x.
+std::string cantilever_deck() {
+  std::string grids, shells, link = "RBE2,900,999,123456";
+  const auto label = [](int i, int j) { return 1 + 20 * i + j; };
+  for (int i = 0; i <= 16; ++i) {
+    for (int j = 0; j <= 8; ++j)
+      grids += fmt::format("GRID,{},,{}.,{}.,0.\n", label(i, j), 250 * i, 250 * j);
+    grids += fmt::format("GRID,{},,{}.,1000.,300.\n", label(i, 9), 250 * i);
+  }
+  for (int i = 0; i < 16; ++i) {
+    for (int j = 0; j < 8; ++j)
+      shells += fmt::format("CQUAD4,{},1,{},{},{},{}\n", label(i, j), label(i, j), label(i + 1, j),
+                            label(i + 1, j + 1), label(i, j + 1));
+    shells += fmt::format("CQUAD4,{},1,{},{},{},{}\n", label(i, 9), label(i, 4), label(i + 1, 4),
+                          label(i + 1, 9), label(i, 9));
+  }
+  for (const int j : {0, 4, 8}) link += fmt::format(",{}", label(16, j));
+  return "SOL 101\nCEND\nSUBCASE 1\n  SPC = 1\n  LOAD = 2\nSUBCASE 2\n  SPC = 1\n  LOAD = 3\n"
+         "BEGIN BULK\n" +
+         grids + "GRID,999,,4500.,1000.,0.\n" + shells + link +
+         "\nPSHELL,1,1,12.,1,,1\nMAT1,1,206000.,,0.3,7.85-9\nSPC1,1,123456,1,THRU,10\n"
+         "FORCE,2,999,,3000.,0.,0.,-1.\nPLOAD4,3,1,-0.001\nENDDATA\n";
+}
+
+class ParallelStressOfBlock : public ::testing::Test {
+ protected:
+  ParallelStressOfBlock() {
+    folder_.write("plate.bdf", cantilever_deck());
+    folder_.write("plate.yaml",
+                  "kind: block\ntitle: Plate\n"
+                  "mesh: {file: plate.bdf, units: mm-t-N, yield_stress: 235 MPa}\n");
+  }
+  const TemporaryFolder folder_;
+};
+
+// The same equations, eliminated in another order: what differs is rounding, times the condition of
+// a thin plate.
+TEST_F(ParallelStressOfBlock, TwoAndThreeProcessesFindTheSame) {
+  constexpr double tolerance = 1e-8;
+  const json alone =
+      summary_of(test::run_blocklift("stress plate.yaml --degree 3 -o alone"), "alone");
+  ASSERT_EQ(alone["cases"].size(), 2U);
+  for (const int processes : {2, 3}) {
+    const Outcome outcome =
+        stress_on_processes(processes, "stress plate.yaml --degree 3 -o others");
+    const json others = summary_of(outcome, "others");
+    EXPECT_THAT(outcome.out, HasSubstr(fmt::format("factorised on {} processes", processes)));
+    EXPECT_EQ(others["processes"], processes);
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto expect_near = [&](const json& one, const json& two) {
+        EXPECT_NEAR(one.get<double>(), two.get<double>(), tolerance * std::abs(one.get<double>()));
+      };
+      const json &one = alone["cases"][c], &two = others["cases"][c];
+      expect_near(one["strain_energy_J"], two["strain_energy_J"]);
+      expect_near(one["estimated_error"], two["estimated_error"]);
+      expect_near(one["max_displacement"]["value_m"], two["max_displacement"]["value_m"]);
+      expect_near(one["checked_von_mises"]["value_Pa"], two["checked_von_mises"]["value_Pa"]);
+      expect_near(one["reactions"]["force_N"][2], two["reactions"]["force_N"][2]);
+      expect_near(one["reactions"]["moment_about_origin_N_m"][1],
+                  two["reactions"]["moment_about_origin_N_m"][1]);
+      EXPECT_LT(two["force_residual"], 1e-8);
+    }
+  }
+}
+
+TEST_F(ParallelStressOfBlock, WhatSupportsLeaveFreeEndsAllProcesses) {
+  std::string deck = text_of_file("plate.bdf");
+  const std::string clamped = "SPC1,1,123456,1,THRU,10";
+  folder_.write("plate.bdf",
+                deck.replace(deck.find(clamped), clamped.size(), "SPC1,1,13,1,THRU,10"));
+  const Outcome outcome = stress_on_processes(2, "stress plate.yaml -o others");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("the supports of case 1 leave a part free to move"));
+  EXPECT_FALSE(fs::exists("others"));
+}
+
+TEST_F(ParallelStressOfBlock, ErrorsOfItsFileAreSaidOnce) {
+  folder_.write("plate.yaml", "kind: block\ntitle: Plate\nmesh: {file: none.bdf, units: mm-t-N}\n");
+  const Outcome outcome = stress_on_processes(2, "stress plate.yaml -o others");
+  EXPECT_EQ(outcome.exit_code, 2);
+  const std::size_t first = outcome.err.find("none.bdf");
+  ASSERT_NE(first, std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("plate.yaml:3", outcome.err.find("plate.yaml:3") + 1),
+            std::string::npos)
+      << outcome.err;
 }
 
 }  // namespace

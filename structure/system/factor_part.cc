@@ -1,0 +1,102 @@
+#include "structure/system/factor_part.h"
+
+#include <algorithm>
+#include <utility>
+
+// By its fixed interface in Fortran.
+extern "C" void dsyrk_(const char* triangle, const char* transposed, const int* size,
+                       const int* columns, const double* alpha, const double* a, const int* lda,
+                       const double* beta, double* c, const int* ldc);
+
+namespace blocklift::structure {
+
+namespace {
+
+/// Lower triangle of L L'.
+Eigen::MatrixXd square_of(const Eigen::MatrixXd& lower) {
+  const auto size = static_cast<int>(lower.cols());
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(size, size);
+  constexpr int block = 256;
+  for (int first = 0; first < size; first += block) {
+    const int columns = std::min(block, size - first), rows = size - first;
+    const double one = 1;
+    dsyrk_("L", "N", &rows, &columns, &one, &lower(first, first), &size, &one,
+           &square(first, first), &size);
+  }
+  return square;
+}
+
+}  // namespace
+
+void PartOfMatrix::put_into(Packet& packet) const {
+  const auto put = [&](const auto* values, long count) {
+    packet.put(std::vector(values, values + count));
+  };
+  packet.put(inner);
+  put(matrix.outerIndexPtr(), matrix.cols() + 1);
+  put(matrix.innerIndexPtr(), matrix.nonZeros());
+  put(matrix.valuePtr(), matrix.nonZeros());
+}
+
+PartOfMatrix PartOfMatrix::from(Packet& packet) {
+  PartOfMatrix part;
+  std::vector<long> starts, rows;
+  std::vector<double> values;
+  packet.take(part.inner);
+  packet.take(starts);
+  packet.take(rows);
+  packet.take(values);
+  const long size = static_cast<long>(starts.size()) - 1;
+  part.matrix.resize(size, size);
+  part.matrix.resizeNonZeros(static_cast<long>(rows.size()));
+  std::copy(starts.begin(), starts.end(), part.matrix.outerIndexPtr());
+  std::copy(rows.begin(), rows.end(), part.matrix.innerIndexPtr());
+  std::copy(values.begin(), values.end(), part.matrix.valuePtr());
+  return part;
+}
+
+FactorPart::FactorPart(PartOfMatrix part) {
+  part_.inner = part.inner;
+  part_.matrix.swap(part.matrix);
+  if (part_.inner > 0) factor_ = std::make_unique<CholeskyFactor>(part_.matrix);
+}
+
+double FactorPart::bytes() const {
+  const double boundary = part_.boundary();
+  return (factor_ ? factor_->bytes() : 0) + 3 * 8 * boundary * boundary;
+}
+
+Eigen::MatrixXd FactorPart::eliminate() {
+  if (!factor_) return {};
+  SparseLower& matrix = part_.matrix;
+  const Eigen::VectorXd held = matrix.diagonal();
+  for (long column = part_.inner; column < matrix.cols(); ++column)
+    matrix.valuePtr()[matrix.outerIndexPtr()[column]] *= 2;  // the diagonal comes first
+  factor_->factorise(matrix, held);
+  corner_ = factor_->corner(part_.inner);
+  Eigen::MatrixXd added = square_of(corner_);
+  for (long column = part_.inner; column < matrix.cols(); ++column)
+    for (SparseLower::InnerIterator entry(matrix, column); entry; ++entry)
+      added(entry.row() - part_.inner, column - part_.inner) -= entry.value();
+  SparseLower(matrix.rows(), matrix.cols()).swap(matrix);  // only its size is asked for yet
+  return added;
+}
+
+Eigen::MatrixXd FactorPart::forward(const Eigen::MatrixXd& loads) {
+  if (!factor_) return {};
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(part_.matrix.cols(), loads.cols());
+  all.topRows(part_.inner) = loads;
+  reduced_ = factor_->solve_lower(std::move(all));
+  return corner_.triangularView<Eigen::Lower>() * reduced_.bottomRows(part_.boundary());
+}
+
+Eigen::MatrixXd FactorPart::backward(const Eigen::MatrixXd& boundary) const {
+  if (!factor_) return {};
+  Eigen::MatrixXd all = reduced_;
+  if (part_.boundary() > 0)
+    all.bottomRows(part_.boundary()) =
+        corner_.triangularView<Eigen::Lower>().transpose() * boundary;
+  return factor_->solve_upper(std::move(all)).topRows(part_.inner);
+}
+
+}  // namespace blocklift::structure

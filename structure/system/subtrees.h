@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "structure/system/cholesky_factor.h"
+
+namespace blocklift::structure {
+
+/// Deals the columns of a factor out to processes so that they can be eliminated side by side.
+///
+/// Subtrees of the elimination tree do not depend on each other. From the roots downwards the
+/// heaviest is taken apart again and again, its topmost columns going to the interface, which is
+/// eliminated when all subtrees are; taken is what has the least work on the longest way. Source:
+/// George, Heath, Liu and Ng (1989), Solution of sparse positive definite systems on a hypercube
+/// (subtrees to processors).
+/// @param supernodes of all columns, as they follow each other.
+/// @returns the process of each column; -1 where it is in the interface.
+std::vector<int> deal_out_subtrees(const std::vector<Supernode>& supernodes, int processes);
+
+}  // namespace blocklift::structure
