@@ -20,11 +20,6 @@ void dsyevd_(const char* vectors, const char* half, const int* n, double* a, con
 void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
             const int* k, const double* alpha, const double* a, const int* lda, const double* b,
             const int* ldb, const double* beta, double* c, const int* ldc);
-void sgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
-            const int* k, const float* alpha, const float* a, const int* lda, const float* b,
-            const int* ldb, const float* beta, float* c, const int* ldc);
-void ssymv_(const char* half, const int* n, const float* alpha, const float* a, const int* lda,
-            const float* x, const int* incx, const float* beta, float* y, const int* incy);
 }
 
 namespace blocklift::dynamics {
@@ -121,17 +116,6 @@ void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, 
     return;
   }
   dgemm_("N", "N", &m, &n, &k, &alpha, A.data(), &m, B.data(), &k, &beta, C.data(), &m);
-}
-
-void multiply_symmetric(const Eigen::MatrixXf& A, const Eigen::MatrixXf& X, Eigen::MatrixXf& Y) {
-  const int n = to_int(A.rows()), columns = to_int(X.cols()), one = 1;
-  if (n == 0 || columns == 0) return;
-  const float alpha = 1.0F, beta = 0.0F;
-  if (columns == 1) {
-    ssymv_("L", &n, &alpha, A.data(), &n, X.data(), &one, &beta, Y.data(), &one);
-  } else {
-    sgemm_("N", "N", &n, &columns, &n, &alpha, A.data(), &n, X.data(), &n, &beta, Y.data(), &n);
-  }
 }
 
 }  // namespace blocklift::dynamics

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "dynamics/algebra/single_precision.h"
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
