@@ -180,8 +180,8 @@ TEST(RankineProblem, RefusesWhatDoesNotFitIntoMemory) {
   settings.memory_limit = 1e5;
   EXPECT_THAT([&] { RankinePart(model, {}, settings); },
               ThrowsMessage<SimulationError>(HasSubstr("GB may be used")));
-  // Two and a half square matrices of the surface are most of it.
-  EXPECT_NEAR(rankine_part_bytes(1000, 10000, false), 8.0 * (2.5e8 + 4e7 + 2e6), 1.0);
+  // Two square matrices of the surface are most of it.
+  EXPECT_NEAR(rankine_part_bytes(1000, 10000, false), 8.0 * (2e8 + 4e7 + 2e6), 1.0);
 }
 
 TEST(RankineProblem, MemoryCountsTheCoarserSolution) {
