@@ -107,13 +107,13 @@ PartComputation::PartComputation(const PanelModel& model, const Parity& parity,
       damping_(DampingZone{damping_strength, settings.lids}.damping(model.surface(),
                                                                     model.water().gravity)),
       part_(model, parity, rankine),
-      run_(part_, damping_, model.water(), settings.frequencies) {
+      run_(part_, damping_, model.water(), settings.frequencies, true) {
   if (part_.coarser() == nullptr) return;
   const PanelClusters& clusters = rankine.coarser->surface;
   const SurfaceDamping coarser{
       clusters.average(model.surface_areas(), damping_.rates),
       make_ring_differences(model.surface(), model.water().gravity, &clusters)};
-  coarser_run_.emplace(*part_.coarser(), coarser, model.water(), settings.frequencies);
+  coarser_run_.emplace(*part_.coarser(), coarser, model.water(), settings.frequencies, false);
 }
 
 double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) const {
@@ -339,17 +339,15 @@ void require_panels_for_waves(const PanelModel& model, double frequency) {
 
 double database_bytes(const PanelModel& model, const DatabaseSettings& settings) {
   const bool finite_depth = !is_deep(model.water());
-  // Two Fourier integrals for each frequency.
-  const double integrals = 16.0 * static_cast<double>(settings.frequencies.size()) *
-                           static_cast<double>(model.mode_count());
-  // A solution, the march's operator in single precision, and the integrals.
+  // A solution, and the march's operator in single precision.
   const auto bytes_of = [&](int body_panels, int surface_panels) {
     const double n = surface_panels;
-    return rankine_part_bytes(body_panels, surface_panels, finite_depth) +
-           n * (4.0 * n + integrals);
+    return rankine_part_bytes(body_panels, surface_panels, finite_depth) + 4.0 * n * n;
   };
   const int bodies = model.body_mesh().size(), surface = model.surface_mesh().size();
-  double bytes = bytes_of(bodies, surface);
+  double bytes =
+      bytes_of(bodies, surface) + elevation_bytes(static_cast<double>(surface) * model.mode_count(),
+                                                  settings.frequencies.size());
   // The coarser solution is made beside the finer one's matrices, and stays to the end.
   const RankineSettings rankine = rankine_settings(model, settings);
   if (rankine.coarser) {
