@@ -62,8 +62,4 @@ RightSingularVectors decompose_singular(const Eigen::MatrixXd& matrix);
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
               Eigen::MatrixXd& C);
 
-/// Y = A X for a symmetric A of which both halves are stored, in single precision, by BLAS: one
-/// column reads only half of A.
-void multiply_symmetric(const Eigen::MatrixXf& A, const Eigen::MatrixXf& X, Eigen::MatrixXf& Y);
-
 }  // namespace blocklift::dynamics

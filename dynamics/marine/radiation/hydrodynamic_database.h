@@ -57,7 +57,7 @@ struct HydrodynamicDatabase {
 
 /// Changes whenever compute_database, or the meshing of the water's surface, gives other figures
 /// for the same bodies: what was computed before is then not to be taken for what would be now.
-inline constexpr int panel_method_version = 6;
+inline constexpr int panel_method_version = 7;
 
 struct DatabaseSettings {
   std::vector<double> frequencies;  ///< rad/s, positive, ascending
@@ -70,7 +70,8 @@ struct DatabaseSettings {
   /// 0: of damping_zone() for the lowest frequency, rad/s.
   double damping_strength = 0.0;
   std::vector<DampingLid> lids;
-  /// Compute HydrodynamicDatabase::change_from_coarser, at about a tenth of the cost.
+  /// Compute HydrodynamicDatabase::change_from_coarser, at up to two thirds of the cost again: of
+  /// the surface only what lies near the hulls becomes coarser.
   bool with_coarser = false;
   /// Compute HydrodynamicDatabase::far_field: a dense complex system for each frequency and part.
   bool with_far_field = false;
