@@ -245,7 +245,7 @@ void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_fact
 
   // The surface: (S_FF + D_FB U) w = (2 pi - D_FF - D_FB P) phi_F + (S_FB n - D_FB Phi) v. In
   // single precision, which the march takes the operator in: it costs most of all, and added mass,
-  // damping and excitation change by a millionth.
+  // damping and excitation change by a few millionths.
   factors->surface = SingleLuFactorisation(take_single(influence.S_FF),
                                            "the matrix of the free surface's panels", bad_panels);
   timing_.factorisation_s = seconds_since(start);
