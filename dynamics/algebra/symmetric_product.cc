@@ -20,9 +20,10 @@ namespace {
 constexpr std::ptrdiff_t lane_count = 8;
 using Lanes = float __attribute__((vector_size(4 * lane_count)));
 
-/// Lanes wherever they lie in an array of numbers.
-using LanesThere =
-    float __attribute__((vector_size(4 * lane_count), aligned(alignof(float)), may_alias));
+/// Lanes from numbers wherever they lie.
+[[gnu::always_inline]] inline void load(Lanes& to, const float* from) {
+  __builtin_memcpy(&to, from, sizeof(Lanes));
+}
 
 // Twelve sums of lanes fit into the processor's registers beside what they are made of.
 constexpr std::ptrdiff_t columns_of_A = 4, columns_of_X = 3;
@@ -50,9 +51,10 @@ template <std::ptrdiff_t p, std::ptrdiff_t q>
   for (; k + lane_count <= rows; k += lane_count) {
     __builtin_prefetch(next + k, 0, 2);
     std::array<Lanes, q> x;
-    for (std::ptrdiff_t j = 0; j < q; ++j) x[j] = *reinterpret_cast<const LanesThere*>(X[j] + k);
+    for (std::ptrdiff_t j = 0; j < q; ++j) load(x[j], X[j] + k);
     for (std::ptrdiff_t i = 0; i < p; ++i) {
-      const Lanes a = *reinterpret_cast<const LanesThere*>(A[i] + k);
+      Lanes a;
+      load(a, A[i] + k);
       for (std::ptrdiff_t j = 0; j < q; ++j) sums[i][j] += a * x[j];
     }
   }
