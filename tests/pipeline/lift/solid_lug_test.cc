@@ -42,6 +42,18 @@ SolidLugBlock block_of(const std::string& text) {
   return result;
 }
 
+/// @param largest_element m. @returns null, and fails the test, if the block cannot be meshed.
+std::unique_ptr<structure::ElasticModel> coarse_model_of(const BlockModel& block,
+                                                         double largest_element) {
+  StructureSettings settings;
+  settings.element_degree = 2;
+  settings.largest_element = largest_element;
+  Diagnostics diagnostics;
+  auto model = make_block_model(block, "block", settings, diagnostics);
+  EXPECT_TRUE(model) << diagnostics.to_text();
+  return model;
+}
+
 /// The block of the small lift after a change of its file.
 std::string small_box_with(const std::string& old_text, const std::string& new_text) {
   std::ifstream file(fs::path(BLOCKLIFT_SMALL_LIFT) / "block.yaml");
@@ -97,12 +109,8 @@ TEST(SolidLug, IsCopiedAndMirrored) {
       "mirror:\n  - {parts: [web, P, L], normal: y, at: 0 m}\n";
   const SolidLugBlock read = block_of(half);
   ASSERT_EQ(read.complaints, "");
-  Diagnostics diagnostics;
-  StructureSettings settings;
-  settings.element_degree = 2;
-  settings.largest_element = 1;
-  const auto model = make_block_model(*read.block, "block", settings, diagnostics);
-  ASSERT_TRUE(model) << diagnostics.to_text();
+  const auto model = coarse_model_of(*read.block, 1);
+  ASSERT_TRUE(model);
   ASSERT_EQ(model->lug_count(), 4);
   EXPECT_EQ(model->mesh().distributing_links.size(), 4U);
   for (const structure::LiftingPoint& point : model->mesh().lifting_points)
@@ -141,12 +149,8 @@ TEST(SolidLug, StandsOnPlatesOfAnyOrientation) {
   const SolidLugBlock read = block_of(slope_with_lug(
       "[0.9 m, 1.5 m]", "[1.5 m, 1.9 m], thickness: 30 mm, pin: [1 m, 1.75 m, 0 m]"));
   ASSERT_EQ(read.complaints, "");
-  Diagnostics diagnostics;
-  StructureSettings settings;
-  settings.element_degree = 2;
-  settings.largest_element = 0.5;
-  const auto model = make_block_model(*read.block, "block", settings, diagnostics);
-  ASSERT_TRUE(model) << diagnostics.to_text();
+  const auto model = coarse_model_of(*read.block, 0.5);
+  ASSERT_TRUE(model);
   const structure::LiftingPoint& point = model->mesh().lifting_points[0];
   const Vector3 pin(1, 1.75 * 0.8, 1.75 * 0.6);
   EXPECT_LT((point.p_BPin - pin).norm(), 1e-9);

@@ -159,7 +159,13 @@ class Sections {
       }
     // CalculiX needs no parameter beside the keyword, Abaqus one.
     if (known < corners) {
-      if (!block.has("NODAL THICKNESS")) return place;
+      if (!block.has("NODAL THICKNESS")) {
+        if (known > 0)
+          model_.log.remark(block.line,
+                            "shells that have a *NODAL THICKNESS at some corners only keep that of "
+                            "their section");
+        return place;
+      }
       throw CardError{fmt::format("nodes of element {} have no *NODAL THICKNESS", element.label)};
     }
     const double thickness = sum / static_cast<double>(corners);

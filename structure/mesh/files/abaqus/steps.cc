@@ -20,99 +20,82 @@ namespace {
 
 using Fields = std::vector<std::string_view>;
 
-/// Loads of one kind of keyword (*DLOAD, *DSLOAD) as far as the steps go: one that is given again
-/// in a later step takes the place of the one before (OP = MOD); within a step they add up.
-class SpreadLoads {
- public:
-  /// What a load is and the element that it is on.
-  using Key = std::pair<std::string, int>;
-
-  void begin_step() { ++step_; }
-  /// OP = NEW.
-  void drop_earlier() {
-    drop_earlier(plates_);
-    drop_earlier(solids_);
-    drop_earlier(beams_);
-    drop_earlier(gravity_);
-  }
-  void add(const Key& key, const PlateLoad& load) { add(plates_, key, load); }
-  void add(const Key& key, const SolidLoad& load) { add(solids_, key, load); }
-  void add(const Key& key, const BeamLoad& load) { add(beams_, key, load); }
-  void add_gravity(const Vector3& gravity) { add(gravity_, {"GRAV", -1}, gravity); }
-
-  void add_to(LoadSet& set) const {
-    append(plates_, set.plate_loads);
-    append(solids_, set.solid_loads);
-    append(beams_, set.beam_loads);
-    for (const auto& [key, given] : gravity_)
-      for (const Vector3& gravity : given.loads) set.gravity += gravity;
-  }
-
- private:
-  template <typename Load>
-  struct Given {
-    int step = 0;
-    std::vector<Load> loads;
-  };
-  template <typename Load>
-  using ByKey = std::map<Key, Given<Load>>;
-
-  template <typename Load>
-  void add(ByKey<Load>& all, const Key& key, const Load& load) {
-    Given<Load>& given = all[key];
-    if (given.step != step_) given = {step_, {}};
-    given.loads.push_back(load);
-  }
-  template <typename Load>
-  void drop_earlier(ByKey<Load>& all) {
-    std::erase_if(all, [&](const auto& one) { return one.second.step != step_; });
-  }
-  template <typename Load>
-  static void append(const ByKey<Load>& all, std::vector<Load>& to) {
-    for (const auto& [key, given] : all)
-      to.insert(to.end(), given.loads.begin(), given.loads.end());
-  }
-
-  int step_ = 0;
-  ByKey<PlateLoad> plates_;
-  ByKey<SolidLoad> solids_;
-  ByKey<BeamLoad> beams_;
-  ByKey<Vector3> gravity_;
-};
-
-/// Forces and moments on nodes as far as the steps go: those of one step on a freedom add up, and
-/// take the place of what the steps before had there (OP = MOD).
-class NodeLoads {
+/// What acts as far as the steps go, by what it is and where: what is given again in a later step
+/// takes the place of the one before (OP = MOD); within a step all of it counts.
+template <typename Key, typename Load>
+class GivenBySteps {
  public:
   void begin_step() { ++step_; }
   /// OP = NEW.
   void drop_earlier() {
     std::erase_if(all_, [&](const auto& one) { return one.second.step != step_; });
   }
-  /// @param freedom 0 to 5. @param vector force or moment.
-  void add(int node, long freedom, const Vector3& vector) {
-    Given& given = all_[{node, freedom}];
-    if (given.step != step_) given = {step_, Vector3::Zero()};
-    given.vector += vector;
+  void add(const Key& key, const Load& load) {
+    Given& given = all_[key];
+    if (given.step != step_) given = {step_, {}};
+    given.loads.push_back(load);
   }
-  void add_to(LoadSet& set) const {
-    for (const auto& [key, given] : all_) {
-      if (set.point_loads.empty() || set.point_loads.back().vertex != key.first)
-        set.point_loads.push_back({key.first, Vector3::Zero(), Vector3::Zero()});
-      PointLoad& load = set.point_loads.back();
-      (key.second < 3 ? load.force : load.moment) += given.vector;
-    }
+  /// Calls visit(key, load), in the order of the keys.
+  template <typename Visit>
+  void for_each(const Visit& visit) const {
+    for (const auto& [key, given] : all_)
+      for (const Load& load : given.loads) visit(key, load);
   }
 
  private:
   struct Given {
     int step = 0;
-    Vector3 vector = Vector3::Zero();
+    std::vector<Load> loads;
   };
 
   int step_ = 0;
-  std::map<std::pair<int, long>, Given> all_;  ///< by node, then freedom
+  std::map<Key, Given> all_;
 };
+
+/// Loads of one kind of keyword (*DLOAD, *DSLOAD).
+struct SpreadLoads {
+  /// What a load is and the element that it is on.
+  using Key = std::pair<std::string, int>;
+
+  void begin_step() {
+    for_each_kind([](auto& loads) { loads.begin_step(); });
+  }
+  void drop_earlier() {
+    for_each_kind([](auto& loads) { loads.drop_earlier(); });
+  }
+  void add_to(LoadSet& set) const {
+    plates.for_each([&](const Key&, const PlateLoad& load) { set.plate_loads.push_back(load); });
+    solids.for_each([&](const Key&, const SolidLoad& load) { set.solid_loads.push_back(load); });
+    beams.for_each([&](const Key&, const BeamLoad& load) { set.beam_loads.push_back(load); });
+    gravity.for_each([&](const Key&, const Vector3& pull) { set.gravity += pull; });
+  }
+  template <typename Visit>
+  void for_each_kind(const Visit& visit) {
+    visit(plates);
+    visit(solids);
+    visit(beams);
+    visit(gravity);
+  }
+
+  GivenBySteps<Key, PlateLoad> plates;
+  GivenBySteps<Key, SolidLoad> solids;
+  GivenBySteps<Key, BeamLoad> beams;
+  GivenBySteps<Key, Vector3> gravity;
+};
+
+/// Forces and moments, by node and freedom from 0 on.
+using NodeLoads = GivenBySteps<std::pair<int, long>, Vector3>;
+
+/// One load a node.
+void add_to(LoadSet& set, const NodeLoads& loads) {
+  loads.for_each([&](const std::pair<int, long>& key, const Vector3& vector) {
+    const auto& [node, freedom] = key;
+    if (set.point_loads.empty() || set.point_loads.back().vertex != node)
+      set.point_loads.push_back({node, Vector3::Zero(), Vector3::Zero()});
+    PointLoad& load = set.point_loads.back();
+    (freedom < 3 ? load.force : load.moment) += vector;
+  });
+}
 
 class StepBlocks {
  public:
@@ -258,7 +241,7 @@ class StepBlocks {
     LoadSet loads;
     loads.label = label;
     loads.name = load_case.title;
-    now_.points.add_to(loads);
+    add_to(loads, now_.points);
     now_.on_elements.add_to(loads);
     now_.on_surfaces.add_to(loads);
     if (acts(loads)) {
@@ -288,7 +271,8 @@ class StepBlocks {
       const double value = abaqus_real(fields, 2, "value");
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
         const double unit = freedom <= 3 ? model_.units.force : model_.units.moment();
-        now_.points.add(node, freedom - 1, value * unit * model_.axes(node).col((freedom - 1) % 3));
+        now_.points.add({node, freedom - 1},
+                        value * unit * model_.axes(node).col((freedom - 1) % 3));
       }
     });
   }
@@ -332,7 +316,8 @@ class StepBlocks {
                           fields[0], model_.elements[e].label)};
       }
     }
-    now_.on_elements.add_gravity(value * model_.units.length * direction.normalized());
+    now_.on_elements.gravity.add({"GRAV", -1},
+                                 value * model_.units.length * direction.normalized());
   }
 
   void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
@@ -340,12 +325,12 @@ class StepBlocks {
       if (element.solid < 0 || kind.size() != 2 || kind[0] != 'P' || kind[1] < '1' || kind[1] > '9')
         model_.log.leave_out("*DLOAD", "loads other than P1 to P6 and GRAV of solids");
       else
-        now_.on_elements.add({kind, element.solid},
-                             face_pressure(element, std::string{'S', kind[1]}, value));
+        now_.on_elements.solids.add({kind, element.solid},
+                                    face_pressure(element, std::string{'S', kind[1]}, value));
       return;
     }
     if (kind == "P" && element.shell >= 0) {
-      now_.on_elements.add({kind, element.shell}, pressure(element.shell, value));
+      now_.on_elements.plates.add({kind, element.shell}, pressure(element.shell, value));
       return;
     }
     static const std::map<std::string, Vector3> directions{
@@ -356,7 +341,7 @@ class StepBlocks {
       return;
     }
     for (const int beam : element.beams)
-      now_.on_elements.add(
+      now_.on_elements.beams.add(
           {kind, beam},
           BeamLoad{beam, value * model_.units.force / model_.units.length * direction->second});
   }
@@ -388,8 +373,8 @@ class StepBlocks {
         if (element.solid < 0 || face == "SPOS")
           model_.log.leave_out("*DSLOAD", "pressure on solids whose faces are not named (S1 ...)");
         else
-          now_.on_surfaces.add({surface->first + " " + face, element.solid},
-                               face_pressure(element, face, value));
+          now_.on_surfaces.solids.add({surface->first + " " + face, element.solid},
+                                      face_pressure(element, face, value));
         continue;
       }
       if (element.shell < 0 || (face != "SPOS" && face != "SNEG"))
@@ -398,8 +383,8 @@ class StepBlocks {
                         "known",
                         face, element.label)};
       // Pressure pushes against its surface: on the upper side, against the normal.
-      now_.on_surfaces.add({surface->first + " " + face, element.shell},
-                           pressure(element.shell, face == "SPOS" ? -value : value));
+      now_.on_surfaces.plates.add({surface->first + " " + face, element.shell},
+                                  pressure(element.shell, face == "SPOS" ? -value : value));
     }
   }
 
