@@ -1,5 +1,6 @@
 #include "dynamics/algebra/dense_algebra.h"
 
+#include <algorithm>
 #include <complex>
 #include <string>
 #include <utility>
@@ -17,6 +18,10 @@ void zgesv_(const int* n, const int* right_sides, std::complex<double>* a, const
 void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
              double* values, double* work, const int* work_size, int* integers,
              const int* integer_count, int* info);
+void dgeqrf_(const int* rows, const int* columns, double* a, const int* lda, double* factors,
+             double* work, const int* work_size, int* info);
+void dorgqr_(const int* rows, const int* columns, const int* reflectors, double* a, const int* lda,
+             const double* factors, double* work, const int* work_size, int* info);
 void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
             const int* k, const double* alpha, const double* a, const int* lda, const double* b,
             const int* ldb, const double* beta, double* c, const int* ldc);
@@ -105,6 +110,21 @@ RightSingularVectors decompose_singular(const Eigen::MatrixXd& matrix) {
   if (matrix.size() == 0) return {{}, Eigen::MatrixXd::Identity(matrix.cols(), matrix.cols())};
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};
+}
+
+void orthonormalise(Eigen::MatrixXd& matrix) {
+  const int m = to_int(matrix.rows()), n = to_int(matrix.cols());
+  if (n == 0) return;
+  Eigen::VectorXd factors(n);
+  double first_size = 0.0, second_size = 0.0;
+  const int ask = -1;
+  int info = 0;
+  dgeqrf_(&m, &n, matrix.data(), &m, factors.data(), &first_size, &ask, &info);
+  dorgqr_(&m, &n, &n, matrix.data(), &m, factors.data(), &second_size, &ask, &info);
+  std::vector<double> work(static_cast<std::size_t>(std::max(first_size, second_size)));
+  const int size = static_cast<int>(work.size());
+  dgeqrf_(&m, &n, matrix.data(), &m, factors.data(), work.data(), &size, &info);
+  dorgqr_(&m, &n, &n, matrix.data(), &m, factors.data(), work.data(), &size, &info);
 }
 
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,

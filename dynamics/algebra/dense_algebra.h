@@ -58,6 +58,10 @@ struct RightSingularVectors {
 };
 RightSingularVectors decompose_singular(const Eigen::MatrixXd& matrix);
 
+/// Replaces the columns of a matrix, no more than its rows, by orthonormal ones that span the same
+/// (Householder's, by LAPACK).
+void orthonormalise(Eigen::MatrixXd& matrix);
+
 /// C = alpha A B + beta C, by BLAS.
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
               Eigen::MatrixXd& C);

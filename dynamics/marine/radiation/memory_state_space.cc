@@ -10,6 +10,7 @@
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/block_hankel.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -18,10 +19,6 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Rows of the Hankel matrix at most, its eigenvectors cost the cube of them; but this many samples
-/// in any case, so that what swings fast is seen.
-constexpr Eigen::Index most_rows = 1200, least_samples = 130;
 
 /// Modes weaker than this share of the strongest of their kind are not measured by their own peak.
 constexpr double least_share = 1e-3;
@@ -195,43 +192,21 @@ struct Realisation {
 };
 
 Realisation realise(const std::vector<MatrixXd>& K, double time_step, int most_states) {
-  const Eigen::Index modes = K[0].rows();
-  const auto count = static_cast<Eigen::Index>(K.size());
-  // Every stride-th sample. K is taken as zero behind its end: with all of it in the matrix the
-  // leading states of a finite response form a stable system, however few are taken (Kung 1978).
-  const Eigen::Index allowed = std::max(most_rows, least_samples * modes);
-  const Eigen::Index stride = std::max<Eigen::Index>(1, (count * modes + allowed - 1) / allowed);
-  const Eigen::Index rows = (count + stride - 1) / stride;
-  const MatrixXd nothing = MatrixXd::Zero(modes, modes);
-  const auto sample = [&](Eigen::Index k) -> const MatrixXd& {
-    return k * stride < count ? K[k * stride] : nothing;
-  };
-  MatrixXd hankel(rows * modes, rows * modes), shifted = hankel;
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    for (Eigen::Index j = 0; j < rows; ++j) {
-      hankel.block(i * modes, j * modes, modes, modes) = sample(i + j);
-      shifted.block(i * modes, j * modes, modes, modes) = sample(i + j + 1);
-    }
-  }
-  const VectorXd values = decompose_symmetric(hankel);
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(hankel.rows()));
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Eigen::Index>(k);
-  std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return std::abs(values[a]) > std::abs(values[b]);
-  });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(most_states)));
+  // K is taken as zero behind its end: with all of it in the matrix the leading states of a finite
+  // response form a stable system, however few are taken (Kung 1978).
+  const BlockHankel hankel(K);
+  LeadingEigenpairs leading = find_leading_eigenpairs(hankel, most_states);
   // States that rounding alone makes are none.
-  while (!(std::abs(values[order.back()]) > 1e-13 * std::abs(values[order.front()]))) {
-    order.pop_back();
-  }
+  Eigen::Index states = leading.values.size();
+  while (!(std::abs(leading.values[states - 1]) > 1e-13 * std::abs(leading.values[0]))) --states;
   Realisation realisation;
-  realisation.modes = modes;
-  realisation.step = time_step * static_cast<double>(stride);
-  realisation.vectors = hankel(Eigen::all, order);
-  realisation.values = values(order);
-  MatrixXd product(shifted.rows(), realisation.vectors.cols());
-  multiply(1.0, shifted, realisation.vectors, 0.0, product);
-  realisation.advance = realisation.vectors.transpose() * product;
+  realisation.modes = K[0].rows();
+  realisation.step = time_step;
+  realisation.vectors = leading.vectors.leftCols(states);
+  realisation.values = leading.values.head(states);
+  const MatrixXd shifted = hankel.multiply(realisation.vectors, 1);
+  realisation.advance = MatrixXd(states, states);
+  multiply(1.0, realisation.vectors.transpose(), shifted, 0.0, realisation.advance);
   return realisation;
 }
 

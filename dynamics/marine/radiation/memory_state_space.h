@@ -12,8 +12,8 @@ namespace blocklift::dynamics {
 /// an ordinary differential equation that any integrator takes with any step. The poles are common
 /// to all modes that couple; each real pole has one state and each complex pair two, A being
 /// block-diagonal. All poles decay. Found from the samples of K by the eigensystem realisation
-/// algorithm: the block Hankel matrix of K(i + j) is symmetric, its leading eigenvectors are the
-/// states. Modes that do not couple, to a thousandth of their peaks, are fitted apart, and so are
+/// algorithm: the block Hankel matrix of K(i + j), of all samples, is symmetric, its leading
+/// eigenvectors are the states. Modes that do not couple, to a thousandth of their peaks, are fitted apart, and so are
 /// two bodies that mirror each other, by what they do alike and against each other. The number of
 /// states is the least that meets the tolerance. The integral of K, the damping of a steady
 /// velocity, is that of the samples (their trapezoidal sum) where the tolerance allows. Sources:
@@ -73,7 +73,7 @@ struct MemoryFit {
 };
 
 /// Changes whenever fit_memories gives another fit of the same retardation functions.
-inline constexpr int memory_fit_version = 1;
+inline constexpr int memory_fit_version = 2;
 
 /// The memory of each of the databases, which are fitted side by side.
 /// @throws ModelError as MemoryStateSpace.

@@ -93,6 +93,36 @@ TEST(MemoryStateSpace, FindsASumOfExponentials) {
   EXPECT_LT(memory.A().eigenvalues().real().maxCoeff(), 0.0);
 }
 
+/// Twelve modes that couple, with eight pairs of poles, the fastest of which has faded within a
+/// hundredth of the time.
+HydrodynamicDatabase eight_pairs_of_poles() {
+  HydrodynamicDatabase database;
+  database.time_step = 0.05;
+  constexpr Eigen::Index modes = 12;
+  for (int n = 0; n < 400; ++n) {
+    const double t = database.time_step * n;
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(modes, modes);
+    for (int pole = 0; pole < 8; ++pole) {
+      Eigen::VectorXd shape(modes);
+      for (Eigen::Index i = 0; i < modes; ++i) {
+        shape[i] = 1.0 + std::cos(1.7 * (pole + 1) * static_cast<double>(i + 1));
+      }
+      const double decay = pole == 0 ? 16.0 : 0.35 + 0.05 * pole;
+      K += std::exp(-decay * t) * std::cos((1.0 + 0.8 * pole) * t) * shape * shape.transpose();
+    }
+    database.retardation.push_back(K);
+  }
+  return database;
+}
+
+// The whole matrix has 4,800 rows. What is left of it at the end, exp(-0.4 * 20), is all that a
+// finite response differs from its poles by.
+TEST(MemoryStateSpace, UsesEverySampleOfManyModes) {
+  const MemoryStateSpace fit(eight_pairs_of_poles(), 2e-3, 60);
+  EXPECT_LE(fit.state_count(), 24);
+  EXPECT_LT(fit.error(), 2e-3);
+}
+
 // A steady velocity meets the damping of the samples, however loosely K is fitted: here that of two
 // modes with hardly a sum, as those of bodies in open water have none.
 TEST(MemoryStateSpace, KeepsTheDampingOfASteadyVelocity) {
