@@ -222,7 +222,7 @@ int stress_of_deck(const StressOptions& options) {
   return exit_code::done;
 }
 
-int stress_of(const StressOptions& options, structure::PartTeam* team) {
+int stress_of_part(const StressOptions& options) {
   if (options.degree)
     refuse_option(options, "--degree is for blocks with a deck",
                   "a part's file has the key element_order");
@@ -231,10 +231,10 @@ int stress_of(const StressOptions& options, structure::PartTeam* team) {
   if (!file) throw InputError(diagnostics);
   const fs::path folder = folder_of(options, file->name);
   require_writable(folder);
-  const PartAssessment assessment = assess_part(std::move(*file), team);
+  const PartAssessment assessment = assess_part(std::move(*file));
   {
     const HeldSignals until_all_is_in_place;
-    write_part_results(assessment, folder, options.calculix, team);
+    write_part_results(assessment, folder, options.calculix);
   }
   print_table(assessment);
   if (!is_quiet()) fmt::print("results: {}\n", folder.string());
@@ -244,23 +244,18 @@ int stress_of(const StressOptions& options, structure::PartTeam* team) {
 }  // namespace
 
 int stress(const StressOptions& options) {
-  const bool is_block = kind_of_file(options.part) == FileKind::block;
-  if (structure::ProcessGroup::launched() == 1)
-    return is_block ? stress_of_deck(options) : stress_of(options, nullptr);
+  const auto run = [&] {
+    return kind_of_file(options.part) == FileKind::block ? stress_of_deck(options)
+                                                         : stress_of_part(options);
+  };
+  if (structure::ProcessGroup::launched() == 1) return run();
   const structure::ProcessGroup& group = structure::ProcessGroup::of_this_run();
   if (!group.leads()) {
-    if (is_block)
-      structure::follow_factor_team(group);
-    else
-      structure::follow_part_team(group);
+    structure::follow_factor_team(group);
     return exit_code::done;
   }
-  if (is_block) {
-    const structure::FactorTeam team(group);
-    return stress_of_deck(options);
-  }
-  structure::PartTeam team(group);
-  return stress_of(options, &team);
+  const structure::FactorTeam team(group);
+  return run();
 }
 
 }  // namespace blocklift::pipeline

@@ -68,21 +68,6 @@ std::vector<HotSpotResult> find_hot_spots(const PartFile& file, const PartModel&
   return results;
 }
 
-// Alone, this process iterates as a team of one.
-structure::PartDisplacement solve_alone(const PartModel& model,
-                                        const std::vector<structure::FixedUnknown>& fixed,
-                                        const Eigen::VectorXd& load,
-                                        const structure::SolverChoice& choice) {
-  using structure::SolverMethod;
-  try {
-    if (choice.method != SolverMethod::iterative) return solve_by_cholesky(model, fixed, load);
-  } catch (const structure::NotEnoughMemory&) {
-    if (choice.method == SolverMethod::direct) throw;
-  }
-  structure::PartTeam team(structure::ProcessGroup::of_this_run());
-  return team.solve(model, fixed, load, {SolverMethod::iterative, choice.tolerance});
-}
-
 }  // namespace
 
 double figure_of(const PartAssessment& assessment, const PartReference& reference) {
@@ -105,18 +90,11 @@ std::string name_of(const PartReference& reference) {
              : fmt::format("{} at {}", name_of(*reference.quantity), reference.probe->value);
 }
 
-PartAssessment assess_part(PartFile file, structure::PartTeam* team) {
+PartAssessment assess_part(PartFile file) {
   Diagnostics diagnostics;
   PartAssessment assessment;
   assessment.file = std::move(file);
-  solve_to_accuracy(
-      assessment,
-      [&](const PartModel& model, const auto& fixed, const auto& load) {
-        const structure::SolverChoice& choice = assessment.file.solver;
-        return team ? team->solve(model, fixed, load, choice)
-                    : solve_alone(model, fixed, load, choice);
-      },
-      diagnostics);
+  solve_to_accuracy(assessment, diagnostics);
   Stopwatch watch;
   try {
     if (assessment.file.modes)

@@ -9,7 +9,6 @@
 #include "pipeline/part/part_padeye.h"
 #include "structure/elasticity/natural_modes.h"
 #include "structure/mesh/files/part_reader.h"
-#include "structure/parallel/part_team.h"
 #include "structure/part/part_solution.h"
 #include "structure/practice/hot_spot.h"
 
@@ -67,8 +66,7 @@ structure::PartModel make_part_model(const PartFile& file, Diagnostics& diagnost
 /// Runs a part. @throws InputError if the model cannot be made or solved: inverted elements, rigid
 ///   motions that the supports leave, probes outside the part, memory that does not suffice, an
 ///   accuracy that is not reached (the message says how near it came and where the error is).
-/// @param team the processes that solve it together; null: this one alone.
-PartAssessment assess_part(PartFile file, structure::PartTeam* team = nullptr);
+PartAssessment assess_part(PartFile file);
 
 /// The figure that a reference speaks of, Pa, m or Hz.
 double figure_of(const PartAssessment& assessment, const PartReference& reference);
@@ -76,10 +74,9 @@ double figure_of(const PartAssessment& assessment, const PartReference& referenc
 /// What a figure is called: "yy at D", "mode 7".
 std::string name_of(const PartReference& reference);
 
-/// Writes summary.json, results.h5, part.vtu (or part.pvtu and the pieces of a team), modes.vtu (if
-/// there are modes) and, if asked for, part.inp (CalculiX) into a folder; all of them appear when
-/// all are written.
+/// Writes summary.json, results.h5, part.vtu, modes.vtu (if there are modes) and, if asked for,
+/// part.inp (CalculiX) into a folder; all of them appear when all are written.
 void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
-                        bool calculix, const structure::PartTeam* team = nullptr);
+                        bool calculix);
 
 }  // namespace blocklift::pipeline

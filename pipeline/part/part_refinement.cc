@@ -128,8 +128,7 @@ std::string shortfall(const PartAssessment& assessment, const std::vector<Checke
 
 }  // namespace
 
-void solve_to_accuracy(PartAssessment& assessment, const structure::PartSolver& solver,
-                       Diagnostics& diagnostics) {
+void solve_to_accuracy(PartAssessment& assessment, Diagnostics& diagnostics) {
   constexpr std::size_t most_steps = 8;
   Stopwatch watch;
   Refiner refiner(assessment);
@@ -141,7 +140,7 @@ void solve_to_accuracy(PartAssessment& assessment, const structure::PartSolver& 
       if (diagnostics.has_errors()) throw InputError(diagnostics);
       assessment.mesh_s = watch.lap();
       if (assessment.file.loads.empty()) return;
-      assessment.solution = structure::solve_part(assessment.model, solver);
+      assessment.solution = structure::solve_part(assessment.model, assessment.file.solver);
     } catch (const structure::ModelError& error) {
       std::string message = error.what();
       if (!assessment.refinement.empty()) message += "; " + shortfall(assessment, checked);

@@ -9,7 +9,6 @@ namespace blocklift::pipeline {
 /// elements where the error is (structure::find_sizes), and of any other mesh all elements are
 /// halved. Without loads it is only meshed.
 /// @throws InputError if the model cannot be made or solved, or an accuracy is not reached.
-void solve_to_accuracy(PartAssessment& assessment, const structure::PartSolver& solver,
-                       Diagnostics& diagnostics);
+void solve_to_accuracy(PartAssessment& assessment, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

@@ -181,12 +181,10 @@ void write_fields(const PartAssessment& assessment, const std::filesystem::path&
 }  // namespace
 
 void write_part_results(const PartAssessment& assessment, const std::filesystem::path& folder,
-                        bool calculix, const structure::PartTeam* team) {
+                        bool calculix) {
   Preparation preparation(folder);
   const std::filesystem::path& aside = preparation.folder();
-  if (!assessment.file.loads.empty() && team)
-    team->write_pieces((aside / "part").string());
-  else if (!assessment.file.loads.empty())
+  if (!assessment.file.loads.empty())
     structure::write_part_vtu((aside / "part.vtu").string(), assessment.model, assessment.solution);
   if (assessment.modes)
     structure::write_part_modes_vtu((aside / "modes.vtu").string(), assessment.model,

@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -168,26 +167,6 @@ void write_part_modes_vtu(const std::string& path, const PartModel& model,
                 at_points(grid, modes.shapes.col(m)));
   file << "</PointData>\n";
   write_cells(file, model, path);
-}
-
-void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces) {
-  std::ofstream file(path);
-  file << vtk_head("PUnstructuredGrid");
-  file << "<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n"
-          "<PDataArray type=\"Float32\" NumberOfComponents=\"3\"/>\n</PPoints>\n"
-          "<PPointData Scalars=\"von_mises\" Vectors=\"displacement\">\n"
-          "<PDataArray type=\"Float32\" Name=\"displacement\" NumberOfComponents=\"3\"/>\n"
-          "<PDataArray type=\"Float32\" Name=\"von_mises\" NumberOfComponents=\"1\"/>\n"
-          "<PDataArray type=\"Float32\" Name=\"stress\" NumberOfComponents=\"6\"/>\n"
-          "</PPointData>\n<PCellData>\n"
-          "<PDataArray type=\"Int32\" Name=\"material\" NumberOfComponents=\"1\"/>\n"
-          "<PDataArray type=\"Int64\" Name=\"element\" NumberOfComponents=\"1\"/>\n"
-          "</PCellData>\n";
-  for (const std::string& piece : pieces)
-    file << "<Piece Source=\"" << std::filesystem::path(piece).filename().string() << "\"/>\n";
-  file << "</PUnstructuredGrid>\n</VTKFile>\n";
-  file.close();
-  if (!file) throw ModelError("cannot write \"" + path + "\"");
 }
 
 void write_calculix(const std::string& path, const PartModel& model) {

@@ -14,10 +14,6 @@ namespace blocklift::structure {
 /// @throws ModelError if the file cannot be written.
 void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution);
 
-/// Writes the list of the pieces of a part (`.pvtu`) that several processes have written, each by
-/// write_part_vtu and in the same folder. @throws ModelError if the file cannot be written.
-void write_part_pvtu(const std::string& path, const std::vector<std::string>& pieces);
-
 /// Writes the shapes of natural modes for ParaView (`.vtu`): point data `mode_1`, `mode_2` and so
 /// on (m/sqrt(kg)); cell data as above. @throws ModelError if the file cannot be written.
 void write_part_modes_vtu(const std::string& path, const PartModel& model,

@@ -17,6 +17,9 @@
 #include "structure/part/part_error.h"
 #include "structure/stopwatch.h"
 #include "structure/stress_tensor.h"
+#include "structure/system/iteration.h"
+#include "structure/system/natural_modes.h"
+#include "structure/system/shared_factor.h"
 
 namespace blocklift::structure {
 
@@ -181,6 +184,47 @@ void find_balance(const PartModel& model, const Eigen::VectorXd& load,
   solution.moment_residual = moment_sum > 0 ? moment.norm() / moment_sum : 0;
 }
 
+/// The solution by unknowns: its displacement and reactions are those of `held`.
+PartDisplacement solve_directly(const PartModel& model, const PartUnknowns& unknowns,
+                                const std::vector<FixedUnknown>& held,
+                                const Eigen::VectorXd& forces) {
+  PartDisplacement solved;
+  SolverAccount& account = solved.account;
+  account.name = "Cholesky factorisation by CHOLMOD";
+  Stopwatch watch;
+  SparseLower stiffness = assemble_part_stiffness(model, unknowns);
+  account.assembly_s = watch.lap();
+  ConstrainedSystem system(std::move(stiffness), held);
+  account.factor_bytes = system.factor_bytes();
+  system.factorise();
+  account.factorisation_s = watch.lap();
+  solved.displacement = system.solve(forces);
+  solved.reactions = system.reactions(solved.displacement, forces);
+  account.solve_s = watch.lap();
+  return solved;
+}
+
+/// The same by iteration.
+PartDisplacement iterate(const PartModel& model, const PartUnknowns& unknowns,
+                         const std::vector<FixedUnknown>& held, const Eigen::VectorXd& forces,
+                         double tolerance) {
+  PartDisplacement solved;
+  SolverAccount& account = solved.account;
+  account.name = "conjugate gradients with algebraic multigrid";
+  Stopwatch watch;
+  const SparseLower stiffness = assemble_part_stiffness(model, unknowns);
+  account.assembly_s = watch.lap();
+  constexpr int rigid = 6;  // the first of the trial shapes
+  Iterated found = solve_by_iteration(
+      stiffness, held, forces,
+      unknowns.to_unknowns(trial_shapes(model.mesh.nodes, 3).leftCols<rigid>()), tolerance);
+  account.solve_s = watch.lap();
+  account.iterations = found.iterations;
+  solved.displacement = std::move(found.displacements);
+  solved.reactions = std::move(found.reactions);
+  return solved;
+}
+
 }  // namespace
 
 StressColumns part_stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
@@ -205,36 +249,40 @@ PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& di
   return recover(model, displacement, of_solids);
 }
 
-PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<FixedUnknown>& fixed,
-                                   const Eigen::VectorXd& load) {
-  PartDisplacement result;
-  SolverAccount& account = result.account;
-  Stopwatch watch;
+PartDisplacement find_part_displacement(const PartModel& model,
+                                        const std::vector<FixedUnknown>& fixed,
+                                        const Eigen::VectorXd& load, const SolverChoice& choice) {
   const PartUnknowns unknowns(model.mesh);
-  SparseLower stiffness = assemble_part_stiffness(model, unknowns);
-  account.assembly_s = watch.lap();
-  ConstrainedSystem system(std::move(stiffness), unknowns.to_unknowns(fixed));
-  account.factor_bytes = system.factor_bytes();
-  system.factorise();
-  account.factorisation_s = watch.lap();
+  const std::vector<FixedUnknown> held = unknowns.to_unknowns(fixed);
   const Eigen::VectorXd forces = unknowns.to_unknowns(load);
-  const Eigen::VectorXd found = system.solve(forces);
-  const Eigen::VectorXd held = system.reactions(found, forces);
-  result.displacement = unknowns.to_freedoms(found);
+  PartDisplacement solved;
+  bool is_solved = false;
+  try {
+    if (choice.method != SolverMethod::iterative) {
+      solved = solve_directly(model, unknowns, held, forces);
+      is_solved = true;
+    }
+  } catch (const NotEnoughMemory&) {
+    if (choice.method == SolverMethod::direct) throw;
+  }
+  if (!is_solved) solved = iterate(model, unknowns, held, forces, choice.tolerance);
+  if (const FactorTeam* team = FactorTeam::present())
+    solved.account.processes = team->group().size();
+  PartDisplacement result;
+  result.account = std::move(solved.account);
+  result.displacement = unknowns.to_freedoms(solved.displacement);
   result.reactions.setZero(fixed.size());
   Eigen::Index next = 0;
   for (std::size_t i = 0; i < fixed.size(); ++i) {
     if (unknowns.of(fixed[i].unknown) >= 0)
-      result.reactions[i] = held[next++];
+      result.reactions[i] = solved.reactions[next++];
     else
       result.displacement[fixed[i].unknown] = fixed[i].value;
   }
-  account.solve_s = watch.lap();
-  account.name = "Cholesky factorisation by CHOLMOD";
   return result;
 }
 
-PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
+PartSolution solve_part(const PartModel& model, const SolverChoice& choice) {
   check_part_mesh(model.mesh);
   std::vector<int> support_of;
   std::vector<FixedUnknown> fixed = part_supports(model, support_of);
@@ -243,7 +291,7 @@ PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
   PartSolution solution;
   const Eigen::VectorXd load = part_load(model);
   require_straining(load, fixed);
-  PartDisplacement solved = solver(model, fixed, load);
+  PartDisplacement solved = find_part_displacement(model, fixed, load, choice);
   solution.displacement = std::move(solved.displacement);
   solution.solver = std::move(solved.account);
   find_balance(model, load, fixed, support_of, solved.reactions, solution);
@@ -253,28 +301,6 @@ PartSolution solve_part(const PartModel& model, const PartSolver& solver) {
   find_maxima(model, of_solids, solution);
   solution.recovery_s = watch.lap();
   return solution;
-}
-
-Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement) {
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(displacement.size());
-  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
-    const int element = model.mesh.solids[solid];
-    const ElementKind& kind = model.mesh.kind(element);
-    const StressColumns stress = part_stresses(model, solid, kind.gradients, displacement);
-    const Eigen::Matrix3Xd places = model.mesh.places(element);
-    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
-      const auto by_unit = kind.gradients.middleRows<3>(3 * q);
-      const Eigen::Matrix3d jacobian = places * by_unit.transpose();
-      const Eigen::Matrix3Xd gradients = jacobian.inverse().transpose() * by_unit;
-      const auto s = stress.col(q);
-      Eigen::Matrix3d tensor;
-      tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-      const Eigen::Matrix3Xd shares = kind.weights[q] * jacobian.determinant() * tensor * gradients;
-      for (int i = 0; i < kind.nodes; ++i)
-        forces.segment<3>(3 * model.mesh.node(element, i)) += shares.col(i);
-    }
-  }
-  return forces;
 }
 
 PartProbe probe_part(const PartModel& model, const PartSolution& solution, const Vector3& point) {

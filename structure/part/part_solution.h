@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -53,15 +52,15 @@ struct PartDisplacement {
   SolverAccount account;
 };
 
-/// Finds the displacement for fixed unknowns and a load vector; throws ModelError if it cannot.
-using PartSolver = std::function<PartDisplacement(
-    const PartModel& model, const std::vector<FixedUnknown>& fixed, const Eigen::VectorXd& load)>;
-
-/// Sparse Cholesky in this process.
-/// @throws NotEnoughMemory if stiffness or factor would not fit, before the factorisation begins;
-///   ModelError if the stiffness is not positive definite.
-PartDisplacement solve_by_cholesky(const PartModel& model, const std::vector<FixedUnknown>& fixed,
-                                   const Eigen::VectorXd& load);
+/// Finds the displacement for fixed unknowns and a load vector by sparse Cholesky factorisation or
+/// by iteration, on all processes of a FactorTeam where there is one.
+/// @throws NotEnoughMemory if the stiffness, or a factor that the choice insists on, would not fit,
+///   before anything is factorised; ModelError if the stiffness is not positive definite, or an
+///   iteration does not converge.
+PartDisplacement find_part_displacement(const PartModel& model,
+                                        const std::vector<FixedUnknown>& fixed,
+                                        const Eigen::VectorXd& load,
+                                        const SolverChoice& choice = {});
 
 /// Solution of a part.
 struct PartSolution {
@@ -97,14 +96,10 @@ struct PartProbe {
 /// Solves a part. @throws ModelError if the supports leave a rigid motion (named), an element is
 /// inverted, a group is missing or empty, all loads go straight into the supports, or memory does
 /// not suffice.
-PartSolution solve_part(const PartModel& model, const PartSolver& solver = solve_by_cholesky);
+PartSolution solve_part(const PartModel& model, const SolverChoice& choice = {});
 
 /// Stresses at the nodes from the displacement, averaged over the solids of one material.
 PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement);
-
-/// Nodal forces of the stresses: int B^T sigma dV, 3 a node, N. In equilibrium they are the loads
-/// and the reactions.
-Eigen::VectorXd part_internal_forces(const PartModel& model, const Eigen::VectorXd& displacement);
 
 /// Stresses of one solid (6 x points, Pa) at points whose gradients by the local coordinates are
 /// given: row 3 q + a holds d/dxi_a of the shape functions at point q.

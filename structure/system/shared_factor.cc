@@ -15,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/system/factor_part.h"
+#include "structure/system/iteration.h"
 #include "structure/system/linear_solver.h"
 #include "structure/system/subtrees.h"
 
@@ -24,7 +25,7 @@ namespace {
 
 const FactorTeam* team_present = nullptr;
 
-enum class Order { deal, eliminate, forward, backward, drop, end };
+enum class Order { deal, eliminate, forward, backward, drop, iterate, end };
 enum class State { done, short_of_memory, loose };
 
 void carry_out(Order what, Packet& order, std::unique_ptr<FactorPart>& part, Packet& result) {
@@ -112,6 +113,11 @@ FactorTeam::~FactorTeam() {
 
 const FactorTeam* FactorTeam::present() { return team_present; }
 
+void FactorTeam::begin_iteration() const {
+  for (int process = 1; process < group_.size(); ++process)
+    group_.send(process, make_order(Order::iterate, 0));
+}
+
 void follow_factor_team(const ProcessGroup& group) {
   std::map<int, std::unique_ptr<FactorPart>> parts;
   for (;;) {
@@ -123,6 +129,8 @@ void follow_factor_team(const ProcessGroup& group) {
     if (what == Order::end) return;
     if (what == Order::drop)
       parts.erase(number);
+    else if (what == Order::iterate)
+      follow_iteration(group);
     else
       group.send(0, answer(what, order, parts[number]));
   }

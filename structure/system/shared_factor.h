@@ -15,8 +15,9 @@ namespace blocklift::structure {
 class FactorPart;
 
 /// While it lives, all processes of a group factorise what this one, which leads them, asks for:
-/// each ConstrainedSystem that it makes is dealt out. The others follow (follow_factor_team) until
-/// it is gone. Systems must be gone before.
+/// each ConstrainedSystem that it makes is dealt out, and so is each iteration
+/// (solve_by_iteration). The others follow (follow_factor_team) until it is gone. Systems must be
+/// gone before.
 class FactorTeam {
  public:
   explicit FactorTeam(const ProcessGroup& group);
@@ -27,6 +28,8 @@ class FactorTeam {
   /// The team that lives; none: this process factorises alone.
   static const FactorTeam* present();
   const ProcessGroup& group() const { return group_; }
+  /// From here on the others iterate with this process: each waits for its rows.
+  void begin_iteration() const;
 
  private:
   const ProcessGroup& group_;

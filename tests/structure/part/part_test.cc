@@ -11,12 +11,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "structure/elasticity/part_unknowns.h"
 #include "structure/error.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/mesh/files/part_reader.h"
 #include "structure/output/part_files.h"
-#include "structure/parallel/part_share.h"
 #include "structure/part/part_solution.h"
 
 namespace blocklift::structure {
@@ -99,7 +97,7 @@ TEST_P(Kinds, PassThePatchTestWhenDistorted) {
     for (int a = 0; a < 3; ++a) fixed.push_back({3 * n + a, exact[3 * n + a]});
   }
   const Eigen::VectorXd found =
-      solve_by_cholesky(model, fixed, Eigen::VectorXd::Zero(exact.size())).displacement;
+      find_part_displacement(model, fixed, Eigen::VectorXd::Zero(exact.size())).displacement;
   EXPECT_LT((found - exact).norm(), 1e-12 * exact.norm());
 }
 
@@ -180,49 +178,6 @@ TEST_P(Kinds, PulledBarIsExact) {
   EXPECT_NEAR(end.displacement.x(), force * 2 / (mild_steel.youngs_modulus * area), 1e-12);
   EXPECT_NEAR(end.stress[0], force / area, 1e-8 * force / area);
   EXPECT_FALSE(probe_part(model, solution, Vector3(2.1, 0.1, 0.1)).inside);
-}
-
-// Each process fills whole rows of the stiffness from what it holds, and each solid is somebody's
-// own.
-TEST_P(Kinds, SharesOfProcessesMakeUpTheWhole) {
-  const auto [shape, order] = GetParam();
-  PartModel model = part(box(shape, order, Vector3(2, 0.3, 0.2), {4, 2, 1}));
-  const Eigen::Index unknowns = 3 * model.mesh.nodes.cols();
-  const PartUnknowns numbering(model.mesh);
-  const Eigen::MatrixXd whole = numbering.to_freedoms(
-      assemble_part_stiffness(model, numbering, 1).selfadjointView<Eigen::Lower>() *
-      numbering.to_unknowns(Eigen::MatrixXd::Identity(unknowns, unknowns)));
-  const Eigen::VectorXd load = Eigen::VectorXd::LinSpaced(unknowns, 0, 1);
-  const PartDistribution distribution(model, 3);
-  std::size_t solids = 0;
-  for (int process = 0; process < 3; ++process) {
-    Packet packet;
-    distribution.share(process, {{0, 0.1}}, load).put_into(packet);
-    const PartShare share = PartShare::from(packet);
-    solids += static_cast<std::size_t>(share.own_solids);
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3 * (share.end_row - share.first_row), unknowns);
-    for (int solid = 0; solid < static_cast<int>(share.model.mesh.solids.size()); ++solid) {
-      const Eigen::MatrixXd own = part_element_stiffness(share.model, solid);
-      const auto node = [&](int i) {
-        return static_cast<std::size_t>(share.model.mesh.node(share.model.mesh.solids[solid], i));
-      };
-      for (int i = 0; i < own.rows() / 3; ++i) {
-        const int row = share.row_of_node[node(i)] - share.first_row;
-        if (row < 0 || row >= share.end_row - share.first_row) continue;
-        for (int j = 0; j < own.cols() / 3; ++j)
-          rows.block<3, 3>(3 * row, 3 * share.node_in_whole[node(j)]) +=
-              own.block<3, 3>(3 * i, 3 * j);
-      }
-    }
-    for (int row = share.first_row; row < share.end_row; ++row) {
-      const int at = 3 * distribution.node_of_row()[row];
-      const int here = 3 * (row - share.first_row);
-      EXPECT_LT((rows.middleRows<3>(here) - whole.middleRows<3>(at)).norm(), 1e-12 * whole.norm());
-      EXPECT_EQ(share.load.segment<3>(here), load.segment<3>(at));
-    }
-  }
-  EXPECT_EQ(solids, model.mesh.solids.size());
-  EXPECT_THROW(PartDistribution(model, 1000), ModelError);
 }
 
 // Loads on all material: their resultants are those of the body, whatever the mesh.
