@@ -140,10 +140,18 @@ SharedFactor::SharedFactor(const FactorTeam& team, const SparseLower& matrix)
     : group_(team.group()) {
   static int count = 0;
   number_ = count++;
-  deal_out(matrix, deal_out_subtrees(CholeskyFactor(matrix).supernodes(), group_.size()));
+  try {
+    deal_out(matrix, deal_out_subtrees(CholeskyFactor(matrix).supernodes(), group_.size()));
+  } catch (const NotEnoughMemory&) {
+    drop();
+    throw;
+  }
 }
 
-SharedFactor::~SharedFactor() {
+SharedFactor::~SharedFactor() { drop(); }
+
+// The others give their parts free.
+void SharedFactor::drop() const {
   for (int process = 1; process < group_.size(); ++process)
     group_.send(process, make_order(Order::drop, number_));
 }

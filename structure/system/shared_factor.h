@@ -56,6 +56,7 @@ class SharedFactor {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& loads);
 
  private:
+  void drop() const;
   std::vector<Packet> ask(std::vector<Packet> orders);
   void deal_out(const SparseLower& matrix, const std::vector<int>& process_of);
   void require_memory(std::vector<Packet> answers);
