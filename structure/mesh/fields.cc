@@ -60,22 +60,15 @@ BelowLugs find_below_lugs(const Mesh& mesh, const EdgeMap& edges) {
   constexpr double same_place = 1e-6;  // m
   BelowLugs below;
   for (const SolidLugBase& base : find_solid_lug_bases(mesh)) {
+    below.toes.insert(base.ends.begin(), base.ends.end());  // within a plate, too
     const Vector3 way = base.to - base.from;
     const auto lies_on = [&](int vertex) {
       const Vector3 off = mesh.vertices[vertex] - base.from;
       const double share = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
       return (off - share * way).norm() < same_place;
     };
-    const auto is_end = [&](int vertex) {
-      return (mesh.vertices[vertex] - base.from).norm() < same_place ||
-             (mesh.vertices[vertex] - base.to).norm() < same_place;
-    };
-    for (const auto& [key, shells] : edges) {
-      if (!lies_on(key.first) || !lies_on(key.second)) continue;
-      below.edges.insert(key);
-      for (const int vertex : {key.first, key.second})
-        if (is_end(vertex)) below.toes.insert(vertex);
-    }
+    for (const auto& [key, shells] : edges)
+      if (lies_on(key.first) && lies_on(key.second)) below.edges.insert(key);
   }
   return below;
 }
@@ -102,11 +95,16 @@ Vector3 normal_at(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
   return Vector3(g.col(0)).cross(Vector3(g.col(1))).normalized();
 }
 
-bool same_section(const Mesh& mesh, int a, int b) {
-  const ShellSection &of_a = mesh.section_of(mesh.shells[a]),
-                     &of_b = mesh.section_of(mesh.shells[b]);
-  return of_a.material == of_b.material &&
-         std::abs(of_a.thickness - of_b.thickness) < 1e-6 * of_a.thickness;
+/// Of one material and, where they meet, of one thickness.
+bool same_section(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b) {
+  const auto thickness = [&](const EdgeOfShell& edge) {
+    const auto& ends = round_edges[edge.edge];
+    return thickness_at(mesh, mesh.shells[edge.shell],
+                        0.5 * (corner_place(ends[0]) + corner_place(ends[1])));
+  };
+  return mesh.section_of(mesh.shells[a.shell]).material ==
+             mesh.section_of(mesh.shells[b.shell]).material &&
+         std::abs(thickness(a) - thickness(b)) < 1e-6 * thickness(a);
 }
 
 /// Two shells that go on into one another across an edge. The normals are those in the edge's
@@ -148,12 +146,12 @@ class FieldFinder {
  public:
   FieldFinder(const Mesh& mesh, double kink, const GoesOn& goes_on)
       : mesh_(mesh), edges_(collect_edges(mesh)), below_lugs_(find_below_lugs(mesh, edges_)) {
-    const auto joins = [&](const EdgeKey& key, int a, int b) {
-      return goes_on ? goes_on(a, b, key.first, key.second) : same_section(mesh, a, b);
+    const auto joins = [&](const EdgeKey& key, const EdgeOfShell& a, const EdgeOfShell& b) {
+      return goes_on ? goes_on(a.shell, b.shell, key.first, key.second) : same_section(mesh, a, b);
     };
     for (const auto& [key, shells] : edges_) {
       const bool is_inside = shells.size() == 2 && meeting(key) == 2 &&
-                             joins(key, shells[0].shell, shells[1].shell) &&
+                             joins(key, shells[0], shells[1]) &&
                              is_smooth(mesh, shells[0], shells[1], kink);
       if (is_inside) {
         inside_.insert(key);

@@ -48,8 +48,12 @@ void for_each_joint(const Mesh& mesh, const Visit& visit) {
     visit(std::vector<int>(beam.vertices.begin(), beam.vertices.end()));
   for (const Solid& solid : mesh.solids) visit(solid.vertices);
   for_each_link(mesh, [&](const std::vector<int>& all, long) { visit(all); });
-  for (const SurfacePoint& point : mesh.surface_points)
-    visit(std::vector<int>{mesh.shells[point.shell].vertices[0], point.vertex});
+  for (const SurfacePoint& point : mesh.surface_points) {
+    std::vector<int> all{mesh.shells[point.shell].vertices[0], point.vertex};
+    for (const SurfaceStretch& stretch : point.line)
+      all.push_back(mesh.shells[stretch.shell].vertices[0]);
+    visit(all);
+  }
   for (const Spring& spring : mesh.springs) {
     std::vector<int> all;
     for (const int vertex : spring.vertices)
@@ -183,6 +187,13 @@ Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi
          xi.y() * ((1 - xi.x()) * vertex(2) + xi.x() * vertex(3));
 }
 
+double thickness_at(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi) {
+  if (shell.taper < 0) return mesh.section_of(shell).thickness;
+  const std::array<double, 4>& corners = mesh.shell_tapers[shell.taper];
+  return (1 - xi.y()) * ((1 - xi.x()) * corners[0] + xi.x() * corners[1]) +
+         xi.y() * ((1 - xi.x()) * corners[2] + xi.x() * corners[3]);
+}
+
 double longest_edge(const Mesh& mesh, const Shell& shell) {
   const auto length = [&](std::size_t a, std::size_t b) {
     return (mesh.vertices[shell.vertices[a]] - mesh.vertices[shell.vertices[b]]).norm();
@@ -232,6 +243,15 @@ void check_mesh(const Mesh& mesh) {
             "has no thickness");
     require(shell.region >= 0 && shell.region < count(mesh.regions), "shell", shell.label,
             "belongs to no region");
+    require(shell.taper < count(mesh.shell_tapers), "shell", shell.label,
+            "has thicknesses at its corners that are not there");
+    if (shell.taper >= 0) {
+      const std::array<double, 4>& corners = mesh.shell_tapers[shell.taper];
+      require(*std::min_element(corners.begin(), corners.end()) > 0, "shell", shell.label,
+              "has no positive thickness at a corner");
+      require(mesh.section_of(shell).laminate < 0, "shell", shell.label,
+              "is of layers, whose thickness is even");
+    }
     const auto vertex = [&](std::size_t i) { return mesh.vertices[shell.vertices[i]]; };
     const double area = 0.5 * ((vertex(3) - vertex(0)).cross(vertex(2) - vertex(1))).norm();
     const double size = longest_edge(mesh, shell);

@@ -45,6 +45,8 @@ struct Shell {
   long label = 0;      ///< the element's number in its file, for messages
   /// Whose part in the plate is axis 1 of its laminate; without length where there is none.
   Vector3 laminate_axis = Vector3::Zero();
+  /// Place in Mesh::shell_tapers; -1: as thick as its section everywhere.
+  int taper = -1;
 
   bool is_triangle() const { return vertices[2] == vertices[3]; }
 };
@@ -152,12 +154,24 @@ struct MotionEquation {
   long label = 0;
 };
 
+/// Straight stretch on a shell over which a motion is averaged.
+struct SurfaceStretch {
+  int shell = 0;
+  std::array<Eigen::Vector2d, 2> ends{Eigen::Vector2d::Zero(),
+                                      Eigen::Vector2d::Zero()};  ///< on the unit square
+  /// Density of the weight d_0 + d_1 t + d_2 t^2, t from 0 to 1 along the stretch.
+  Vector3 density = Vector3::Zero();
+};
+
 /// Vertex that lies on a shell without being a corner of it (the middle of a quadratic element's
 /// edge, where something else is fastened) and moves with it.
 struct SurfacePoint {
   int vertex = 0;
   int shell = 0;
   Eigen::Vector2d xi = Eigen::Vector2d::Zero();  ///< on the unit square
+  /// Where the vertex moves as the weighted mean along a line does (shell_solid_joint.h); the
+  /// weights sum to one. Empty: as the place.
+  std::vector<SurfaceStretch> line = {};
 };
 
 /// Spring between two freedoms, or one and the ground: its force is k (u_1 - u_2), each u the
@@ -213,6 +227,9 @@ struct Mesh {
   std::vector<ShellSection> shell_sections;
   std::vector<Laminate> laminates;
   std::vector<Shell> shells;
+  /// Thickness of shells at their corners, in the order of their vertices, m; bilinear between
+  /// them. Their section has the mean.
+  std::vector<std::array<double, 4>> shell_tapers;
   /// Points of curved shells: (order + 1)^2 columns on the unit square, equally spaced, xi fastest,
   /// m.
   std::vector<Eigen::Matrix3Xd> curved_shells;
@@ -263,6 +280,9 @@ BeamSection section_at(const Mesh& mesh, const Beam& beam, double share);
 
 /// Place of a point (xi, eta) of the unit square on a shell, m.
 Vector3 position(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi);
+
+/// Thickness of a shell at a point of the unit square, m.
+double thickness_at(const Mesh& mesh, const Shell& shell, const Eigen::Vector2d& xi);
 
 /// Longest edge of a shell between its vertices, m.
 double longest_edge(const Mesh& mesh, const Shell& shell);

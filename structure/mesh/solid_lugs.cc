@@ -8,15 +8,17 @@ namespace blocklift::structure {
 
 namespace {
 
-/// The ends of a line by points on it.
-SolidLugBase line_through(int region, const std::vector<Vector3>& points) {
-  const auto farthest_from = [&](const Vector3& place) {
-    return *std::max_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
-      return (a - place).squaredNorm() < (b - place).squaredNorm();
-    });
+/// The ends of a line by vertices on it.
+SolidLugBase line_through(const Mesh& mesh, int region, const std::vector<int>& on_it) {
+  const auto farthest_from = [&](int vertex) {
+    const auto distance = [&](int other) {
+      return (mesh.vertices[other] - mesh.vertices[vertex]).squaredNorm();
+    };
+    return *std::max_element(on_it.begin(), on_it.end(),
+                             [&](int a, int b) { return distance(a) < distance(b); });
   };
-  const Vector3 from = farthest_from(points.front());
-  return {region, from, farthest_from(from)};
+  const int from = farthest_from(on_it.front()), to = farthest_from(from);
+  return {region, mesh.vertices[from], mesh.vertices[to], {from, to}};
 }
 
 }  // namespace
@@ -28,12 +30,12 @@ std::vector<SolidLugBase> find_solid_lug_bases(const Mesh& mesh) {
   for (const Solid& solid : mesh.solids)
     if (mesh.regions[solid.region].is_lug)
       for (const int vertex : solid.vertices) region_of.emplace(vertex, solid.region);
-  std::map<int, std::vector<Vector3>> places;  // by region
+  std::map<int, std::vector<int>> feet;  // by region
   for (const RigidLink& link : mesh.rigid_links) {
     const auto found = link.slaves.empty() ? region_of.end() : region_of.find(link.slaves.front());
-    if (found != region_of.end()) places[found->second].push_back(mesh.vertices[link.master]);
+    if (found != region_of.end()) feet[found->second].push_back(link.master);
   }
-  for (const auto& [region, points] : places) bases.push_back(line_through(region, points));
+  for (const auto& [region, on_line] : feet) bases.push_back(line_through(mesh, region, on_line));
   return bases;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "structure/mesh/mesh.h"
@@ -10,6 +11,7 @@ namespace blocklift::structure {
 struct SolidLugBase {
   int region = 0;                                        ///< the lug's, place in Mesh::regions
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< its ends, on the plating, m
+  std::array<int, 2> ends{};                             ///< vertices there that follow the plating
 };
 
 /// The bases of all lugs of solids of a mesh: where rigid links join solids of a lug's region with
