@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include "structure/formulation/shell.h"
 #include "structure/index.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/space/joints.h"
@@ -18,6 +19,8 @@
 namespace blocklift::structure {
 
 namespace {
+
+constexpr std::array<bool, 6> all_bound{true, true, true, true, true, true};
 
 // Of the largest force times a shell's edge.
 constexpr double small_moment = 1e-2;
@@ -109,7 +112,8 @@ class DeckMaker {
   }
 
   /// What lies on a shell, middles of its edges apart, moves as a sum of its nodes' motions: a deck
-  /// says so by equations. Rigid arms that stand there are part of them.
+  /// says so by equations. Rigid arms that stand there, and equations in which it counts, are part
+  /// of them.
   void spell_out_surface_points() {
     std::set<int> turning;  // vertices whose rotation means something
     for (const Shell& shell : mesh_.shells)
@@ -122,43 +126,92 @@ class DeckMaker {
         middles.push_back(point);
         continue;
       }
-      const Shell& shell = mesh_.shells[point.shell];
-      Shares shares{corners_around(shell),
-                    deck_shell_values(shell.is_triangle(), !known.empty(), point.xi)};
-      shares.vertices.insert(shares.vertices.end(), known.begin(), known.end());
-      add_equations(point.vertex, shares, turning.count(point.vertex) > 0);
+      const Shares shares = shares_of(point);
+      if (!point.line.empty()) insert_shares(point.vertex, shares);
       std::erase_if(mesh_.rigid_links, [&](const RigidLink& link) {
-        const bool is_arm = link.master == point.vertex && link.bound[0] && link.bound[1] &&
-                            link.bound[2] && link.axes.isIdentity(0);
-        for (std::size_t i = 0; is_arm && i < link.slaves.size(); ++i)
-          add_equations(
-              link.slaves[i], shares,
-              link.bound[3] && link.bound[4] && link.bound[5] && turning.count(link.slaves[i]) > 0);
-        return is_arm;
+        if (link.master != point.vertex) return false;
+        for (const int slave : link.slaves)
+          add_equations(slave, shares, link.axes, link.bound, turning.count(slave) > 0);
+        return true;
       });
+      add_equations(point.vertex, shares, Eigen::Matrix3d::Identity(), all_bound,
+                    turning.count(point.vertex) > 0);
     }
     mesh_.surface_points = std::move(middles);
   }
 
-  /// u = sum N_i (u_i + theta_i x arm), and theta = sum N_i theta_i if it turns along.
-  void add_equations(int vertex, const Shares& shares, bool turns) {
-    Vector3 foot = Vector3::Zero();
-    for (std::size_t i = 0; i < shares.vertices.size(); ++i)
-      foot += shares.values[i] * mesh_.vertices[shares.vertices[i]];
-    const Vector3 arm = mesh_.vertices[vertex] - foot;
-    for (int axis = 0; axis < (turns ? 6 : 3); ++axis) {
-      const Vector3 unit = Vector3::Unit(axis % 3);
-      const bool is_rotation = axis >= 3;
-      MotionEquation equation;
-      equation.label = static_cast<long>(mesh_.equations.size()) + 1;
-      equation.terms.push_back({vertex, is_rotation ? Vector3(Vector3::Zero()) : unit,
-                                is_rotation ? unit : Vector3(Vector3::Zero())});
+  Shares shares_of(const SurfacePoint& point) const {
+    std::map<int, double> sum;
+    const auto add = [&](int number, const Eigen::Vector2d& xi, double weight) {
+      const Shell& shell = mesh_.shells[number];
+      const std::vector<int>& known = middles_[number];
+      std::vector<int> nodes = corners_around(shell);
+      nodes.insert(nodes.end(), known.begin(), known.end());
+      const std::vector<double> values = deck_shell_values(shell.is_triangle(), !known.empty(), xi);
+      for (std::size_t i = 0; i < nodes.size(); ++i) sum[nodes[i]] += weight * values[i];
+    };
+    if (point.line.empty()) add(point.shell, point.xi, 1);
+    const Eigen::Matrix3Xd rule = square_rule(5);
+    for (const SurfaceStretch& stretch : point.line)
+      for (Eigen::Index q = 0; q < rule.cols(); ++q) {
+        // A square's rule seen along one side.
+        const double t = rule(0, q);
+        add(stretch.shell, (1 - t) * stretch.ends[0] + t * stretch.ends[1],
+            rule(2, q) * stretch.density.dot(Vector3(1, t, t * t)));
+      }
+    Shares shares;
+    for (const auto& [vertex, share] : sum) {
+      if (std::abs(share) < 1e-12) continue;
+      shares.vertices.push_back(vertex);
+      shares.values.push_back(share);
+    }
+    return shares;
+  }
+
+  /// Puts a vertex's motion as a sum into the equations in which it counts.
+  void insert_shares(int vertex, const Shares& shares) {
+    for (MotionEquation& equation : mesh_.equations) {
+      const auto found =
+          std::find_if(equation.terms.begin(), equation.terms.end(),
+                       [&](const MotionEquation::Term& term) { return term.vertex == vertex; });
+      if (found == equation.terms.end()) continue;
+      const MotionEquation::Term replaced = *found;
+      equation.terms.erase(found);
+      const Vector3 arm = mesh_.vertices[vertex] - mean_place(shares);
       for (std::size_t i = 0; i < shares.vertices.size(); ++i) {
         const double value = shares.values[i];
-        if (std::abs(value) < 1e-12) continue;
         equation.terms.push_back(
-            {shares.vertices[i], is_rotation ? Vector3(Vector3::Zero()) : Vector3(-value * unit),
-             is_rotation ? Vector3(-value * unit) : Vector3(-value * arm.cross(unit))});
+            {shares.vertices[i], value * replaced.of_displacement,
+             value * (replaced.of_rotation + arm.cross(replaced.of_displacement))});
+      }
+    }
+  }
+
+  Vector3 mean_place(const Shares& shares) const {
+    Vector3 place = Vector3::Zero();
+    for (std::size_t i = 0; i < shares.vertices.size(); ++i)
+      place += shares.values[i] * mesh_.vertices[shares.vertices[i]];
+    return place;
+  }
+
+  /// u = sum N_i (u_i + theta_i x arm), and theta = sum N_i theta_i if it turns along, as far as
+  /// these are bound along axes.
+  void add_equations(int vertex, const Shares& shares, const Eigen::Matrix3d& axes,
+                     const std::array<bool, 6>& bound, bool turns) {
+    const Vector3 arm = mesh_.vertices[vertex] - mean_place(shares);
+    for (int component = 0; component < (turns ? 6 : 3); ++component) {
+      if (!bound[component]) continue;
+      const Vector3 axis = axes.col(component % 3);
+      const bool is_rotation = component >= 3;
+      MotionEquation equation;
+      equation.label = static_cast<long>(mesh_.equations.size()) + 1;
+      equation.terms.push_back({vertex, is_rotation ? Vector3(Vector3::Zero()) : axis,
+                                is_rotation ? axis : Vector3(Vector3::Zero())});
+      for (std::size_t i = 0; i < shares.vertices.size(); ++i) {
+        const double value = shares.values[i];
+        equation.terms.push_back(
+            {shares.vertices[i], is_rotation ? Vector3(Vector3::Zero()) : Vector3(-value * axis),
+             is_rotation ? Vector3(-value * axis) : Vector3(-value * arm.cross(axis))});
       }
       mesh_.equations.push_back(std::move(equation));
     }

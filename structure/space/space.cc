@@ -393,29 +393,6 @@ void Space::make_free_nodes() {
   for (const SurfacePoint& point : mesh_->surface_points) want(point.vertex);
 }
 
-// Nodes of vertices that lie on a shell between its corners follow the shape of its cell there.
-void Space::add_surface_ties(dealii::AffineConstraints<double>& ties) const {
-  if (mesh_->surface_points.empty()) return;
-  std::vector<std::vector<int>> cells(mesh_->shells.size());
-  for (std::size_t cell = 0; cell < shells_.size(); ++cell)
-    cells[shells_[cell].shell].push_back(static_cast<int>(cell));
-  for (const SurfacePoint& point : mesh_->surface_points) {
-    const auto node = static_cast<dealii::types::global_dof_index>(node_of_vertex(point.vertex));
-    if (ties.is_constrained(node)) continue;
-    for (const int cell : cells[point.shell]) {
-      const Eigen::Vector2d xi = (point.xi - shells_[cell].origin) / shells_[cell].size;
-      if (xi.minCoeff() < -1e-9 || xi.maxCoeff() > 1 + 1e-9) continue;
-      const Eigen::VectorXd values = shell_values(xi);
-      ties.add_line(node);
-      for (Eigen::Index i = 0; i < values.size(); ++i)
-        if (std::abs(values[i]) > 1e-12)
-          ties.add_entry(node, static_cast<dealii::types::global_dof_index>(shell_nodes(cell)[i]),
-                         values[i]);
-      break;
-    }
-  }
-}
-
 Vector3 Space::place(int cell, const Eigen::Vector2d& xi) const {
   return place_on(*mesh_, shells_[cell], xi);
 }

@@ -15,10 +15,13 @@
 #include "structure/index.h"
 #include "structure/mesh/padeye/padeye.h"
 #include "structure/mesh/plate_finder.h"
+#include "structure/mesh/shell_solid_joint.h"
 
 namespace blocklift::structure {
 
 namespace {
+
+constexpr double in_plane = 0.99;  // cosine between the normals of a plate and of a padeye
 
 std::string text_of_place(const Vector3& place) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", place.x(), place.y(), place.z());
@@ -34,13 +37,17 @@ class PadeyeStander {
     if (point == mesh.lifting_points.end())
       throw ModelError(fmt::format("there is no lug {} that could be a solid", padeye.lug));
     point_ = &*point;
+    has_plate_ = mesh.regions[point_->region].is_lug && point_->vertex < 0;
     // Edges that end within another plate's thickness are led to its middle plane.
     for (const ShellSection& section : mesh.shell_sections)
       reach_ = std::max(reach_, 0.51 * section.thickness);
   }
 
   void stand() {
-    remove_plate();
+    if (has_plate_)
+      remove_plate();
+    else
+      add_region();
     add_solids();
     tie_base();
     hang_pin();
@@ -84,7 +91,10 @@ class PadeyeStander {
     }
     if (gone.empty()) refuse("no plate of it lies beyond the padeye's base");
     mesh_.shells = std::move(kept);
-    for (SurfacePoint& point : mesh_.surface_points) point.shell = place_of[point.shell];
+    for (SurfacePoint& point : mesh_.surface_points) {
+      point.shell = place_of[point.shell];
+      for (SurfaceStretch& stretch : point.line) stretch.shell = place_of[stretch.shell];
+    }
     const auto check = [&](int vertex, int region) {
       const auto found = gone.find(vertex);
       if (found == gone.end()) return;
@@ -100,6 +110,33 @@ class PadeyeStander {
     for (const Beam& beam : mesh_.beams)
       for (const int vertex : beam.vertices) check(vertex, beam.region);
     free_.assign(gone.begin(), gone.end());
+  }
+
+  /// On a mesh the padeye is a part more, of the steel below its pin.
+  void add_region() {
+    const PlateFinder plates(mesh_);
+    const Vector3 up = padeye_.R_BP.col(1), across = padeye_.R_BP.col(2);
+    const Vector3 below = padeye_.p_BP - padeye_.geometry.height * up;
+    const auto ground = plates.find(below, across);
+    if (!ground) refuse(fmt::format("no plate lies below its base at {}", text_of_place(below)));
+    const Vector3 within = padeye_.p_BP - padeye_.geometry.height / 2 * up;
+    const auto beside = plates.find(within, across);
+    if (beside && std::abs(beside->normal.dot(across)) > in_plane)
+      refuse(fmt::format("the mesh has {} at {} already, where the padeye is to be",
+                         mesh_.regions[mesh_.shells[beside->shell].region].name,
+                         text_of_place(within)));
+    const auto is_taken = [&](const std::string& name) {
+      return std::any_of(mesh_.groups.begin(), mesh_.groups.end(),
+                         [&](const Group& group) { return group.name == name; });
+    };
+    Group group;
+    group.name = padeye_.lug;
+    while (is_taken(group.name)) group.name = "lug " + group.name;
+    group.material = mesh_.section_of(mesh_.shells[ground->shell]).material;
+    point_->region = static_cast<int>(mesh_.regions.size());
+    point_->shells.clear();
+    mesh_.regions.push_back({group.name, static_cast<int>(mesh_.groups.size()), true});
+    mesh_.groups.push_back(std::move(group));
   }
 
   /// A vertex at a place; those that went with the plate come first.
@@ -141,37 +178,23 @@ class PadeyeStander {
 
   void tie_base() {
     constexpr double same = 1e9;  // nodes lie over one another to a nanometre
-    std::map<long long, std::set<std::size_t>> columns;
+    std::map<long long, std::set<std::size_t>> rows;
     for_each_face("base", [&](const std::vector<std::size_t>& tags) {
       for (const std::size_t tag : tags)
-        columns[std::llround(same * solids_.nodes.at(tag)[0])].insert(tag);
+        rows[std::llround(same * solids_.nodes.at(tag)[0])].insert(tag);
     });
-    struct Foot {
-      PlatePlace place;
-      std::vector<int> slaves;
-    };
-    std::vector<Foot> feet;
-    const PlateFinder plates(mesh_);
-    for (const auto& [rounded, tags] : columns) {
-      const Vector3 middle =
-          padeye_.p_BP +
-          padeye_.R_BP * Vector3(solids_.nodes.at(*tags.begin())[0], -padeye_.geometry.height, 0);
-      // The plate in the padeye's own plane, where one goes on below it.
-      const auto plate = plates.find(middle, padeye_.R_BP.col(2));
-      if (!plate)
-        refuse(fmt::format("no plate lies below the padeye's base at {}", text_of_place(middle)));
-      Foot& foot = feet.emplace_back();
-      foot.place = *plate;
-      for (const std::size_t tag : tags) foot.slaves.push_back(vertex_of_.at(tag));
+    StandingEdge base;
+    base.through = padeye_.R_BP.col(2);
+    for (const auto& [rounded, tags] : rows) {
+      const Vector3 middle(solids_.nodes.at(*tags.begin())[0], -padeye_.geometry.height, 0);
+      StandingEdge::Column& column = base.columns.emplace_back();
+      column.place = padeye_.p_BP + padeye_.R_BP * middle;
+      for (const std::size_t tag : tags) column.vertices.push_back(vertex_of_.at(tag));
     }
-    for (const Foot& foot : feet) {
-      const int vertex = new_vertex(position(mesh_, mesh_.shells[foot.place.shell], foot.place.xi));
-      mesh_.surface_points.push_back({vertex, foot.place.shell, foot.place.xi});
-      RigidLink arm;
-      arm.master = vertex;
-      arm.slaves = foot.slaves;
-      arm.bound = {true, true, true, false, false, false};  // solids' nodes do not turn
-      mesh_.rigid_links.push_back(std::move(arm));
+    try {
+      stand_on_plating(mesh_, base);
+    } catch (const ModelError& error) {
+      refuse(error.what());
     }
   }
 
@@ -194,17 +217,31 @@ class PadeyeStander {
     mesh_.distributing_links.push_back(std::move(pin));
   }
 
+  /// A deck's numbers stay, and solids follow them.
   void number_cells() {
     long label = 0;
-    for (Shell& shell : mesh_.shells) shell.label = ++label;
-    for (Beam& beam : mesh_.beams) beam.label = ++label;
-    for (Solid& solid : mesh_.solids) solid.label = ++label;
+    if (!has_plate_) {
+      const auto pass = [&](const auto& cells) {
+        for (const auto& cell : cells) label = std::max(label, cell.label);
+      };
+      pass(mesh_.shells);
+      pass(mesh_.beams);
+      pass(mesh_.solids);
+    }
+    const auto number = [&](auto& cells) {
+      for (auto& cell : cells)
+        if (has_plate_ || cell.label == 0) cell.label = ++label;
+    };
+    number(mesh_.shells);
+    number(mesh_.beams);
+    number(mesh_.solids);
   }
 
   Mesh& mesh_;
   const PadeyeInBlock& padeye_;
   const AbaqusMesh solids_;
   LiftingPoint* point_ = nullptr;
+  bool has_plate_ = false;  ///< shells of its own, as lugs on pads have
   double reach_ = 0;
   std::vector<int> free_;  ///< vertices that nothing uses
   std::map<std::size_t, int> vertex_of_;

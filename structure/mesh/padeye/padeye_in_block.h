@@ -19,25 +19,24 @@ struct PadeyeInBlock {
   Vector3 p_BP = Vector3::Zero();  ///< the middle of the hole, m
 };
 
-/// Puts a padeye of solids in the place of a lug's shells.
+/// Puts a padeye of solids in the place of a lug's shells, or on a mesh whose lug has none.
 ///
 /// - The lug's shells beyond the base go; those within the plating, an insert, stay. The solids, of
-///   the lug's region and material, are quadratic hexahedra (make_padeye_mesh).
-/// - The base follows the plating: each node moves as the point of the plate's thickness that it
-///   is, u + theta x arm, with the displacement and rotation of the plate's edge below it. The
-///   plating is the master, so that it is not stiffened by more than the padeye itself; cross-
-///   sections of the padeye stay plane at the base, which stiffens it within about a thickness of
-///   it, as Abaqus' *SHELL TO SOLID COUPLING does. Division of the shells changes nothing: the
-///   places are those of surface points.
+///   the lug's region and material, are quadratic hexahedra (make_padeye_mesh). On a mesh without
+///   lug plates (add_lug) they are a region more, of the lug's name and of the steel below.
+/// - The base follows the plating as stand_on_plating() ties it: its motion is the projection of
+///   the plate's edge along the base, and what the padeye exerts is spread along that edge.
 /// - The pin is the reference of a distributing link over the bore: a force there is spread as an
 ///   even traction with a part that turns, of the same resultant. Weights are the faces' areas,
 ///   lumped as those of the diagonal of the mass matrix (Hinton, Rock and Zienkiewicz 1976).
 ///
-/// Labels of cells count from 1 again: shells, beams, solids.
+/// Where shells went, labels of cells count from 1 again: shells, beams, solids. A mesh keeps those
+/// that it has, and the solids' follow them.
 /// @param divisions elements around the hole.
 /// @throws ModelError naming the lug, if something but its base is joined to its plate beyond the
-///   base, if there is no such plate, if its shells are not divided at the base, or if no plate
-///   lies below a part of the base; as make_padeye_mesh does.
+///   base, if there is no such plate, if its shells are not divided at the base, if no plate lies
+///   below a part of the base, or if a mesh has a plate where the padeye is to be; as
+///   make_padeye_mesh does.
 void stand_padeye(Mesh& mesh, const PadeyeInBlock& padeye, int divisions = 16);
 
 }  // namespace blocklift::structure

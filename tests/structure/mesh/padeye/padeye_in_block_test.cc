@@ -411,8 +411,7 @@ TEST(PadeyeInBlock, RefusesWhatHasNoRoom) {
   // A base that reaches beyond the plating, and one that the plating does not reach.
   wrong = good;
   wrong.geometry.base_right = 0.5;  // against x
-  EXPECT_THAT(refusal_of(box, wrong),
-              HasSubstr("no plate lies below the padeye's base at (-0.1, 0, 2) m"));
+  EXPECT_THAT(refusal_of(box, wrong), HasSubstr("no plate lies below its base at (-0.1, 0, 2) m"));
   wrong = good;
   wrong.geometry.height = 0.15;
   EXPECT_THAT(refusal_of(box, wrong), HasSubstr("its plate is not divided at the padeye's base"));
