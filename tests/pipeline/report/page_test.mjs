@@ -27,7 +27,8 @@ await testInFolder((folder, complain) => {
     const found = [...dom.matchAll(/<section id="([^"]*)"/g)].map((match) => match[1]);
     if (found.join() !== ids.join()) complainOf(`sections are ${found.join(", ")}; ${ids.join(", ")} are due`);
     if (ids.includes("periods"))
-      for (const text of ["block: pendulum along x", ">14.6<", "neutral: nothing brings it back"])
+      for (const text of ["block: pendulum along x", ">14.6<", "neutral: nothing brings it back", "Vibrations of the load (1)",
+        "; of it vibrating: load.mode_1 "])
         if (!dom.includes(text)) complainOf(`"${text}" is not among the natural periods`);
     if (ids.includes("fault"))
       for (const text of ["The fault comes at 7.3 s, the worst of 3 instants", ">never<"])

@@ -71,15 +71,16 @@ void write_scene(ResultsWriter& writer) {
   writer.write(layout::stage_end, std::vector<double>{90}, {"s", "ends"});
 }
 
-// A swing along x and a yaw that nothing brings back.
+// A swing along x, a yaw that nothing brings back, and the block vibrating.
 void write_modes(ResultsWriter& writer) {
   const std::string group = join(layout::modes_group, "1");
   writer.make_group(group);
   writer.write_attribute(group, "instant", "start");
   writer.write_attribute(group, "time", 0.0);
-  RowMajorMatrix motion = RowMajorMatrix::Zero(2, 12);
+  RowMajorMatrix motion = RowMajorMatrix::Zero(3, 12);
   motion(0, 2) = 0.05;
   motion(1, 3) = 1.0;
+  motion(2, 5) = 0.02;
   writer.write_matrix(join(group, "bodies", "block", "motion"), motion, {"rad, m", "amplitudes"});
 }
 
@@ -100,7 +101,15 @@ nlohmann::ordered_json natural_periods() {
               {"frequency_Hz", 0.0685},
               {"damping_ratio", 0.0023},
               {"elastic_share", 0.01},
-              {"energy_share_by_body", {{"block", 0.98}, {"crane", 0.02}}}}}}}};
+              {"energy_share_by_body", {{"block", 0.98}, {"crane", 0.02}}}},
+             {{"name", "block: vibration in load.mode_1"},
+              {"kind", "oscillating"},
+              {"period_s", 0.42},
+              {"frequency_Hz", 2.38},
+              {"damping_ratio", 0.01},
+              {"elastic_share", 1.0},
+              {"energy_share_by_body", {{"block", 0.97}}},
+              {"energy_share_by_elastic_mode", {{"load.mode_1", 0.91}}}}}}}};
 }
 
 void write_structure(ResultsWriter& writer) {

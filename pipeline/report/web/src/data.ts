@@ -155,6 +155,8 @@ export interface Comparison {
 export interface NaturalMode {
   name: string; kind: string; period_s?: Maybe<number>; frequency_Hz?: Maybe<number>; damping_ratio?: Maybe<number>;
   elastic_share?: Maybe<number>; energy_share_by_body?: Record<string, number>;
+  /** What of those shares bodies have by vibrating, not by moving as a whole. */
+  energy_share_by_elastic_mode?: Record<string, number>;
 }
 export interface ModeShapes { time: number; bodies: Record<string, Packed> }
 export interface ChainStep {

@@ -51,18 +51,34 @@ const kinds: Record<string, string> = {
   overdamped: "creeps back without swinging", neutral: "neutral: nothing brings it back", unstable: "unstable: grows by itself",
 };
 
+/** The two that have most of the kinetic energy, of those with a twentieth or more. */
+function largest(shares: Record<string, number> | undefined): [string, number][] {
+  return Object.entries(shares ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 2).filter(([, size]) => size >= 0.05);
+}
+
+function listed(shares: [string, number][]): string {
+  return shares.map(([name, size]) => `${name} ${share(size)}`).join(", ");
+}
+
+/** Bodies that move, and by which vibrations of their own. */
 function mover(mode: NaturalMode): string {
-  const parts = Object.entries(mode.energy_share_by_body ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 2).filter(([, part]) => part >= 0.05);
-  return parts.map(([body, part]) => `${body} ${share(part)}`).join(", ");
+  const vibrations = largest(mode.energy_share_by_elastic_mode);
+  return listed(largest(mode.energy_share_by_body)) + (vibrations.length > 0 ? `; of it vibrating: ${listed(vibrations)}` : "");
+}
+
+/** Whether the load has most of its kinetic energy by vibrating, not by moving as a whole. */
+function isVibration(mode: NaturalMode, load: string): boolean {
+  const vibrating = Object.values(mode.energy_share_by_elastic_mode ?? {}).reduce((sum, one) => sum + one, 0);
+  return vibrating > 0 && vibrating > 0.5 * (mode.energy_share_by_body?.[load] ?? 0);
 }
 
 function period(mode: NaturalMode): string {
   return known(mode.period_s) ? significant(mode.period_s, 3) : missing;
 }
 
-/** Modes in which the load has a part, those that an operator can feel, and the quick rest apart; all, if nothing is the load. */
+/** Modes in which the load moves as a whole, those that an operator can feel; the quick rest stands apart. All, if nothing is the load. */
 function isMain(mode: NaturalMode, load: string): boolean {
-  return !load || mode.kind !== "oscillating" || (mode.energy_share_by_body?.[load] ?? 0) >= 0.2;
+  return !load || mode.kind !== "oscillating" || ((mode.energy_share_by_body?.[load] ?? 0) >= 0.2 && !isVibration(mode, load));
 }
 
 function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], play: ((row: number) => void) | null): Child {
@@ -118,12 +134,15 @@ export function modesSection(data: PageData, clock: Clock, player: VibrationPlay
       document.getElementById("lift")?.scrollIntoView({ behavior: "smooth" });
     } : null;
     const main = modes.filter((mode) => isMain(mode, load));
-    const rest = modes.filter((mode) => !isMain(mode, load));
+    const vibrations = modes.filter((mode) => !isMain(mode, load) && isVibration(mode, load));
+    const rest = modes.filter((mode) => !isMain(mode, load) && !vibrations.includes(mode));
+    const apart = (summary: string, caption: string, some: NaturalMode[]): Child => some.length === 0 ? null
+      : h("details", { class: "modes" }, h("summary", {}, `${summary} (${some.length})`), modeTable(caption, some, modes, play) as HTMLElement);
     body.replaceChildren();
     for (const part of [
       modeTable(`${load ? "Motions of the load" : "Motions"}: ${instants[index].instant}, ${seconds(time)} s`, main, modes, play),
-      rest.length > 0 ? h("details", { class: "modes" }, h("summary", {}, `Motions of hook blocks and other bodies (${rest.length})`),
-        modeTable("Motions in which the load has little part", rest, modes, play) as HTMLElement) : null,
+      apart("Vibrations of the load", "Motions in which the load vibrates rather than moves", vibrations),
+      apart("Motions of hook blocks and other bodies", "Motions in which the load has little part", rest),
     ]) if (part) body.appendChild(part as Node);
   };
   show(0);
