@@ -67,7 +67,7 @@ struct FloatingLoad {
   std::shared_ptr<const Vessel> vessel;
   std::vector<double> draughts;                        ///< from its lowest point, m
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of Bo in W when it is in the water, m
-  double heading = 0.0;                                ///< likewise, rad
+  double heading = 0.0;                                ///< when it is in the water, rad
 };
 
 /// The water's surface about the vessels, to be marched beside them.

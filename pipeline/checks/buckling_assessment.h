@@ -30,7 +30,7 @@ struct BuckledBar {
   structure::BlockBars::Worst worst;
   bool in_motion = false;      ///< in the dynamic history, else in the static one
   std::optional<double> time;  ///< s; none for a load table
-  /// Of a stiffener that trips, likewise at its own instant.
+  /// Of a stiffener that trips, at the instant of that.
   structure::BlockBars::WorstTripping tripping = {};
   bool trips_in_motion = false;
   std::optional<double> tripping_time = {};
@@ -39,7 +39,7 @@ struct BuckledBar {
 /// Every panel, stiffener and bar that stands free of plates over the whole lift.
 struct BucklingAssessment {
   std::vector<BuckledPanel> panels;  ///< the nearest to buckling first
-  std::vector<BuckledBar> bars;      ///< likewise, under forces times bar_factor
+  std::vector<BuckledBar> bars;      ///< the nearest first, under forces times bar_factor
   double bar_factor = 1;
   int unknown_rods = 0;     ///< without second moments, not looked at
   double evaluation_s = 0;  ///< wall-clock time

@@ -14,8 +14,8 @@ struct HydroOptions {
   std::optional<double> memory_limit;  ///< GB
   double wamit_length = 1.0;           ///< WAMIT's ULEN, m
   double water_density = 1025.0;       ///< that WAMIT's files do not tell, kg/m3
-  double gravity = 9.80665;            ///< likewise, m/s2
-  std::optional<double> water_depth;   ///< likewise, m; none: deep
+  double gravity = 9.80665;            ///< that these files do not tell, m/s2
+  std::optional<double> water_depth;   ///< that these files do not tell, m; none: deep
 };
 
 /// Computes, imports or exports a hydrodynamic database. @returns an exit code.

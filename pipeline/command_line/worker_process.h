@@ -22,7 +22,7 @@ struct WorkAnswer {
   enum class Kind : char {
     done = 'd',     ///< the text is the member's
     failed = 'f',   ///< the text says why; another worker would fail as well
-    refused = 'r',  ///< likewise: the input is not that of the study
+    refused = 'r',  ///< the text says why: the input is not the study's
     lost = 'l'      ///< the worker ended before it had an answer
   };
   Kind kind = Kind::lost;

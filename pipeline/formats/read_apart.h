@@ -18,7 +18,7 @@ std::optional<std::string> death_of_reading(const std::filesystem::path& file,
 /// Told what is read next, so that it can be named if reading dies there.
 using PlaceOfReading = std::function<void(const std::string& place)>;
 
-/// Likewise, of reading that says itself what is wrong with the file.
+/// The same for reading that says itself what is wrong with the file.
 /// @returns what `read` returns; how it died, and at which place, if it did.
 std::vector<std::string> complaints_of_reading(
     const std::filesystem::path& file,

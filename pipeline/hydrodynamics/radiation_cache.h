@@ -45,7 +45,7 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
     const RadiationProblem& problem, const std::function<void(const std::string&)>& report);
 
 /// make_marched_water, what is wrong with the problem being wrong input.
-/// @throws InputError likewise, dynamics::SimulationError.
+/// @throws InputError for a wrong problem, dynamics::SimulationError.
 MarchedWater find_marched_water(const RadiationProblem& problem);
 
 }  // namespace blocklift::pipeline

@@ -27,7 +27,7 @@ struct HistoryGroup {
   std::string material;     ///< of a group
   double yield_stress = 0;  ///< of a group, Pa
   HistoryExtreme checked_von_mises;
-  structure::BySite<HistoryExtreme> at_site;  ///< likewise, of the squares of each site; instant
+  structure::BySite<HistoryExtreme> at_site;  ///< over the squares of each site; instant
                                               ///< -1: none
 };
 
@@ -43,7 +43,7 @@ struct HistoryState {
   Eigen::VectorXi square_rope;         ///< governing, place in names_of_ropes; -1: none
   structure::LoadCase governing;       ///< the instant of the largest checked stress
   double largest_force_residual = 0;   ///< of all samples, over the load (LoadBalance)
-  double largest_moment_residual = 0;  ///< likewise
+  double largest_moment_residual = 0;  ///< of all samples (LoadBalance)
   int places = 0;                      ///< squares and stress points that were searched
 };
 

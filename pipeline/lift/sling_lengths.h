@@ -35,7 +35,7 @@ struct SlingLengths {
   /// The largest tension of each sling over all sets of signs of all tolerances, N; empty with more
   /// than most_in_sets slings.
   Eigen::VectorXd worst_tensions;
-  double worst_tilt = 0;  ///< likewise, rad
+  double worst_tilt = 0;  ///< the largest over these sets, rad
   /// Lengths that hang the load level, nearest to those meant, m; none were found where it is
   /// empty.
   Eigen::VectorXd level_lengths;

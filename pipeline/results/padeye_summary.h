@@ -7,7 +7,7 @@
 
 namespace blocklift::pipeline {
 
-/// A hand formula, likewise. Not finite numbers are null.
+/// A hand formula at its worst. Not finite numbers are null.
 nlohmann::ordered_json formula_json(const PadeyeFormulaAtWorst& at_worst);
 
 /// `structure.padeyes` of summary.json, as results_layout.h says.

@@ -55,8 +55,8 @@ struct SpreaderInStock {
 struct Stock {
   std::vector<SlingInStock> slings;             ///< by breaking load
   std::vector<ShackleInStock> shackles;         ///< by working load
-  std::vector<MasterLinkInStock> master_links;  ///< likewise
-  std::vector<SheaveInStock> sheaves;           ///< likewise
+  std::vector<MasterLinkInStock> master_links;  ///< by working load
+  std::vector<SheaveInStock> sheaves;           ///< by working load
   std::vector<SpreaderInStock> spreaders;       ///< by mass
 };
 

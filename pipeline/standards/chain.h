@@ -40,7 +40,7 @@ struct Chain {
 
   bool has_limit() const { return limit.has_value(); }
   double standard_utilisation() const;   ///< 0 without a limit
-  double simulated_utilisation() const;  ///< likewise
+  double simulated_utilisation() const;  ///< 0 without a limit
   double utilisation() const;            ///< the larger of the two
 };
 

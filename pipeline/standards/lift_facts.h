@@ -17,7 +17,7 @@ struct LoadFacts {
   std::optional<double> time_at_rest = {}, time_in_motion = {};  ///< s; none of a load table
   /// The whole load on the hooks at the instant of in_motion over that at the instant of at_rest.
   double amplification = 1;
-  double resharing = 1;  ///< this thing's share of it, likewise
+  double resharing = 1;  ///< the same of this thing's share of the load
 
   /// Share of the increase that is re-sharing: ln(resharing) / ln(in_motion / at_rest); none where
   /// there is no increase.
@@ -101,7 +101,7 @@ struct LugFacts {
   int slings_on_hook = 1;
   structure::PadeyeFormulaInput input;
   structure::Vector3 at_rest = structure::Vector3::Zero();    ///< largest force in P, N
-  structure::Vector3 in_motion = structure::Vector3::Zero();  ///< likewise
+  structure::Vector3 in_motion = structure::Vector3::Zero();  ///< in motion, in P, N
   double lateral = 0;  ///< largest force along the pin over the force, of all instants
   std::optional<double> lateral_time;  ///< s
 };
@@ -126,7 +126,7 @@ struct LiftFacts {
   double rigging = 0;              ///< of all slings, spreaders and master links, N
   bool has_rigging_weight = true;  ///< every sling's model gives its mass
   double at_rest = 0;              ///< largest load on all hooks together, hook blocks apart, N
-  double in_motion = 0;            ///< likewise
+  double in_motion = 0;            ///< the same load in motion, N
   bool has_environment = false;    ///< waves or gusts, whose share of loads may reduce factors
   double yield_factor = 1;
   double spreader_factor = 1;  ///< on the forces in spreader bars

@@ -48,7 +48,7 @@ struct LimitingSeas {
     return heights[period * headings.size() + heading];
   }
   /// Between the grid's periods and headings, linear; zero beyond the periods, where nothing is
-  /// known. Headings go round where the grid does, and are else held likewise.
+  /// known. Headings go round where the grid does, and are zero beyond them elsewhere.
   double height_at(double period, double heading) const;
 };
 

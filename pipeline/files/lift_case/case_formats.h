@@ -10,7 +10,7 @@ Format<Located<RopePoint>> rope_point_format();
 
 /// What the operator of a drive keeps, and what laws of Python see, at points in that format.
 Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point);
-/// A law of a mechanism's drive, and what it sees, likewise.
+/// A law of a mechanism's drive, and what it sees, at such points.
 Format<KeepInCase> mechanism_law_format(const Format<Located<RopePoint>>& point);
 /// A stage of a mechanism's operation, which ends with the last of its moves.
 Format<StageInCase> steered_stage_format(const Format<KeepInCase>& keeps);

@@ -9,7 +9,7 @@ inline Dimension speed_of(Dimension travel) {
   return travel == Dimension::angle ? Dimension::angular_speed : Dimension::speed;
 }
 
-/// Likewise of its acceleration.
+/// Dimension of the acceleration.
 inline Dimension acceleration_of(Dimension travel) {
   return travel == Dimension::angle ? Dimension::angular_acceleration : Dimension::acceleration;
 }

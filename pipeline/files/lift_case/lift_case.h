@@ -61,7 +61,7 @@ struct LoadInCase {
   std::optional<Located<std::vector<double>>> draughts;
   std::optional<PlaceAfloat> afloat;   ///< where it is meanwhile; none: as at the start
   Vector3 position = Vector3::Zero();  ///< of the block's frame at the start, a first guess, m
-  Vector3 attitude = Vector3::Zero();  ///< roll, pitch, yaw, rad; likewise
+  Vector3 attitude = Vector3::Zero();  ///< roll, pitch, yaw, rad; a first guess
 
   /// Upright in the water at the deepest of its draughts. It has a vessel and draughts.
   dynamics::Pose pose_afloat() const;
@@ -159,8 +159,8 @@ struct SightInCase {
   std::optional<Located<std::string>> head;   ///< hoist whose upper sheave is plumb or not
   std::optional<Located<RopePoint>> over;     ///< over this point
   std::optional<Located<std::string>> pull;   ///< rope, or hoist whose tackle it is
-  std::optional<Located<std::string>> share;  ///< likewise, of what it and the ropes `of` pull
-  std::vector<Located<std::string>> of;       ///< likewise
+  std::optional<Located<std::string>> share;  ///< rope or hoist, of what it and `of` pull
+  std::vector<Located<std::string>> of;       ///< the other ropes
   Mark place;
   // After the look-up; none if it failed.
   std::optional<ResolvedPoint> level_at, with_at, head_at, over_at;
@@ -213,9 +213,9 @@ struct MoveInCase {
 /// What ends a stage: one of the conditions, and how long it may take.
 struct StageUntil {
   std::optional<Located<std::string>> slack;       ///< rope, or hoist whose tackle it is
-  std::optional<Located<std::string>> taut;        ///< likewise
+  std::optional<Located<std::string>> taut;        ///< rope, or hoist whose tackle it is
   std::optional<Located<double>> ropes_at_least;   ///< share of the load's weight that they bear
-  std::optional<Located<double>> ropes_at_most;    ///< likewise
+  std::optional<Located<double>> ropes_at_most;    ///< share that they bear no more
   std::optional<Located<double>> ground_at_least;  ///< share that pads and ground bear
   double reaction = 0;           ///< from the instant to that at which drives begin to stop, s
   std::optional<double> within;  ///< from the stage's start, s; none: until its moves end
@@ -417,7 +417,7 @@ struct LiftCase : MarineParts {
 
   /// Does a rope hang as a catenary by the mass of its model? Ropes over sheaves run straight.
   bool hangs(const RopeInCase& rope) const;
-  /// Likewise the tackle of a crane's hoist; one that is equalised runs straight.
+  /// Does the tackle of a crane's hoist? One that is equalised runs straight.
   bool hangs(const CraneInCase& crane, const HoistModel& hoist) const;
   /// Is the load a block whose stress is asked?
   bool has_structure() const { return load.model != nullptr; }

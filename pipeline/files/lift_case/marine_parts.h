@@ -182,7 +182,7 @@ struct TuggerInCase {
   PointModel from;
   PointModel to;
   std::optional<Located<double>> length;   ///< unstretched, m; none where a tension is held
-  std::optional<double> stiffness;         ///< N/m; likewise
+  std::optional<double> stiffness;         ///< N/m; none where a tension is held
   std::optional<Located<double>> tension;  ///< that is held, N; none: the winch stands
   double damping = 0;                      ///< N s/m
   std::optional<double> breaking_load;     ///< N

@@ -19,7 +19,7 @@ struct Mover {
   Dimension travel = Dimension::length;
   dynamics::MotionLimits limits{};
   double lowest = 0;   ///< coordinate, m or rad
-  double highest = 0;  ///< likewise
+  double highest = 0;  ///< coordinate, m or rad
   double start = 0;    ///< coordinate at the start of the operation
 };
 

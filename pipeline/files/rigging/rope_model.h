@@ -28,7 +28,7 @@ struct RopeModel {
   std::optional<double> diameter;                   ///< of a part, m
   std::optional<double> mass_per_length;            ///< of all falls together, kg/m
   std::optional<Located<std::string>> material;     ///< by which a standard has its factor
-  std::optional<Located<std::string>> termination;  ///< likewise
+  std::optional<Located<std::string>> termination;  ///< by which it has another
   Mark place;
 
   /// A point of the curve.

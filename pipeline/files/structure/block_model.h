@@ -147,7 +147,7 @@ struct BlockModel {
   std::string title;
   std::vector<MaterialModel> materials;
   std::optional<Located<double>> mass;             ///< in the lift, outfitting included, kg
-  std::optional<Located<Vector3>> centre_of_mass;  ///< likewise, m
+  std::optional<Located<Vector3>> centre_of_mass;  ///< in the lift, m
   std::optional<MeshModel> mesh;                   ///< in place of plates
   std::vector<PlateModel> plates;
   std::vector<BarModel> bars;
