@@ -257,11 +257,12 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
                 "coefficient of friction mu at each of the sheaves, which do not turn: a pin, a "
                 "hook, a trunnion. Tensions on the two sides differ by exp(mu x angle of wrap) "
                 "before the rope slips; 0 if left out")
-      .optional("sheave_efficiency", &RopeInCase::sheave_efficiency,
-                located(quantity(Dimension::ratio, Range::between(0.2, 1))),
-                "likewise, in place of the coefficient: the lesser tension over the greater while "
-                "the rope runs over the sheave by 180 degrees, 96 to 98 % for sheaves on rolling "
-                "bearings. A sheave turned by less loses less")
+      .optional(
+          "sheave_efficiency", &RopeInCase::sheave_efficiency,
+          located(quantity(Dimension::ratio, Range::between(0.2, 1))),
+          "of each of the sheaves, in place of the coefficient: the lesser tension over the "
+          "greater while the rope runs over the sheave by 180 degrees, 96 to 98 % for sheaves "
+          "on rolling bearings. A sheave turned by less loses less")
       .required("to", &RopeInCase::to, point, "lower end")
       .required("model", &RopeInCase::rope_choice, rope_choice_format(breaking_load_required),
                 "name of the rope's model file, or the rope's keys")

@@ -220,9 +220,11 @@ Format<RestraintInCase> restraint_format() {
                 located(matrix_format(stiffness_dimensions)),
                 "6 rows of 6: N/m where a displacement makes a force, N m/rad where a turn makes a "
                 "moment, N elsewhere, or 0 without a unit")
-      .optional("damping", &RestraintInCase::damping, located(matrix_format(damping_dimensions)),
-                "likewise N s/m, N m s/rad and N s; of the motion through the world, not through "
-                "the water")
+      .optional(
+          "damping", &RestraintInCase::damping, located(matrix_format(damping_dimensions)),
+          "6 rows of 6: N s/m where a velocity makes a force, N m s/rad where a rate of turn makes "
+          "a moment, N s elsewhere, or 0 without a unit; of the motion through the world, not "
+          "through the water")
       .optional("about", &RestraintInCase::about, position_format(),
                 "point of the vessel's frame for which displacements, forces and moments are "
                 "meant; its centre of mass if left out")

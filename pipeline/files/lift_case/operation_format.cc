@@ -57,8 +57,10 @@ Format<StageUntil> stage_until_format() {
       .optional("taut", &StageUntil::taut, located(reference()), "it pulls")
       .optional("ropes_bear_at_least", &StageUntil::ropes_at_least, share,
                 "share of the load's weight by which ropes pull it up, all together")
-      .optional("ropes_bear_at_most", &StageUntil::ropes_at_most, share,
-                "likewise: 20 % when 80 % of the weight is off")
+      .optional(
+          "ropes_bear_at_most", &StageUntil::ropes_at_most, share,
+          "ropes pull up this share of the load's weight or less, all together: 20 % when 80 % of "
+          "the weight is off")
       .optional("ground_bears_at_least", &StageUntil::ground_at_least, share,
                 "share of the load's weight that pads and ground bear")
       .by_default("reaction", &StageUntil::reaction,

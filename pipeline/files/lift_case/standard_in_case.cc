@@ -56,7 +56,8 @@ Format<SheaveInCase> sheave_in_case_format() {
   table
       .required("working_load", &SheaveInCase::working_load, load,
                 "WLL, on its pin, for both parts of the rope")
-      .required("breaking_load", &SheaveInCase::breaking_load, load, "MBL, likewise")
+      .required("breaking_load", &SheaveInCase::breaking_load, load,
+                "MBL, on its pin, for both parts of the rope")
       .required("tread", &SheaveInCase::tread, quantity(Dimension::length, Range::positive()),
                 "diameter at the bottom of the groove, round which the rope is bent");
   return table.format();

@@ -77,7 +77,7 @@ Format<StockMasterLink> master_link_format() {
       .required("inside_length", &StockMasterLink::inside_length, length, "along the pull")
       .required("inside_width", &StockMasterLink::inside_width, length, "across it")
       .required("mass", &StockMasterLink::mass, quantity(Dimension::mass, Range::positive()),
-                "that of its bar within 15 %");
+                "as its bar would weigh within 15 %");
   return table.format();
 }
 
@@ -86,7 +86,8 @@ Format<StockSheave> sheave_format() {
   const Format<double> length = quantity(Dimension::length, Range::positive());
   Table<StockSheave> table("sheave", "A sheave in stock over which slings are led.");
   table.required("working_load", &StockSheave::working_load, load, "on its pin")
-      .required("breaking_load", &StockSheave::breaking_load, load, "likewise")
+      .required("breaking_load", &StockSheave::breaking_load, load,
+                "smallest breaking load, on its pin")
       .required("rope", &StockSheave::rope, length, "largest diameter that the groove takes")
       .required("tread", &StockSheave::tread, length, "diameter at the bottom of the groove")
       .required("mass", &StockSheave::mass, quantity(Dimension::mass, Range::positive()),

@@ -121,7 +121,8 @@ Format<std::optional<structure::Profile>> profile_format() {
                 "[height, web, width, flange]: height over the flange, thicknesses of web and "
                 "flange")
       .optional("tee_bar", &WrittenProfile::tee_bar, array_of<double, 4>(length),
-                "[height, web, width, flange], likewise")
+                "[height, web, width, flange]: height over the flange, thicknesses of web and "
+                "flange")
       .optional("i_beam", &WrittenProfile::i_beam, array_of<double, 4>(length),
                 "[height, web, width, flange], both flanges alike")
       .optional("channel", &WrittenProfile::channel, array_of<double, 4>(length),

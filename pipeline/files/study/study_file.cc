@@ -87,10 +87,11 @@ Format<SpreadLaw> law_format() {
       .optional("mean", &SpreadLaw::mean, located(measure()),
                 "of normal, lognormal, gumbel and weibull values, before they are cut off")
       .optional("deviation", &SpreadLaw::deviation, located(measure()),
-                "their standard deviation, likewise")
+                "standard deviation of these values before they are cut off")
       .optional("lowest", &SpreadLaw::lowest, located(measure()),
                 "of uniform and triangular values; others are cut off there")
-      .optional("highest", &SpreadLaw::highest, located(measure()), "likewise")
+      .optional("highest", &SpreadLaw::highest, located(measure()),
+                "of uniform and triangular values; others are cut off there")
       .optional("mode", &SpreadLaw::mode, located(measure()), "of triangular values")
       .rule(check_law)
       .place(&SpreadLaw::place);
@@ -173,8 +174,10 @@ Format<SeaLimits> sea_limits_format() {
       .optional("scatter", &SeaLimits::scatter, located(text()),
                 "beside this file: CSV with the columns significant_height_m, peak_period_s, share "
                 "and, if headings vary, heading_deg")
-      .optional("forecast", &SeaLimits::forecast, located(text()),
-                "likewise with time_h in place of share")
+      .optional(
+          "forecast", &SeaLimits::forecast, located(text()),
+          "beside this file: CSV with the columns significant_height_m, peak_period_s, time_h "
+          "and, if headings vary, heading_deg")
       .place(&SeaLimits::place);
   return table.format();
 }
