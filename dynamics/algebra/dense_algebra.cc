@@ -11,8 +11,11 @@
 extern "C" {
 void dgetrf_(const int* rows, const int* columns, double* a, const int* lda, int* pivots,
              int* info);
+void sgetrf_(const int* rows, const int* columns, float* a, const int* lda, int* pivots, int* info);
 void dgetrs_(const char* transposed, const int* n, const int* right_sides, const double* a,
              const int* lda, const int* pivots, double* b, const int* ldb, int* info);
+void sgetrs_(const char* transposed, const int* n, const int* right_sides, const float* a,
+             const int* lda, const int* pivots, float* b, const int* ldb, int* info);
 void zgesv_(const int* n, const int* right_sides, std::complex<double>* a, const int* lda,
             int* pivots, std::complex<double>* b, const int* ldb, int* info);
 void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
@@ -25,6 +28,9 @@ void dorgqr_(const int* rows, const int* columns, const int* reflectors, double*
 void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
             const int* k, const double* alpha, const double* a, const int* lda, const double* b,
             const int* ldb, const double* beta, double* c, const int* ldc);
+void sgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
+            const int* k, const float* alpha, const float* a, const int* lda, const float* b,
+            const int* ldb, const float* beta, float* c, const int* ldc);
 }
 
 namespace blocklift::dynamics {
@@ -37,28 +43,61 @@ int to_int(Eigen::Index value) { return static_cast<int>(value); }
                         " columns do not converge");
 }
 
+// LAPACK's and BLAS' routine of each number.
+template <class Real>
+struct Routines;
+template <>
+struct Routines<double> {
+  static constexpr auto factorise = dgetrf_;
+  static constexpr auto solve = dgetrs_;
+  static constexpr auto multiply = dgemm_;
+};
+template <>
+struct Routines<float> {
+  static constexpr auto factorise = sgetrf_;
+  static constexpr auto solve = sgetrs_;
+  static constexpr auto multiply = sgemm_;
+};
+
+template <class Matrix, class Real = typename Matrix::Scalar>
+void multiply_of(Real alpha, const Matrix& A, const Matrix& B, Real beta, Matrix& C) {
+  const int m = to_int(A.rows()), n = to_int(B.cols()), k = to_int(A.cols());
+  if (m == 0 || n == 0) return;
+  if (k == 0) {
+    C *= beta;
+    return;
+  }
+  Routines<Real>::multiply("N", "N", &m, &n, &k, &alpha, A.data(), &m, B.data(), &k, &beta,
+                           C.data(), &m);
+}
+
 }  // namespace
 
-LuFactorisation::LuFactorisation(Eigen::MatrixXd matrix, const char* what, const char* cause)
+template <class Real>
+DenseLu<Real>::DenseLu(Matrix matrix, const char* what, const char* cause)
     : factors_(std::move(matrix)), pivots_(static_cast<std::size_t>(factors_.rows())) {
   const int n = to_int(factors_.rows());
   if (n == 0) return;
   int info = 0;
-  dgetrf_(&n, &n, factors_.data(), &n, pivots_.data(), &info);
+  Routines<Real>::factorise(&n, &n, factors_.data(), &n, pivots_.data(), &info);
   if (info != 0) {
     throw SimulationError(std::string(what) + " is singular at row " + std::to_string(info) + ": " +
                           cause);
   }
 }
 
-void LuFactorisation::solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const {
+template <class Real>
+void DenseLu<Real>::solve_in_place(Eigen::Ref<Matrix> right_sides) const {
   const int n = to_int(size()), columns = to_int(right_sides.cols());
   if (n == 0 || columns == 0) return;
   const int stride = to_int(right_sides.outerStride());
   int info = 0;
-  dgetrs_("N", &n, &columns, factors_.data(), &n, pivots_.data(), right_sides.data(), &stride,
-          &info);
+  Routines<Real>::solve("N", &n, &columns, factors_.data(), &n, pivots_.data(), right_sides.data(),
+                        &stride, &info);
 }
+
+template class DenseLu<double>;
+template class DenseLu<float>;
 
 void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, const char* what) {
   const int n = to_int(matrix.rows()), columns = to_int(right_sides.cols());
@@ -129,13 +168,12 @@ void orthonormalise(Eigen::MatrixXd& matrix) {
 
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
               Eigen::MatrixXd& C) {
-  const int m = to_int(A.rows()), n = to_int(B.cols()), k = to_int(A.cols());
-  if (m == 0 || n == 0) return;
-  if (k == 0) {
-    C *= beta;
-    return;
-  }
-  dgemm_("N", "N", &m, &n, &k, &alpha, A.data(), &m, B.data(), &k, &beta, C.data(), &m);
+  multiply_of(alpha, A, B, beta, C);
+}
+
+void multiply(float alpha, const Eigen::MatrixXf& A, const Eigen::MatrixXf& B, float beta,
+              Eigen::MatrixXf& C) {
+  multiply_of(alpha, A, B, beta, C);
 }
 
 }  // namespace blocklift::dynamics

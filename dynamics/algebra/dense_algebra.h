@@ -10,23 +10,29 @@
 // small shares of the energy of a mode then differ between machines by more than a billionth.
 namespace blocklift::dynamics {
 
-/// LU factorisation with partial pivoting of a large dense matrix, by LAPACK.
-class LuFactorisation {
+/// LU factorisation with partial pivoting of a large dense matrix of doubles or floats, by LAPACK.
+template <class Real>
+class DenseLu {
  public:
-  LuFactorisation() = default;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
+  DenseLu() = default;
   /// Takes the matrix and factorises it in place.
   /// @throws SimulationError if the matrix is singular; `what` says which matrix it is, `cause`
   ///   what that comes from.
-  LuFactorisation(Eigen::MatrixXd matrix, const char* what, const char* cause);
+  DenseLu(Matrix matrix, const char* what, const char* cause);
 
   Eigen::Index size() const { return factors_.rows(); }
   /// Replaces the right-hand sides by the solutions.
-  void solve_in_place(Eigen::Ref<Eigen::MatrixXd> right_sides) const;
+  void solve_in_place(Eigen::Ref<Matrix> right_sides) const;
 
  private:
-  Eigen::MatrixXd factors_;
+  Matrix factors_;
   std::vector<int> pivots_;
 };
+extern template class DenseLu<double>;
+extern template class DenseLu<float>;
+using LuFactorisation = DenseLu<double>;
 
 /// Replaces the right-hand sides by the solutions of a dense complex system, of whose matrix
 /// nothing is left, by LAPACK.
@@ -65,5 +71,7 @@ void orthonormalise(Eigen::MatrixXd& matrix);
 /// C = alpha A B + beta C, by BLAS.
 void multiply(double alpha, const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double beta,
               Eigen::MatrixXd& C);
+void multiply(float alpha, const Eigen::MatrixXf& A, const Eigen::MatrixXf& B, float beta,
+              Eigen::MatrixXf& C);
 
 }  // namespace blocklift::dynamics
