@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-tidy over our own sources with the settings of .clang-tidy, in bundles of a dozen sources of
+# clang-tidy over our own sources with the settings of .clang-tidy, in bundles of up to 20 sources of
 # one target that begin with its precompiled header: the libraries' headers are read once, and the
 # checks do not walk through them (.ci/tidy/own_code.cc). Sources that cannot stand in one bundle
 # (two have the same name in an unnamed namespace) are judged in halves.

@@ -24,22 +24,22 @@ struct Peak {
   double time = 0;
 };
 
-enum class Kind { largest, smallest };
+enum class Wanted { largest, smallest };
 
 /// Peak of a series of the static and of the dynamic history, whichever is further out. Where a
 /// sample is not a number, neither is the peak: it fails its check.
 template <class Series>
-Peak peak_of(const LiftRun& lift, Kind kind, const Series& series) {
-  Peak peak{kind == Kind::largest ? -std::numeric_limits<double>::infinity()
-                                  : std::numeric_limits<double>::infinity(),
+Peak peak_of(const LiftRun& lift, Wanted wanted, const Series& series) {
+  Peak peak{wanted == Wanted::largest ? -std::numeric_limits<double>::infinity()
+                                      : std::numeric_limits<double>::infinity(),
             0};
   for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()}) {
     const Eigen::VectorXd values = series(*history);
     Eigen::Index at = 0;
-    const double value = kind == Kind::largest ? values.maxCoeff<Eigen::PropagateNaN>(&at)
-                                               : values.minCoeff<Eigen::PropagateNaN>(&at);
+    const double value = wanted == Wanted::largest ? values.maxCoeff<Eigen::PropagateNaN>(&at)
+                                                   : values.minCoeff<Eigen::PropagateNaN>(&at);
     if (std::isnan(value)) return {value, history->time(at)};
-    if (kind == Kind::largest ? value > peak.value : value < peak.value)
+    if (wanted == Wanted::largest ? value > peak.value : value < peak.value)
       peak = {value, history->time(at)};
   }
   return peak;
@@ -57,7 +57,7 @@ Check at_time(Check check, double time, std::string note = {}) {
 
 Check check_breaking_load(const LiftRun& lift, const std::string& what, int rope,
                           double breaking_load, double factor) {
-  const Peak peak = peak_of(lift, Kind::largest, tension_of(rope));
+  const Peak peak = peak_of(lift, Wanted::largest, tension_of(rope));
   return at_time(
       check_at_most(fmt::format("{}: tension against breaking load / {:g}", what, factor),
                     peak.value, breaking_load / factor, "N"),
@@ -66,7 +66,7 @@ Check check_breaking_load(const LiftRun& lift, const std::string& what, int rope
 
 void add_capacities(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
   for (const LiftHoist& hoist : lift.model.hoists) {
-    const Peak peak = peak_of(lift, Kind::largest, tension_of(hoist.rope));
+    const Peak peak = peak_of(lift, Wanted::largest, tension_of(hoist.rope));
     checks.push_back(at_time(check_at_most("hoist " + hoist.name + ": load against capacity",
                                            peak.value, hoist.capacity, "N"),
                              peak.time, "hook block included"));
@@ -74,7 +74,7 @@ void add_capacities(const LiftCase& lift_case, const LiftRun& lift, std::vector<
   for (std::size_t crane = 0; crane < lift_case.cranes.size(); ++crane) {
     const CraneInCase& in_case = lift_case.cranes[crane];
     if (!in_case.model->capacity) continue;
-    const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
+    const Peak peak = peak_of(lift, Wanted::largest, [&](const dynamics::History& history) {
       return crane_load(lift.model, history, crane);
     });
     checks.push_back(at_time(
@@ -135,7 +135,7 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
   Peak smallest{std::numeric_limits<double>::infinity(), 0};
   std::string rope;
   for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
-    const Peak peak = peak_of(lift, Kind::smallest, [&](const dynamics::History& history) {
+    const Peak peak = peak_of(lift, Wanted::smallest, [&](const dynamics::History& history) {
       Eigen::VectorXd tension = pull_beyond_weight(lift, i, history.ropes[i]);
       pass_over_parted(lift, i, history, tension);
       if (is_sling[i] == 0) return tension;
@@ -166,7 +166,7 @@ void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {
   Peak largest{-1, 0};
   std::string name;
   for (const LiftHoist& hoist : lift.model.hoists) {
-    const Peak peak = peak_of(lift, Kind::largest, [&](const dynamics::History& history) {
+    const Peak peak = peak_of(lift, Wanted::largest, [&](const dynamics::History& history) {
       return swing_angles(hook_pull(history.ropes[hoist.rope], hoist.hook_is_first));
     });
     if (peak.value <= largest.value) continue;

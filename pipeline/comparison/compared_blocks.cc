@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array states{layout::static_state, layout::dynamic_state};
 /// Bytes that the blocks may take of a page.
-constexpr std::size_t picture_budget = 20'000'000;
+constexpr std::size_t block_picture_budget = 20'000'000;
 
 bool has_field(const ResultsReader& results, std::string_view way) {
   return std::any_of(states.begin(), states.end(), [&](std::string_view state) {
@@ -164,7 +164,7 @@ ComparedBlocks compare_blocks(const std::vector<ComparedResult>& results) {
     ComparedBlock block = read_block(results[i], i, way);
     if (!compared.blocks.empty()) take_differences(compared.blocks.front(), block);
     share_surface(compared.blocks, block);
-    if (bytes + bytes_of(block) > picture_budget) {
+    if (bytes + bytes_of(block) > block_picture_budget) {
       compared.remarks.push_back(fmt::format(
           "There are no pictures of {}: the page would be too large.", results[i].name));
       if (compared.blocks.empty()) break;

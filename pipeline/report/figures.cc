@@ -12,7 +12,7 @@
 namespace blocklift::pipeline::figures {
 namespace {
 
-constexpr double newton_per_tonne = 9806.65;
+constexpr double weight_of_a_tonne = 9806.65;
 constexpr const char* narrow_space = "\u202f";
 
 std::optional<double> number_of(const Value& value) {
@@ -59,8 +59,8 @@ std::string tonnes(const Value& newtons) {
   const auto number = number_of(newtons);
   if (!number) return missing;
   const double size = std::abs(*number);
-  if (size < 1e5) return significant_text(*number / newton_per_tonne, 3);
-  return fixed_text(*number / newton_per_tonne, size < 1e8 ? 1 : 0);
+  if (size < 1e5) return significant_text(*number / weight_of_a_tonne, 3);
+  return fixed_text(*number / weight_of_a_tonne, size < 1e8 ? 1 : 0);
 }
 
 std::string megapascals(const Value& pascals) { return significant(pascals, 3, 1e-6); }

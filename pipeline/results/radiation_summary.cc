@@ -13,7 +13,7 @@ using Json = nlohmann::ordered_json;
 using dynamics::LargestInTime;
 using dynamics::PairStraying;
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 std::string names_of(const RadiationRecord& record, const PairStraying& pair) {
   const auto& bodies = record.arrangement.bodies;
@@ -50,7 +50,7 @@ std::string pair_words(const RadiationRecord& record, const PairStraying& pair) 
   }
   return fmt::format("{} {:.2g} m (at {:.0f} s) and {:.2g} degrees (at {:.0f} s)",
                      names_of(record, pair), pair.distance.value, pair.distance.time,
-                     pair.turn.value / degree, pair.turn.time);
+                     pair.turn.value / one_degree, pair.turn.time);
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ std::string straying_sentence(const RadiationRecord& record) {
       "water was computed for: {}. All of them together turned by up to {:.2g} degrees, which "
       "their "
       "excitation follows.",
-      words, record.straying.group_turn.value / degree);
+      words, record.straying.group_turn.value / one_degree);
 }
 
 std::vector<std::string> straying_warnings(const RadiationRecord& record) {
@@ -105,8 +105,8 @@ std::vector<std::string> straying_warnings(const RadiationRecord& record) {
         "{:.2g} m off ({}) during {} % of their time in the water: what one does to the other's "
         "waves and added mass is not right there. Compute it for where they are: positions of "
         "vessels, or afloat of the load.",
-        names_of(record, pair), pair.distance.value, pair.turn.value / degree, pair.at_ends.value,
-        pair.at_ends.time, pair.limit,
+        names_of(record, pair), pair.distance.value, pair.turn.value / one_degree,
+        pair.at_ends.value, pair.at_ends.time, pair.limit,
         of_wave ? "a fortieth of the waves' length" : "a fifth of the narrower hull's breadth",
         share < 1.0 ? "less than 1" : fmt::format("{:.0f}", share)));
   }

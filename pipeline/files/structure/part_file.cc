@@ -40,7 +40,7 @@ Format<PartFacesInFile> faces_format() {
   return table.format();
 }
 
-Format<PartPointInFile> point_format() {
+Format<PartPointInFile> part_point_format() {
   Table<PartPointInFile> table("point", "The node at a place.");
   table.required("at", &PartPointInFile::at, position_format(),
                  "where it is, to a hundredth of the part's diagonal");
@@ -92,7 +92,7 @@ Format<PartMeshInFile> mesh_format() {
           "thickened into solids; each plate's sides are the groups \"NAME +\" and \"NAME -\"")
       .optional("faces", &PartMeshInFile::faces, named_tables(faces_format()),
                 "groups of faces by name, for meshes without names: a box around them chooses")
-      .optional("points", &PartMeshInFile::points, named_tables(point_format()),
+      .optional("points", &PartMeshInFile::points, named_tables(part_point_format()),
                 "groups of one node each by name")
       .rule(check_mesh);
   return table.format();

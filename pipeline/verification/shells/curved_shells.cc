@@ -12,10 +12,11 @@ namespace {
 
 using namespace structure;
 
-using Run = std::tuple<int, int, double>;  // degree, cells a side, tolerance
+using RefinedRun = std::tuple<int, int, double>;  // degree, cells a side, tolerance
 
 std::vector<VerificationRow> rows_of(const char* what, const char* unit, double reference,
-                                     const std::vector<Run>& runs, double (*compute)(int, int)) {
+                                     const std::vector<RefinedRun>& runs,
+                                     double (*compute)(int, int)) {
   std::vector<VerificationRow> rows;
   for (const auto& [degree, cells, tolerance] : runs)
     rows.push_back(
