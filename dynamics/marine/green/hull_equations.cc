@@ -1,0 +1,308 @@
+#include "dynamics/marine/green/hull_equations.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "dynamics/algebra/dense_algebra.h"
+#include "dynamics/algebra/parallel_for.h"
+#include "dynamics/errors.h"
+#include "dynamics/marine/green/wave_green_function.h"
+#include "dynamics/marine/panels/rankine_problem.h"
+#include "dynamics/marine/radiation/incident_wave.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+constexpr double pi = std::numbers::pi;
+
+/// A point of a panel with its share of the area, m2.
+struct PanelPoint {
+  Vector3 position;
+  double area;
+};
+
+/// Gauss's points on a panel as the bilinear image of a square, order x order.
+void divide(const Panel& panel, int order, std::vector<PanelPoint>& points) {
+  constexpr std::array<double, 2> two = {-0.5773502691896257, 0.5773502691896257};
+  constexpr std::array<double, 4> four = {-0.8611363115940526, -0.3399810435848563,
+                                          0.3399810435848563, 0.8611363115940526};
+  constexpr std::array<double, 4> four_weights = {0.3478548451374538, 0.6521451548625461,
+                                                  0.6521451548625461, 0.3478548451374538};
+  const auto& v = panel.vertices;
+  points.clear();
+  for (int i = 0; i < order; ++i) {
+    for (int j = 0; j < order; ++j) {
+      const double a = order == 2 ? two[i] : four[i], b = order == 2 ? two[j] : four[j];
+      const double weight = order == 2 ? 1.0 : four_weights[i] * four_weights[j];
+      const Vector3 along = 0.25 * ((1.0 - b) * (v[1] - v[0]) + (1.0 + b) * (v[2] - v[3]));
+      const Vector3 across = 0.25 * ((1.0 - a) * (v[3] - v[0]) + (1.0 + a) * (v[2] - v[1]));
+      points.push_back({0.25 * ((1.0 - a) * (1.0 - b) * v[0] + (1.0 + a) * (1.0 - b) * v[1] +
+                                (1.0 + a) * (1.0 + b) * v[2] + (1.0 - a) * (1.0 + b) * v[3]),
+                        weight * along.cross(across).norm()});
+    }
+  }
+}
+
+/// dR/dn at the source, from field point to source.
+double level_share(const Vector3& field, const Vector3& source, const Vector3& normal, double R) {
+  if (R < 1e-12) return 0.0;
+  return ((source.x() - field.x()) * normal.x() + (source.y() - field.y()) * normal.y()) / R;
+}
+
+}  // namespace
+
+double hull_equations_bytes(int unknowns, int parts) {
+  const double n = unknowns;
+  // Four real matrices of each part, two complex ones, and one with its factors.
+  constexpr double real = sizeof(double), complex = sizeof(Complex);
+  return n * n * (parts * (4.0 * real + 2.0 * complex) + 2.0 * complex);
+}
+
+HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
+    : model_(model),
+      settings_(settings),
+      hull_count_(model.body_mesh().size()),
+      parities_(model.parities()) {
+  const std::vector<Panel>& hull = model.body_mesh().panels;
+  double size = settings.cell_size;
+  if (!(size > 0.0)) size = std::sqrt(model.body_areas().mean());
+  std::vector<WaterPlaneRegion> regions;
+  for (const DampingLid& lid : settings.lids) regions.push_back({lid.low, lid.high});
+  cells_ =
+      make_water_plane_cells(find_water_lines(model.bodies()), regions, model.symmetry(), size);
+  if (!settings.cover_water_planes) {
+    WaterPlaneCells open;
+    for (int k = 0; k < cells_.size(); ++k) {
+      if (cells_.region[k] < 0) continue;
+      open.panels.push_back(cells_.panels[k]);
+      open.region.push_back(cells_.region[k]);
+    }
+    cells_ = std::move(open);
+  }
+  const int count = hull_count_ + cells_.size();
+  const double limit = settings.memory_limit > 0.0 ? settings.memory_limit : usable_memory();
+  const double needed = hull_equations_bytes(count, static_cast<int>(parities_.size()));
+  if (needed > limit) {
+    std::array<char, 200> text{};
+    std::snprintf(text.data(), text.size(),
+                  "%d panels on the bodies and %d cells of their water planes need %.2f GB of "
+                  "memory, but %.2f GB may be used: take fewer panels",
+                  hull_count_, cells_.size(), needed / 1e9, limit / 1e9);
+    throw SimulationError(text.data());
+  }
+  Eigen::Vector2d low = hull[0].centroid.head<2>(), high = low;
+  for (int j = 0; j < count; ++j) {
+    points_.push_back(panel(j).centroid);
+    diameters_.push_back(panel(j).diameter());
+    for (const Vector3& vertex : panel(j).vertices) {
+      deepest_ = std::max(deepest_, -vertex.z());
+      for (int image = 0; image < model.symmetry().image_count(); ++image) {
+        const Eigen::Vector2d p = model.symmetry().reflect(image, vertex).head<2>();
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+    }
+  }
+  reach_ = (high - low).norm();
+  deepest_ = std::min(deepest_, model.water().depth);
+  integrate_images();
+}
+
+void HullEquations::integrate_images() {
+  const Symmetry& symmetry = model_.symmetry();
+  const int images = symmetry.image_count(), count = size();
+  const bool deep = is_deep(model_.water());
+  // The points reflected in planes of symmetry, and then in nothing, surface and bottom.
+  std::vector<std::array<PointColumns, 3>> places;
+  for (int g = 0; g < images; ++g) {
+    std::array<PointColumns, 3> place;
+    for (int k = 0; k < (deep ? 2 : 3); ++k) {
+      place[k] = PointColumns(points_.size());
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        const Vector3 p = symmetry.reflect(g, points_[i]);
+        place[k].x[i] = p.x();
+        place[k].y[i] = p.y();
+        place[k].z[i] = k == 0 ? p.z() : (k == 1 ? 0.0 : -2.0 * model_.water().depth) - p.z();
+      }
+    }
+    places.push_back(std::move(place));
+  }
+  for (std::size_t p = 0; p < parities_.size(); ++p) {
+    images_.push_back({MatrixXd::Zero(count, count), MatrixXd::Zero(count, hull_count_)});
+    surface_images_.push_back(images_.back());
+  }
+  parallel_for(count, settings_.threads, [&](int j) {
+    Eigen::VectorXd source(count), dipole(count);
+    for (int g = 0; g < images; ++g) {
+      for (std::size_t k = 0; k < (deep ? 2U : 3U); ++k) {
+        source.setZero();
+        dipole.setZero();
+        const bool on_hull = j < hull_count_;
+        add_panel_potentials(panel(j), places[g][k],
+                             on_hull ? PanelIntegral::both : PanelIntegral::source, 1.0,
+                             source.data(), on_hull ? dipole.data() : nullptr);
+        // A panel's own dipole has the mean value zero.
+        if (g == 0 && k == 0) dipole[j] = 0.0;
+        for (std::size_t p = 0; p < parities_.size(); ++p) {
+          const double sign = model_.sign(parities_[p], g);
+          images_[p].source.col(j) += sign * source;
+          if (k == 1) surface_images_[p].source.col(j) += sign * source;
+          if (!on_hull) continue;
+          images_[p].dipole.col(j) += sign * dipole;
+          if (k == 1) surface_images_[p].dipole.col(j) += sign * dipole;
+        }
+      }
+    }
+  });
+}
+
+/// What a panel's waves are computed with.
+struct HullEquations::WaveColumn {
+  const WaveGreenFunction& green;
+  const std::vector<WaveGreenFunction::Level>& levels;  ///< of the centroids
+  std::vector<double> distances = std::vector<double>(levels.size());
+  std::vector<WaveGreenFunction::Value> values =
+      std::vector<WaveGreenFunction::Value>(levels.size());
+  std::vector<PanelPoint> points = {};
+};
+
+void HullEquations::add_wave_column(int j, WaveColumn& column,
+                                    std::vector<Influence<Complex>>& waves) const {
+  constexpr double near = 4.0, very_near = 1.5;  // diameters, from the image in z = 0
+  const Panel& source = panel(j);
+  const Vector3& n = source.normal;
+  const bool on_hull = j < hull_count_;
+  for (int g = 0; g < model_.symmetry().image_count(); ++g) {
+    std::vector<Vector3> fields(points_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      fields[i] = model_.symmetry().reflect(g, points_[i]);
+      column.distances[i] = (fields[i] - source.centroid).head<2>().norm();
+    }
+    column.green.at(column.distances, column.levels, column.levels[j], column.values);
+    for (int i = 0; i < size(); ++i) {
+      const Vector3& field = fields[i];
+      const double R = column.distances[i], s = field.z() + source.centroid.z();
+      Complex potential, dipole;
+      const double apart = std::sqrt(R * R + s * s) / diameters_[j];
+      if (apart > near) {
+        const WaveGreenFunction::Value& value = column.values[i];
+        potential = source.area * value.g;
+        dipole = source.area * (value.along_R * level_share(field, source.centroid, n, R) +
+                                value.along_zeta * n.z());
+      } else {
+        divide(source, apart > very_near ? 2 : 4, column.points);
+        for (const PanelPoint& point : column.points) {
+          const double distance = (field - point.position).head<2>().norm();
+          const WaveGreenFunction::Value value =
+              column.green.at(distance, column.levels[i], column.green.level(point.position.z()));
+          potential += point.area * value.g;
+          dipole += point.area * (value.along_R * level_share(field, point.position, n, distance) +
+                                  value.along_zeta * n.z());
+        }
+      }
+      for (std::size_t p = 0; p < parities_.size(); ++p) {
+        const double sign = model_.sign(parities_[p], g);
+        waves[p].source(i, j) += sign * potential;
+        if (on_hull) waves[p].dipole(i, j) += sign * dipole;
+      }
+    }
+  }
+}
+
+std::vector<HullEquations::Influence<Complex>> HullEquations::integrate_waves(
+    double frequency) const {
+  const WaveGreenFunction green(model_.water(), frequency, reach_, deepest_);
+  std::vector<WaveGreenFunction::Level> levels;
+  for (const Vector3& point : points_) levels.push_back(green.level(point.z()));
+  std::vector<Influence<Complex>> waves;
+  for (std::size_t p = 0; p < parities_.size(); ++p) {
+    waves.push_back({images_[p].source.cast<Complex>(), images_[p].dipole.cast<Complex>()});
+    if (std::isinf(frequency)) {
+      waves[p].source.real() -= 2.0 * surface_images_[p].source;
+      waves[p].dipole.real() -= 2.0 * surface_images_[p].dipole;
+      continue;
+    }
+    for (int j = 0; j < hull_count_; ++j) {
+      waves[p].dipole.col(j).real() +=
+          2.0 * green.deep_wave_number() * panel(j).normal.z() * surface_images_[p].source.col(j);
+    }
+  }
+  if (std::isinf(frequency) && is_deep(model_.water())) return waves;
+  parallel_for(size(), settings_.threads, [&](int j) {
+    WaveColumn column{green, levels};
+    add_wave_column(j, column, waves);
+  });
+  return waves;
+}
+
+std::vector<HullEquations::Part> HullEquations::solve(double frequency) const {
+  if (!(frequency > 0.0)) throw ModelError("the frequency of waves must be positive");
+  const std::vector<Influence<Complex>> waves = integrate_waves(frequency);
+  const double w = frequency, g = model_.water().gravity;
+  // Without waves the potential is nothing on the surface, and needs no cells.
+  const int count = std::isinf(w) ? hull_count_ : size();
+  std::vector<Part> parts;
+  for (std::size_t p = 0; p < parities_.size(); ++p) {
+    Part part{parities_[p], {}, {}, {}};
+    const MatrixXd velocities = model_.normal_velocities(part.parity);
+    for (int mode = 0; mode < model_.mode_count(); ++mode) {
+      if (!velocities.col(mode).isZero(0.0)) part.modes.push_back(mode);
+    }
+    part.normal_velocities = velocities(Eigen::all, part.modes);
+    const auto& [source, dipole] = waves[p];
+    MatrixXcd matrix(count, count);
+    matrix.leftCols(hull_count_) = -dipole.topRows(count);
+    for (int j = hull_count_; j < count; ++j) {
+      const int region = cells_.region[j - hull_count_];
+      const Complex faded(w, region < 0 ? 0.0 : -settings_.lids[region].rate);
+      const Complex b = region < 0 ? Complex(-w * w / g) : (faded * faded - w * w) / g;
+      matrix.col(j) = -b * source.col(j);
+    }
+    matrix.diagonal().head(hull_count_).array() += 2.0 * pi;
+    matrix.diagonal().tail(count - hull_count_).array() += 4.0 * pi;
+    MatrixXcd right = -(source.topLeftCorner(count, hull_count_) * part.normal_velocities);
+    solve_in_place(matrix, right, "the matrix of the hulls' panels");
+    part.potentials = right.topRows(hull_count_);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+MatrixXcd HullEquations::calc_radiation(const std::vector<Part>& parts, double frequency) const {
+  MatrixXcd result = MatrixXcd::Zero(model_.mode_count(), model_.mode_count());
+  const Complex rate = std::isinf(frequency) ? Complex(1.0) : Complex(0.0, frequency);
+  for (const Part& part : parts) {
+    const MatrixXd weighted = model_.body_areas().asDiagonal() * part.normal_velocities;
+    const double factor = -model_.water().density * model_.symmetry().image_count();
+    result(part.modes, part.modes) += rate * factor * (weighted.transpose() * part.potentials);
+  }
+  return result;
+}
+
+MatrixXcd HullEquations::calc_diffraction(const std::vector<Part>& parts, double frequency,
+                                          const std::vector<double>& headings) const {
+  MatrixXcd result = MatrixXcd::Zero(model_.mode_count(), headings.size());
+  const Complex factor(0.0, frequency * model_.water().density * model_.symmetry().image_count());
+  for (std::size_t h = 0; h < headings.size(); ++h) {
+    const IncidentWave wave(model_.water(), frequency, headings[h]);
+    for (const Part& part : parts) {
+      const Eigen::VectorXcd opposed =
+          model_.part_of(part.parity, [&](const Vector3& p, const Vector3& n) -> Complex {
+            return -(wave.velocity(p).transpose() * n)(0);
+          });
+      const Eigen::VectorXcd weighted = model_.body_areas().asDiagonal() * opposed;
+      result(part.modes, static_cast<Eigen::Index>(h)) +=
+          factor * (part.potentials.transpose() * weighted);
+    }
+  }
+  return result;
+}
+
+}  // namespace blocklift::dynamics
