@@ -7,7 +7,7 @@
 namespace blocklift::pipeline {
 namespace {
 
-void check_group(const VesselGroup& group, Reading& reading, const Mark& mark) {
+void check_vessels(const VesselGroup& group, Reading& reading, const Mark& mark) {
   if (group.vessels.empty()) {
     reading.error(mark, "there is no vessel", {"give at least one, with its name and place"});
   }
@@ -51,7 +51,7 @@ Format<VesselGroup> vessel_group_format() {
       .by_default("hydrodynamics", &VesselGroup::hydrodynamics, hydrodynamic_settings_format(),
                   "{}", "what blocklift hydro computes")
       .place(&VesselGroup::place)
-      .rule(check_group);
+      .rule(check_vessels);
   return table.format();
 }
 
