@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "dynamics/marine/green/hull_equations.h"
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/radiation/distant_groups.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"
@@ -116,6 +118,26 @@ CubesErrors errors_of_cubes(const HydrodynamicDatabase& database) {
   return errors;
 }
 
+/// The same with unknowns on the cubes alone, in waves of the water itself, however far they go.
+CubesErrors errors_of_cubes_alone(const PanelModel& model) {
+  const HullEquations equations(model, {});
+  CubesErrors errors;
+  for (const CubesRow& row : wamit) {
+    const double w = row.frequency;
+    const Eigen::MatrixXcd force = equations.calc_radiation(equations.solve(w), w);
+    const auto coupled = [&](int i, int j) {
+      const std::complex<double> mean = 0.5 * (force(i, j) + force(j, i));
+      return CoupledForce{1e-3 * mean.imag() / w, 1e-3 * mean.real()};
+    };
+    errors.surge =
+        std::max(errors.surge, error_of(coupled(first_surge, second_surge), row.surge, w));
+    if (std::hypot(w * row.heave.mass, row.heave.damping) < 2.0) continue;
+    errors.heave =
+        std::max(errors.heave, error_of(coupled(first_heave, second_heave), row.heave, w));
+  }
+  return errors;
+}
+
 std::vector<VerificationRow> distant_cubes_rows() {
   std::vector<VerificationRow> rows;
   struct Mesh {
@@ -127,6 +149,15 @@ std::vector<VerificationRow> distant_cubes_rows() {
     const HydrodynamicDatabase database = compute_cubes(model);
     const CubesErrors errors = errors_of_cubes(database);
     const int panels = 2 * model.body_mesh().size();
+    const CubesErrors by_hull = errors_of_cubes_alone(model);
+    rows.push_back(bound(fmt::format("surge on surge, B + i w A, {} panels of the cubes alone, "
+                                     "relative error",
+                                     panels),
+                         "1", by_hull.surge, mesh.surge));
+    rows.push_back(bound(fmt::format("heave on heave, B + i w A, {} panels of the cubes alone, "
+                                     "relative error",
+                                     panels),
+                         "1", by_hull.heave, mesh.heave));
     rows.push_back(bound(
         fmt::format("surge on surge, B + i w A, {} panels on the cubes, relative error", panels),
         "1", errors.surge, mesh.surge));

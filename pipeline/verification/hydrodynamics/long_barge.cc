@@ -2,9 +2,11 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "dynamics/marine/green/hull_equations.h"
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"
@@ -24,7 +26,19 @@ constexpr std::array<double, 7> barge_frequencies = {0.2, 0.8, 1.0, 1.2, 1.4, 1.
 struct LongBarge {
   HydrodynamicDatabase database;
   int panels = 0;
+  /// B + i w A by another method, with unknowns on the hull alone.
+  std::vector<Eigen::MatrixXcd> forces_by_hull;
+  int hull_panels = 0;
 };
+
+std::vector<Eigen::MatrixXcd> forces_of_barge(const PanelModel& model) {
+  const HullEquations equations(model, {});
+  std::vector<Eigen::MatrixXcd> forces;
+  for (const double w : barge_frequencies) {
+    forces.push_back(equations.calc_radiation(equations.solve(w), w));
+  }
+  return forces;
+}
 
 /// Panels of the same size on barges of any length.
 LongBarge compute_barge(double length) {
@@ -43,13 +57,18 @@ LongBarge compute_barge(double length) {
   DatabaseSettings asked;
   asked.frequencies.assign(barge_frequencies.begin(), barge_frequencies.end());
   return {compute_database(model, asked),
-          4 * (model.body_mesh().size() + model.surface_mesh().size())};
+          4 * (model.body_mesh().size() + model.surface_mesh().size()), forces_of_barge(model),
+          4 * model.body_mesh().size()};
 }
 
 Complex force_on(const LongBarge& barge, std::size_t frequency, DegreeOfFreedom mode) {
   const double w = barge_frequencies[frequency];
   return {barge.database.added_mass[frequency](mode, mode),
           -barge.database.damping[frequency](mode, mode) / w};
+}
+
+Complex force_by_hull(const LongBarge& barge, std::size_t frequency, DegreeOfFreedom mode) {
+  return barge.forces_by_hull[frequency](mode, mode) / Complex(0.0, barge_frequencies[frequency]);
 }
 
 // What one barge has more than another half as long is its middle: the ends are the same. There
@@ -76,6 +95,13 @@ std::vector<VerificationRow> long_barge_rows() {
                                        "error",
                                        mode.name, w, whole.panels),
                            "1", std::abs(middle - section) / std::abs(section), mode.bound));
+      const Complex by_hull =
+          (force_by_hull(whole, k, mode.freedom) - force_by_hull(half, k, mode.freedom)) /
+          short_length;
+      rows.push_back(bound(fmt::format("{}, B + i w A of the middle, {} rad/s, {} panels of the "
+                                       "hull alone, relative error",
+                                       mode.name, w, whole.hull_panels),
+                           "1", std::abs(by_hull - section) / std::abs(section), mode.bound));
     }
   }
   return rows;
