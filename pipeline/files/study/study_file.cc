@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -182,6 +184,18 @@ Format<SeaLimits> sea_limits_format() {
   return table.format();
 }
 
+/// A key that two variables gave a value would have that of the last, and the other would do nothing.
+void check_keys(const StudyFile& study, Reading& reading) {
+  std::map<std::string_view, std::string_view> varied_with;
+  for (const StudyVariable& variable : study.variables)
+    for (const Located<std::string>& key : variable.keys) {
+      const auto [known, is_new] = varied_with.try_emplace(key.value, variable.name.value);
+      if (!is_new)
+        reading.error(key.mark,
+                      fmt::format("{} varies already, with {}", key.value, known->second));
+    }
+}
+
 /// The variable that a limit names, if it can be that.
 void check_named_variable(const StudyFile& study, const std::optional<Located<std::string>>& name,
                           const Exponents& exponents, Reading& reading) {
@@ -336,6 +350,7 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
     reading.error(mark, "a grid has as many members as its values give; members goes with samples");
   if (!is_grid && study.members <= 0) reading.error(mark, "the number of members is missing");
   if (study.variables.empty()) reading.error(mark, "nothing varies");
+  check_keys(study, reading);
   check_limits(study, reading);
   check_search(study, reading, mark);
   check_correlations(study, reading);

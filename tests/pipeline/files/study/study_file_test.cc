@@ -64,6 +64,15 @@ TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
               HasSubstr("one of values, spread and between is due"));
 }
 
+// Of two values for one key the second would be the key's, and the first would do nothing.
+TEST(StudyFile, RefusesAKeyThatTwoVariablesChange) {
+  EXPECT_THAT(complaints("members: 4\n"
+                         "vary:\n"
+                         "  a: {keys: [x, y], values: [1]}\n"
+                         "  b: {keys: [z, x], values: [2]}\n"),
+              HasSubstr("study.yaml:6:17: error: x varies already, with a\n"));
+}
+
 TEST(StudyFile, RefusesCorrelationsThatMakeNoSense) {
   const std::string laws =
       "members: 9\nvary:\n"
