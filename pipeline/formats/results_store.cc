@@ -42,9 +42,16 @@ Handle link_creation() {
   return properties;
 }
 
+/// Properties of what is made without the time at which it is: equal results are equal files.
+Handle creation_without_time(hid_t kind) {
+  Handle properties(H5Pcreate(kind), H5Pclose);
+  H5Pset_obj_track_times(properties.get(), false);
+  return properties;
+}
+
 /// Groups remember the order in which their members were made, the files the order of attributes.
 Handle group_creation() {
-  Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  Handle properties = creation_without_time(H5P_GROUP_CREATE);
   H5Pset_link_creation_order(properties.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   return properties;
 }
@@ -63,7 +70,7 @@ Handle make_space(const Shape& shape) {
 }
 
 Handle dataset_creation(const Shape& shape, bool numerical) {
-  Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  Handle properties = creation_without_time(H5P_DATASET_CREATE);
   hsize_t count = 1;
   for (const hsize_t extent : shape) count *= extent;
   if (shape.empty() || !numerical || count < smallest_compressed_count) return properties;
@@ -165,7 +172,7 @@ class ResultsWriter::File {
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     // Groups with creation order need the format of HDF5 1.8, which every reader in use knows.
     H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    const Handle creation = creation_without_time(H5P_FILE_CREATE);
     H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     file_ =
         Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose);

@@ -78,6 +78,7 @@ TEST_F(SweepCommand, GivesTheSameWithAnyNumberOfWorkersAndAfterAKill) {
   ASSERT_EQ(run("sweep study.yaml -o three --workers 3 -q").exit_code, 0);
   EXPECT_EQ(text_of_file("one/study.csv"), text_of_file("three/study.csv"));
   EXPECT_EQ(text_of_file("one/study.json"), text_of_file("three/study.json"));
+  EXPECT_EQ(text_of_file("one/study.h5"), text_of_file("three/study.h5"));
 
   // What a killed study leaves: some members.
   fs::create_directories("killed/members");
