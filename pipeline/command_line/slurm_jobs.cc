@@ -27,7 +27,7 @@ std::string quoted(const std::string& text) {
 /// Slurm reads "%" in names of files as the beginning of a number.
 std::string without_numbers(std::string path) {
   for (std::size_t at = 0; (at = path.find('%', at)) != std::string::npos; at += 2)
-    path.insert(at, "%");
+    path.insert(at, 1, '%');
   return path;
 }
 
