@@ -110,10 +110,13 @@ std::vector<VerificationRow> barges_side_by_side_rows() {
     DegreeOfFreedom freedom;
     const char* name;
     double bound;
+    /// Of the method without a meshed surface: first order at the barges' edges, too.
+    double bound_by_hulls;
   };
   std::vector<VerificationRow> rows;
   const PairOfBarges half = compute_pair(shorter), whole = compute_pair(2.0 * shorter);
-  for (const Mode& mode : {Mode{sway, "sway apart", 0.06}, Mode{heave, "heave together", 0.11}}) {
+  for (const Mode& mode :
+       {Mode{sway, "sway apart", 0.06, 0.07}, Mode{heave, "heave together", 0.11, 0.11}}) {
     std::vector<Complex> middle, by_hulls, section;
     double worst = 0.0, worst_by_hulls = 0.0;
     for (std::size_t k = 0; k < pair_frequencies.size(); ++k) {
@@ -134,7 +137,7 @@ std::vector<VerificationRow> barges_side_by_side_rows() {
     rows.push_back(bound(fmt::format("{}, B + i w A of the middle, 0.72 to 1.5 rad/s, {} panels of "
                                      "the hulls alone, relative error",
                                      mode.name, whole.hull_panels),
-                         "1", worst_by_hulls, mode.bound, "matched eigenfunctions"));
+                         "1", worst_by_hulls, mode.bound_by_hulls, "matched eigenfunctions"));
     if (mode.freedom != sway) continue;
     const double found = resonance_of(middle), exact = resonance_of(section);
     rows.push_back(compare("piston mode of a gap of 16 m, hulls alone", "rad/s", exact,

@@ -129,13 +129,14 @@ std::vector<VerificationRow> truncated_cylinder_rows() {
   rows.push_back(compare("surge added mass, order of convergence in the panels' size", "1", 2.0,
                          0.5 * std::log2(errors_by_size.front() / errors_by_size.back()), 0.5,
                          "second order: panels of constant strength, midpoints"));
-  // Another method, with unknowns on the hull alone.
+  // Another method, with unknowns on the hull alone. At the sharp edge the velocity grows as
+  // r^(-1/3), which takes even panels of constant strength from second order towards 4/3.
   std::vector<double> errors_by_hull;
   for (const int meridians : {16, 32, 64}) {
     const PanelModel hull = make_model(meridians, 0.0);
     const Errors of_hull = errors_of(forces_of_cylinder(hull));
     errors_by_hull.push_back(of_hull.surge);
-    const double allowed = 0.03 * std::pow(16.0 / meridians, 2);
+    const double allowed = 0.045 * std::pow(16.0 / meridians, 5.0 / 3.0);
     const int hull_panels = 4 * hull.body_mesh().size();
     rows.push_back(bound(
         fmt::format("surge, B + i w A, {} panels of the hull alone, relative error", hull_panels),
@@ -145,8 +146,8 @@ std::vector<VerificationRow> truncated_cylinder_rows() {
         "1", of_hull.heave, allowed));
   }
   rows.push_back(compare("surge, the hull alone, order of convergence in the panels' size", "1",
-                         2.0, 0.5 * std::log2(errors_by_hull.front() / errors_by_hull.back()), 0.5,
-                         "second order: panels of constant strength, midpoints"));
+                         5.0 / 3.0, 0.5 * std::log2(errors_by_hull.front() / errors_by_hull.back()),
+                         1.0 / 3.0, "between 4/3 and second order: a sharp edge, even panels"));
   return rows;
 }
 
