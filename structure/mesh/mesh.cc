@@ -134,6 +134,7 @@ double balance(const Mesh& mesh, MotionEquation& equation) {
     }
   }
   const auto count = static_cast<Eigen::Index>(free.size());
+  if (count == 0) return resultant.isZero(0) ? 0 : std::numeric_limits<double>::infinity();
   Eigen::MatrixXd effect(6, count);
   for (Eigen::Index i = 0; i < count; ++i) effect.col(i) = columns[i];
   const Eigen::VectorXd change =

@@ -198,6 +198,8 @@ class DeckMaker {
   /// these are bound along axes.
   void add_equations(int vertex, const Shares& shares, const Eigen::Matrix3d& axes,
                      const std::array<bool, 6>& bound, bool turns) {
+    // What is a node of the shell itself needs no equation.
+    if (std::count(shares.vertices.begin(), shares.vertices.end(), vertex) > 0) return;
     const Vector3 arm = mesh_.vertices[vertex] - mean_place(shares);
     for (int component = 0; component < (turns ? 6 : 3); ++component) {
       if (!bound[component]) continue;

@@ -28,7 +28,7 @@ LIBRARIES = {
     "yaml-cpp/": ("pipeline",),
     "cvodes/": ("dynamics/simulation",),
     "kinsol/": ("dynamics/simulation",),
-    "fftw3.h": ("dynamics/marine/waves",),
+    "fftw3.h": ("dynamics/marine/radiation", "dynamics/marine/waves"),
 }
 
 

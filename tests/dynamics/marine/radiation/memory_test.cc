@@ -107,7 +107,7 @@ HydrodynamicDatabase eight_pairs_of_poles() {
       for (Eigen::Index i = 0; i < modes; ++i) {
         shape[i] = 1.0 + std::cos(1.7 * (pole + 1) * static_cast<double>(i + 1));
       }
-      const double decay = pole == 0 ? 16.0 : 0.35 + 0.05 * pole;
+      const double decay = pole == 0 ? 16.0 : 0.8 + 0.05 * pole;
       K += std::exp(-decay * t) * std::cos((1.0 + 0.8 * pole) * t) * shape * shape.transpose();
     }
     database.retardation.push_back(K);
@@ -115,8 +115,8 @@ HydrodynamicDatabase eight_pairs_of_poles() {
   return database;
 }
 
-// The whole matrix has 4,800 rows. What is left of it at the end, exp(-0.4 * 20), is all that a
-// finite response differs from its poles by.
+// The whole matrix has 4,800 rows. What is left at the end, exp(-0.85 * 20), is all that a finite
+// response differs from its poles by; numbers of states are tried in steps of an eighth.
 TEST(MemoryStateSpace, UsesEverySampleOfManyModes) {
   const MemoryStateSpace fit(eight_pairs_of_poles(), 2e-3, 60);
   EXPECT_LE(fit.state_count(), 24);
