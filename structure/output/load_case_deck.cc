@@ -9,8 +9,8 @@
 #include <utility>
 
 #include <Eigen/Dense>
+#include <deal.II/base/quadrature_lib.h>
 
-#include "structure/formulation/shell.h"
 #include "structure/index.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/space/joints.h"
@@ -151,17 +151,17 @@ class DeckMaker {
       for (std::size_t i = 0; i < nodes.size(); ++i) sum[nodes[i]] += weight * values[i];
     };
     if (point.line.empty()) add(point.shell, point.xi, 1);
-    const Eigen::Matrix3Xd rule = square_rule(5);
+    // Exact for the density, of second degree, times a shell's shapes along an oblique line.
+    const dealii::QGauss<1> rule(5);
     for (const SurfaceStretch& stretch : point.line)
-      for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-        // A square's rule seen along one side.
-        const double t = rule(0, q);
+      for (unsigned q = 0; q < rule.size(); ++q) {
+        const double t = rule.point(q)[0];
         add(stretch.shell, (1 - t) * stretch.ends[0] + t * stretch.ends[1],
-            rule(2, q) * stretch.density.dot(Vector3(1, t, t * t)));
+            rule.weight(q) * stretch.density.dot(Vector3(1, t, t * t)));
       }
     Shares shares;
     for (const auto& [vertex, share] : sum) {
-      if (std::abs(share) < 1e-12) continue;
+      if (std::abs(share) < 1e-15) continue;  // what rounding leaves of none
       shares.vertices.push_back(vertex);
       shares.values.push_back(share);
     }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dynamics/marine/green/gauss_legendre.h"
+#include "dynamics/algebra/gauss_legendre.h"
 
 namespace blocklift::dynamics {
 namespace {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dynamics/algebra/dense_algebra.h"
+#include "dynamics/algebra/gauss_legendre.h"
 #include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/green/wave_green_function.h"
@@ -28,19 +29,15 @@ struct PanelPoint {
   double area;
 };
 
-/// Gauss's points on a panel as the bilinear image of a square, order x order.
-void divide(const Panel& panel, int order, std::vector<PanelPoint>& points) {
-  constexpr std::array<double, 2> two = {-0.5773502691896257, 0.5773502691896257};
-  constexpr std::array<double, 4> four = {-0.8611363115940526, -0.3399810435848563,
-                                          0.3399810435848563, 0.8611363115940526};
-  constexpr std::array<double, 4> four_weights = {0.3478548451374538, 0.6521451548625461,
-                                                  0.6521451548625461, 0.3478548451374538};
+/// A rule's points on a panel as the bilinear image of a square.
+void divide(const Panel& panel, const QuadratureRule& rule, std::vector<PanelPoint>& points) {
+  const std::size_t order = rule.points.size();
   const auto& v = panel.vertices;
   points.clear();
-  for (int i = 0; i < order; ++i) {
-    for (int j = 0; j < order; ++j) {
-      const double a = order == 2 ? two[i] : four[i], b = order == 2 ? two[j] : four[j];
-      const double weight = order == 2 ? 1.0 : four_weights[i] * four_weights[j];
+  for (std::size_t i = 0; i < order; ++i) {
+    for (std::size_t j = 0; j < order; ++j) {
+      const double a = rule.points[i], b = rule.points[j];
+      const double weight = rule.weights[i] * rule.weights[j];
       const Vector3 along = 0.25 * ((1.0 - b) * (v[1] - v[0]) + (1.0 + b) * (v[2] - v[3]));
       const Vector3 across = 0.25 * ((1.0 - a) * (v[3] - v[0]) + (1.0 + a) * (v[2] - v[1]));
       points.push_back({0.25 * ((1.0 - a) * (1.0 - b) * v[0] + (1.0 + a) * (1.0 - b) * v[1] +
@@ -176,6 +173,7 @@ struct HullEquations::WaveColumn {
 void HullEquations::add_wave_column(int j, WaveColumn& column,
                                     std::vector<Influence<Complex>>& waves) const {
   constexpr double near = 4.0, very_near = 1.5;  // diameters, from the image in z = 0
+  static const QuadratureRule two = make_gauss_legendre(2), four = make_gauss_legendre(4);
   const Panel& source = panel(j);
   const Vector3& n = source.normal;
   const bool on_hull = j < hull_count_;
@@ -197,7 +195,7 @@ void HullEquations::add_wave_column(int j, WaveColumn& column,
         dipole = source.area * (value.along_R * level_share(field, source.centroid, n, R) +
                                 value.along_zeta * n.z());
       } else {
-        divide(source, apart > very_near ? 2 : 4, column.points);
+        divide(source, apart > very_near ? two : four, column.points);
         for (const PanelPoint& point : column.points) {
           const double distance = (field - point.position).head<2>().norm();
           const WaveGreenFunction::Value value =

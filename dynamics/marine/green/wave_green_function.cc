@@ -5,10 +5,10 @@
 #include <numbers>
 #include <string>
 
+#include "dynamics/algebra/gauss_legendre.h"
 #include "dynamics/errors.h"
 #include "dynamics/instruction_sets.h"
 #include "dynamics/marine/green/deep_water_integral.h"
-#include "dynamics/marine/green/gauss_legendre.h"
 
 namespace blocklift::dynamics {
 namespace {

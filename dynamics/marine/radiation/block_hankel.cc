@@ -3,11 +3,12 @@
 #include <fftw3.h>
 
 #include <algorithm>
-#include <complex>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <numeric>
 #include <random>
+#include <type_traits>
 
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/algebra/parallel_for.h"
@@ -15,7 +16,6 @@
 namespace blocklift::dynamics {
 namespace {
 
-using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;

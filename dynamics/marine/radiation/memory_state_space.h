@@ -13,12 +13,12 @@ namespace blocklift::dynamics {
 /// to all modes that couple; each real pole has one state and each complex pair two, A being
 /// block-diagonal. All poles decay. Found from the samples of K by the eigensystem realisation
 /// algorithm: the block Hankel matrix of K(i + j), of all samples, is symmetric, its leading
-/// eigenvectors are the states. Modes that do not couple, to a thousandth of their peaks, are fitted apart, and so are
-/// two bodies that mirror each other, by what they do alike and against each other. The number of
-/// states is the least that meets the tolerance. The integral of K, the damping of a steady
-/// velocity, is that of the samples (their trapezoidal sum) where the tolerance allows. Sources:
-/// Kung (1978); Kristiansen, Hjulstad and Egeland (2005), Ocean Engineering 32, for Cummins'
-/// equation.
+/// eigenvectors are the states. Modes that do not couple, to a thousandth of their peaks, are
+/// fitted apart, and so are two bodies that mirror each other, by what they do alike and against
+/// each other. The number of states is the least that meets the tolerance. The integral of K, the
+/// damping of a steady velocity, is that of the samples (their trapezoidal sum) where the tolerance
+/// allows. Sources: Kung (1978); Kristiansen, Hjulstad and Egeland (2005), Ocean Engineering 32,
+/// for Cummins' equation.
 class MemoryStateSpace {
  public:
   /// `tolerance`: largest error of any K_ij over the root of the peaks of K_ii and K_jj, each taken

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/algebra/gauss_legendre.h"
 #include "dynamics/errors.h"
 #include "dynamics/force/random_source.h"
 
@@ -20,26 +21,19 @@ void require_positive_and_finite(const char* what, double value) {
                    "; a number above zero is due");
 }
 
-// Gauss-Legendre, 8 points on [0, 1].
-constexpr std::array<double, 4> gauss_place = {0.1834346424956498, 0.5255324099163290,
-                                               0.7966664774136267, 0.9602898564975363};
-constexpr std::array<double, 4> gauss_weight = {0.3626837833783620, 0.3137066458778873,
-                                                0.2223810344533745, 0.1012285362903763};
-
 // int f d omega over [low, high], substituting ln omega.
 template <class Function>
 double integrate(double low, double high, int pieces, Function&& f) {
+  static const QuadratureRule rule = make_gauss_legendre(8);
   if (!(high > low)) return 0.0;
   const double from = std::log(low);
   const double half = 0.5 * (std::log(high) - from) / pieces;
   double sum = 0.0;
   for (int piece = 0; piece < pieces; ++piece) {
     const double middle = from + (2 * piece + 1) * half;
-    for (std::size_t i = 0; i < gauss_place.size(); ++i) {
-      for (const double side : {-1.0, 1.0}) {
-        const double omega = std::exp(middle + side * half * gauss_place[i]);
-        sum += gauss_weight[i] * half * omega * f(omega);
-      }
+    for (std::size_t i = 0; i < rule.points.size(); ++i) {
+      const double omega = std::exp(middle + half * rule.points[i]);
+      sum += rule.weights[i] * half * omega * f(omega);
     }
   }
   return sum;

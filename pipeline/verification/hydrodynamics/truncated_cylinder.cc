@@ -130,7 +130,7 @@ std::vector<VerificationRow> truncated_cylinder_rows() {
                          0.5 * std::log2(errors_by_size.front() / errors_by_size.back()), 0.5,
                          "second order: panels of constant strength, midpoints"));
   // Another method, with unknowns on the hull alone. At the sharp edge the velocity grows as
-  // r^(-1/3), which takes even panels of constant strength from second order towards 4/3.
+  // r^(-1/3), which takes even panels from second order towards 4/3 (Costabel and Stephan 1985).
   std::vector<double> errors_by_hull;
   for (const int meridians : {16, 32, 64}) {
     const PanelModel hull = make_model(meridians, 0.0);

@@ -62,15 +62,17 @@ MiddleVertices::MiddleVertices(Mesh& mesh) : mesh_(mesh) {
     high = high.cwiseMax(vertex);
   }
   step_ = 1e-9 * (high - low).norm();
-  // What moves as the mean along a line, or follows it, is no node of a shell, wherever it lies.
-  std::vector<char> is_mean(mesh.vertices.size(), 0);
+  // What moves as the mean along a line, or is linked with that, is no node of a shell, wherever it
+  // lies.
+  std::vector<char> is_mean(mesh.vertices.size(), 0), is_apart(mesh.vertices.size(), 0);
   for (const SurfacePoint& point : mesh.surface_points)
     if (!point.line.empty()) is_mean[point.vertex] = 1;
-  for (const RigidLink& link : mesh.rigid_links)
-    if (is_mean[link.master] != 0)
-      for (const int slave : link.slaves) is_mean[slave] = 1;
+  for_each_link(mesh, [&](const std::vector<int>& all, long) {
+    if (std::any_of(all.begin(), all.end(), [&](int vertex) { return is_mean[vertex] != 0; }))
+      for (const int vertex : all) is_apart[vertex] = 1;
+  });
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (is_mean[v] == 0)
+    if (is_apart[v] == 0 && is_mean[v] == 0)
       cells_.emplace(std::lround(mesh.vertices[v].sum() / step_), static_cast<int>(v));
 }
 

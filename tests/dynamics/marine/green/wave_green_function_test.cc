@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "dynamics/algebra/gauss_legendre.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/green/deep_water_integral.h"
-#include "dynamics/marine/green/gauss_legendre.h"
 
 namespace blocklift::dynamics {
 namespace {

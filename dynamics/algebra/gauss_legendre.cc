@@ -1,4 +1,4 @@
-#include "dynamics/marine/green/gauss_legendre.h"
+#include "dynamics/algebra/gauss_legendre.h"
 
 #include <cmath>
 #include <numbers>
