@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "pipeline/formats/hdf5_handle.h"
@@ -110,13 +111,25 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
-/// Whether every link of an absolute path exists (H5Lexists alone fails on a missing middle).
-bool exists(hid_t file, const std::string& path) {
+bool is_no_group(hid_t file, const std::string& path) {
+  H5O_info_t info;
+  return H5Oget_info_by_name(file, path.c_str(), &info, H5P_DEFAULT) >= 0 &&
+         info.type != H5O_TYPE_GROUP;
+}
+
+/// Whether every link of an absolute path exists (H5Lexists alone fails on a missing middle); none
+/// where a group on the way is damaged, so that it cannot be told. HDF5 1.10 says so once, and takes
+/// what it has read of the group for sound from then on.
+std::optional<bool> look_up(hid_t file, const std::string& path) {
   if (path == "/") return true;
+  std::string above = "/";
   for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-    const std::string part = path.substr(0, end);
-    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    std::string part = path.substr(0, end);
+    const htri_t found = H5Lexists(file, part.c_str(), H5P_DEFAULT);
+    if (found < 0 && !is_no_group(file, above)) return std::nullopt;
+    if (found <= 0) return false;
     if (end == std::string::npos) return true;
+    above = std::move(part);
   }
 }
 
@@ -182,6 +195,8 @@ class ResultsWriter::File {
   const std::filesystem::path& name() const { return name_; }
   hid_t id() const { return file_.get(); }
 
+  bool has(const std::string& path) const { return look_up(id(), path).value_or(false); }
+
   void close() {
     if (!file_.reset()) fail(name_, "", "cannot write the last of the data");
   }
@@ -204,7 +219,7 @@ class ResultsWriter::File {
   void put(std::string_view dataset, hid_t stored, hid_t memory, const Shape& shape,
            const void* data, const Meaning& meaning) {
     const std::string path = absolute(dataset);
-    if (exists(id(), path)) fail(name_, path, "is written already; a dataset is written once");
+    if (has(path)) fail(name_, path, "is written already; a dataset is written once");
     const std::size_t slash = path.rfind('/');
     if (slash > 0) make_groups(path.substr(0, slash));
     const bool numerical = H5Tget_class(stored) != H5T_STRING;
@@ -259,7 +274,7 @@ void ResultsWriter::write_attribute(std::string_view object, std::string_view na
                                     std::string_view value) {
   const QuietErrors quiet;
   const std::string path = absolute(object);
-  if (!exists(file_->id(), path)) file_->make_groups(path);
+  if (!file_->has(path)) file_->make_groups(path);
   const Handle target = open_object(file_->id(), file_->name(), path);
   put_text_attribute(file_->name(), target.get(), path, name, value);
 }
@@ -268,7 +283,7 @@ void ResultsWriter::write_attribute(std::string_view object, std::string_view na
   const QuietErrors quiet;
   const std::string path = absolute(object);
   const std::string name_text(name);
-  if (!exists(file_->id(), path)) file_->make_groups(path);
+  if (!file_->has(path)) file_->make_groups(path);
   const Handle target = open_object(file_->id(), file_->name(), path);
   const Handle space = make_space({});
   if (H5Aexists(target.get(), name_text.c_str()) > 0) H5Adelete(target.get(), name_text.c_str());
@@ -376,6 +391,12 @@ class ResultsReader::File {
   const std::filesystem::path& name() const { return name_; }
   hid_t id() const { return file_.get(); }
 
+  bool has(const std::string& path) const {
+    const std::optional<bool> found = look_up(id(), path);
+    if (!found) fail(name_, path, "cannot be looked up");
+    return *found;
+  }
+
   std::vector<std::string> children(const std::string& path) const {
     const Handle group = Handle(H5Gopen2(id(), path.c_str(), H5P_DEFAULT), H5Gclose);
     if (!group) fail(name_, path, "is not a group");
@@ -396,15 +417,13 @@ class ResultsReader::File {
 
   /// Says what the deepest existing group on the way to a missing path holds.
   void require(const std::string& path) const {
-    if (exists(id(), path)) return;
+    if (has(path)) return;
     std::string parent = path;
     do {
       parent = parent.substr(0, parent.rfind('/'));
       if (parent.empty()) parent = "/";
-    } while (!exists(id(), parent));
-    H5O_info_t info;
-    if (H5Oget_info_by_name(id(), parent.c_str(), &info, H5P_DEFAULT) < 0 ||
-        info.type != H5O_TYPE_GROUP)
+    } while (!has(parent));
+    if (is_no_group(id(), parent))
       fail(name_, path, "is not in the file; \"" + parent + "\" is a dataset");
     fail(name_, path, "is not in the file; \"" + parent + "\" holds " + list_of(children(parent)));
   }
@@ -497,7 +516,7 @@ ResultsReader::~ResultsReader() {
 
 bool ResultsReader::has(std::string_view object) const {
   const QuietErrors quiet;
-  const bool found = exists(file_->id(), absolute(object));
+  const bool found = file_->has(absolute(object));
   H5Eclear2(H5E_DEFAULT);
   return found;
 }
@@ -512,8 +531,11 @@ std::vector<std::string> ResultsReader::children(std::string_view group) const {
 bool ResultsReader::has_attribute(std::string_view object, std::string_view name) const {
   const QuietErrors quiet;
   const std::string path = absolute(object);
-  return exists(file_->id(), path) &&
-         H5Aexists_by_name(file_->id(), path.c_str(), std::string(name).c_str(), H5P_DEFAULT) > 0;
+  if (!file_->has(path)) return false;
+  const htri_t found =
+      H5Aexists_by_name(file_->id(), path.c_str(), std::string(name).c_str(), H5P_DEFAULT);
+  if (found < 0) fail(file_->name(), path, "has attributes that cannot be looked up");
+  return found > 0;
 }
 
 std::string ResultsReader::read_text_attribute(std::string_view object,

@@ -119,6 +119,7 @@ class ResultsReader {
   ResultsReader& operator=(const ResultsReader&) = delete;
 
   /// Whether a group or dataset of this path exists.
+  /// @throws ResultsError where a group on the way is damaged.
   bool has(std::string_view object) const;
   /// Names of groups and datasets directly in a group, in the order of their making.
   std::vector<std::string> children(std::string_view group) const;

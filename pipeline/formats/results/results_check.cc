@@ -93,7 +93,8 @@ class ResultsCheck {
   /// Whether a thing is there. Where it is not, that above it must be a group that can be read:
   /// of a damaged one everything seems to be missing.
   bool has(const std::string& path) {
-    if (attempt(path, [&] { return results_.has(path); }).value_or(false)) return true;
+    const std::optional<bool> found = attempt(path, [&] { return results_.has(path); });
+    if (!found || *found) return found.value_or(false);
     std::string above = path;
     do {
       above = above.substr(0, above.rfind('/'));
