@@ -38,7 +38,8 @@ fi
 
 rm -rf build/tidy
 cmake --preset tidy >/dev/null
-cmake --build build/tidy --target blocklift_kernel_headers blocklift_pipeline_headers >/dev/null
+cmake --build build/tidy --target blocklift_kernel_headers blocklift_pipeline_headers \
+  blocklift_quick_pipeline_headers >/dev/null
 # shellcheck disable=SC2046  # the options of LLVM are many words
 clang++ -fPIC -shared -std=c++17 -fno-rtti -O1 $(llvm-config --cppflags) .ci/tidy/own_code.cc -o "$plugin"
 mapfile -t bundles < <(find "$PWD"/build/tidy/{dynamics,structure,pipeline} -name 'unity_*.cxx' | sort)

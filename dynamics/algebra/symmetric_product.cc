@@ -68,7 +68,7 @@ template <std::ptrdiff_t p, std::ptrdiff_t q>
   }
 }
 
-/// Likewise with all columns of X.
+/// The same with all columns of X.
 /// @param next the p columns of A that come next.
 template <std::ptrdiff_t p>
 [[gnu::always_inline]] inline void add_blocks(const Columns& A, const Columns& next,

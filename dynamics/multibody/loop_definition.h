@@ -101,7 +101,7 @@ struct Loop {
   std::string name;
   LoopKind kind = LoopKind::fixed;
   BodyIndex first = -1;   ///< gear: the body whose joint is meant; rope_length: of the first point
-  BodyIndex second = -1;  ///< gear: likewise; rope_length: of the last point
+  BodyIndex second = -1;  ///< gear: the other body; rope_length: of the last point
   int row_offset = 0;     ///< first row among all loops' rows
   int row_count = 0;
 

@@ -35,7 +35,7 @@ struct EdgeTouch {
   double wrap = 0.0;
   double winding = 1.0;  ///< +1 or -1: it turns about `along_W`, or against it
   double first_angle = 0.0, last_angle = 0.0;  ///< where it comes and leaves, rad
-  double first_place = 0.0, last_place = 0.0;  ///< likewise along the axis, m
+  double first_place = 0.0, last_place = 0.0;  ///< the same two along the axis, m
 
   Vector3 first_W(const PlacedEdge& edge) const { return edge.point_W(first_angle, first_place); }
   Vector3 last_W(const PlacedEdge& edge) const { return edge.point_W(last_angle, last_place); }

@@ -40,7 +40,7 @@ struct KeptShare {
   int rope = -1;
   std::vector<int> others;
   double share = not_a_number;  ///< T / (T + sum of the others' T)
-  /// By how much T - share (T + sum of the others' T) falls likewise, N/m.
+  /// By how much T - share (T + sum of the others' T) falls a metre let out, N/m.
   std::optional<double> stiffness = {};
 };
 
@@ -102,7 +102,7 @@ using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare, OwnLaw>
 ///            nothing exceeds, so that it never asks for too much
 ///   share    (T - share (T + sum T_others)) / k
 /// A law from outside has no travel: it is asked at each look until the end and gives u itself,
-/// which the drive is asked for a reaction time later, |u| <= speed likewise.
+/// which the drive is asked for a reaction time later, |u| <= speed.
 struct Steering {
   std::string drive;
   Wish wish = KeptHeight{};
@@ -110,11 +110,11 @@ struct Steering {
   double end = not_a_number;              ///< s: from then on it brakes
   double reaction = 0.0;                  ///< s
   double correction_time = not_a_number;  ///< s; of no meaning for a law from outside
-  double tolerance = 0.0;                 ///< in the unit of the wish: m, N, 1; likewise
-  double longest_interval = 0.2;          ///< between two looks, s
+  double tolerance = 0.0;         ///< in the wish's unit: m, N, 1; no law from outside has it
+  double longest_interval = 0.2;  ///< between two looks, s
   MotionLimits limits{};
   double lowest = not_a_number;   ///< coordinate that the drive may not leave, m or rad
-  double highest = not_a_number;  ///< likewise
+  double highest = not_a_number;  ///< the other end of its range
 
   // Set by OperationBuilder.
   bool is_winch = false;

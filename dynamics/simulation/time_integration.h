@@ -122,7 +122,7 @@ struct IntegrationResult {
 /// those of the samples.
 ///
 /// Ropes with friction at sheaves or edges begin with one tension all along, as in equilibrium, and
-/// stick. Where one begins to slip, or ceases to, is an event likewise (RopeSplit).
+/// stick. Where one begins to slip, or ceases to, is an event too (RopeSplit).
 ///
 /// A condition that is awaited is one more event: its instant is found as those of ropes and pads
 /// are.

@@ -59,7 +59,7 @@ LoadComparison compare(BlockState static_state, BlockState dynamic_state) {
 }
 
 /// The instants of the ropes' maxima as one: the state of the largest checked stress among them,
-/// the largest displacement likewise.
+/// so is the largest displacement.
 LoadComparison largest_of(const std::vector<LoadComparison>& by_rope) {
   const auto largest = [&](const BlockState LoadComparison::*state) {
     return *std::max_element(by_rope.begin(), by_rope.end(), [&](const auto& a, const auto& b) {

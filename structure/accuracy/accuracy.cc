@@ -14,7 +14,7 @@ namespace blocklift::structure {
 namespace {
 
 constexpr double looked_at = 0.6;   // of the largest stress: squares that later steps look at
-constexpr double refined_at = 0.8;  // likewise: about which cells are divided
+constexpr double refined_at = 0.8;  // of the largest: about which cells are divided
 // A first mesh shows little of what gathers in a corner: there squares of less stress are followed
 // too.
 constexpr double looked_at_in_corners = 0.4;

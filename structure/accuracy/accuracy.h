@@ -18,7 +18,7 @@ struct AccuracyStep {
   int shells = 0;            ///< cells
   double smallest_edge = 0;  ///< of a cell, m
   double at_rest = 0;        ///< largest checked stress over all instants at rest, Pa
-  double in_motion = 0;      ///< likewise in motion, Pa
+  double in_motion = 0;      ///< over all instants in motion, Pa
 
   /// By how much motion makes the stress worse, share of that at rest.
   double increase() const { return at_rest > 0 ? in_motion / at_rest - 1 : 0; }

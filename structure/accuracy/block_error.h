@@ -17,7 +17,7 @@ namespace blocklift::structure {
 /// resultants, as smooth as the motion. With e the difference to the elements' own resultants,
 /// |e|^2 = int e : law^-1 : e dA. Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng.
 /// 24, 337-357, with the local smoothing of Hinton and Campbell (1974).
-/// Stresses of solids likewise: those at their corners are averaged over the solids of one material
+/// So are stresses of solids: those at their corners are averaged over the solids of one material
 /// and are linear between; |e|^2 = int e : C^-1 : e dV. Bars have none: their elements of degree 3
 /// hold what evenly spread and end loads do.
 struct BlockError {

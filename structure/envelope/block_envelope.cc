@@ -35,7 +35,7 @@ struct MaximaBySite {
   }
 };
 
-// Likewise of the whole block, of each group and of each lug's neighbourhood.
+// The same of the whole block, of each group and of each lug's neighbourhood.
 struct SquareMaxima {
   MaximaBySite block;
   std::vector<MaximaBySite> groups, lugs;

@@ -24,7 +24,7 @@ struct GroupEnvelope {
   double yield_stress = 0;  ///< Pa
   /// Over squares of plating; of a group that has none (beams, solids) the peak. Lugs of solids: 0.
   TimedExtreme checked_von_mises;
-  /// Likewise, of the squares of each site; without squares the peak as a field's. Instant -1:
+  /// The largest over the squares of each site; without squares the peak as a field's. Instant -1:
   /// none.
   BySite<TimedExtreme> at_site;
   TimedExtreme peak_von_mises;
@@ -40,10 +40,10 @@ struct LugEnvelope {
 /// What a whole history of loads does to a block, every instant taken.
 struct BlockEnvelope {
   TimedExtreme checked_von_mises;   ///< largest membrane stress over squares, Pa
-  TimedExtreme field_von_mises;     ///< likewise, of squares away from corners, Pa
+  TimedExtreme field_von_mises;     ///< largest over squares away from corners, Pa
   TimedExtreme peak_von_mises;      ///< largest nodal value within any cell, nothing averaged, Pa
   TimedExtreme largest_principal;   ///< at the same places as the peak, Pa
-  TimedExtreme smallest_principal;  ///< likewise, Pa
+  TimedExtreme smallest_principal;  ///< at these places, Pa
   TimedExtreme displacement;        ///< relative to the mean rigid motion, m
   std::vector<GroupEnvelope> groups;
   std::vector<LugEnvelope> lugs;

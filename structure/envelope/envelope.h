@@ -49,7 +49,7 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int threads = 0);
 
-/// Likewise the largest over runs of points: run r has the points begin[r] .. begin[r + 1] - 1.
+/// The largest von Mises stress over runs of points: run r has the points begin[r] .. begin[r + 1] - 1.
 /// Points that do not reach what is known of their run cost little.
 /// @param largest of each run what is known already (zero: nothing), Pa; it is raised.
 void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
@@ -76,12 +76,12 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int sets,
                                       const std::function<int(int)>& set_of, int threads = 0);
 
-/// The largest von Mises stress over points in plane stress and instants, likewise.
+/// The largest von Mises stress over points in plane stress and instants.
 /// @param stress rows 3 point + c (11, 22, 12, Pa).
 LargestValue find_largest_in_plane(const LoadHistory& history, int points,
                                    const UnitResponsesAt& stress, int threads = 0);
 
-/// The largest magnitude of a displacement over points and instants, m, likewise.
+/// The largest magnitude of a displacement over points and instants, m.
 LargestValue find_largest_displacement(const LoadHistory& history, int points,
                                        const UnitResponsesAt& displacement, int threads = 0);
 

@@ -19,7 +19,7 @@ struct Screen {
   float margin;        ///< more than all rounding together
 };
 
-/// Stresses of a point, likewise.
+/// Stresses of a point.
 struct PrincipalScreen {
   const float* rows;          ///< a component, each for unit coordinates
   const float* weighed_rows;  ///< <s_k, s> = sum_c weighed_rows[c][k] s[c], with q^2 = <s, s>

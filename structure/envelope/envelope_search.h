@@ -45,12 +45,12 @@ Found search_von_mises(const LoadHistory& history, const double* rows, SearchWor
 double likely_von_mises(const LoadHistory& history, const double* rows,
                         const SearchWorkspace& workspace);
 
-/// @param rows likewise. @param floor likewise, of each quantity.
+/// @param rows as for search_von_mises. @param floor of each quantity, as there.
 StressFound search_stress(const LoadHistory& history, const double* rows,
                           SearchWorkspace& workspace, const StressFound& floor = {});
 
 /// @param rows 3 x rank, row after row: displacement (m) for unit coordinates.
-/// @param floor likewise.
+/// @param floor as for search_von_mises.
 Found search_displacement(const LoadHistory& history, const double* rows,
                           SearchWorkspace& workspace, const Found& floor = {});
 

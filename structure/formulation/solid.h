@@ -31,7 +31,7 @@ Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd&
 Eigen::MatrixXd solid_stiffness(const ElementKind& kind, const Eigen::Matrix3Xd& places,
                                 const Elasticity& elasticity);
 
-/// Consistent mass of a solid, kg, its unknowns likewise: int rho N_i N_j dV for each axis.
+/// Consistent mass of a solid, kg, unknowns as in the stiffness: int rho N_i N_j dV for each axis.
 Eigen::MatrixXd solid_mass(const ElementKind& kind, const Eigen::Matrix3Xd& places, double density);
 
 /// The same of a solid of a mesh; the stiffness' freedoms are in the order of

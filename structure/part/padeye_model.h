@@ -27,7 +27,7 @@ struct PadeyeResult : PadeyeStress {
   Eigen::VectorXd displacement;  ///< 3 a node, m
   Wrench reaction;               ///< that the base exerts, moment about the middle of the hole
   double force_residual = 0;     ///< |loads + reactions| over the sum of the loads' magnitudes
-  double moment_residual = 0;    ///< likewise, over that sum times the padeye's height
+  double moment_residual = 0;    ///< of moments, over that sum times the padeye's height
 };
 
 /// A padeye meshed finely, cut from the block along its base: a sub-model that is driven by the

@@ -71,7 +71,7 @@ struct PartSolution {
   std::vector<Wrench> reactions;  ///< of each support on the part, about the origin
   /// |loads + reactions| over the sum of the magnitudes of both.
   double force_residual = 0;
-  double moment_residual = 0;           ///< likewise, moments about the origin
+  double moment_residual = 0;           ///< the same of moments about the origin
   std::vector<PartGroupResult> groups;  ///< of solids
   PartGroupResult all;
   double strain_energy = 0;               ///< J

@@ -26,7 +26,7 @@ struct FreeEdges {
 /// Membrane stress of a panel. Normal stresses vary linearly across the side that they act on.
 struct PanelStress {
   double s11 = 0;           ///< mean along the first axis, tension positive, Pa
-  double s22 = 0;           ///< likewise along the second
+  double s22 = 0;           ///< mean along the second
   double s12 = 0;           ///< mean shear
   double s11_gradient = 0;  ///< of s11 across b: it is s11 +- s11_gradient at the edges
   double s22_gradient = 0;  ///< of s22 across a

@@ -43,7 +43,7 @@ class ElasticModel {
   /// them. @throws ModelError as find_mass_properties does.
   MassProperties mass_with(const std::optional<double>& total_mass,
                            const std::optional<Vector3>& centre_of_mass_B) const;
-  /// The same elements with another mass and centre, likewise: the space, and with it the
+  /// The same elements with another mass and centre: the space, and with it the
   /// stiffness, is shared.
   std::unique_ptr<ElasticModel> with_mass(std::optional<double> total_mass,
                                           std::optional<Vector3> centre_of_mass_B) const;

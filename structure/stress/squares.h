@@ -46,7 +46,7 @@ class CheckedStress {
   Eigen::VectorXd von_mises(const Eigen::VectorXd& factors) const;
   /// Membrane stresses (11, 22, 12 a square) of each motion, Pa: 3 squares x m.
   const Eigen::MatrixXd& components() const { return components_; }
-  /// Bending stresses on the normal's side, likewise: the other side has their negative.
+  /// Bending stresses on the normal's side, in the same order: the other side has their negative.
   const Eigen::MatrixXd& bending() const { return bending_; }
 
  private:

@@ -24,7 +24,7 @@ struct GroupStress {
   std::string material;
   double yield_stress = 0;    ///< Pa
   Extreme checked_von_mises;  ///< Pa
-  /// Likewise, of the squares of each site; without squares the peak as a field's. No part: none.
+  /// The largest over the squares of each site; without squares the peak as a field's. No part: none.
   BySite<Extreme> at_site;
   Extreme peak_von_mises;  ///< Pa
 };
@@ -43,7 +43,7 @@ struct LugNeighbourhood {
 struct LoadCaseResult {
   std::string name;
   Extreme checked_von_mises;  ///< largest membrane stress over squares (CheckedStress), Pa
-  Extreme field_von_mises;    ///< likewise, of squares away from corners, Pa
+  Extreme field_von_mises;    ///< largest over squares away from corners, Pa
   Extreme peak_von_mises;     ///< largest nodal value within any cell, nothing averaged, Pa
   Extreme displacement;       ///< largest, relative to the mean rigid motion, m
   std::vector<GroupStress> groups;

@@ -31,7 +31,7 @@ void for_each_shell_point(const Space& space, const std::vector<int>& cells,
 
 /// Visits all matter: shells, beams (four points a section, which carry its moments of inertia),
 /// solids and
-/// point masses (six points, likewise).
+/// point masses (six points, for the same reason).
 void for_each_matter_point(const Space& space, const VisitMatter& visit);
 
 /// A Gauss point of a shell cell on the surface of its nodes.

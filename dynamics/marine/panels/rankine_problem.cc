@@ -122,7 +122,7 @@ void limit_usable_memory(double bytes) { memory_limit = bytes; }
 
 struct RankinePart::Influence {
   MatrixXd S_BB, D_BB;  ///< bodies on bodies, with the images in z = 0
-  MatrixXd S_BF, D_BF;  ///< surface on bodies, likewise; S_BF is empty in deep water
+  MatrixXd S_BF, D_BF;  ///< of the surface on bodies; S_BF is empty in deep water
   MatrixXd S_FB, D_FB;  ///< bodies on surface
   MatrixXd S_FF, D_FF;  ///< surface on surface; D_FF is empty in deep water
 };

@@ -37,7 +37,7 @@ struct HydrodynamicDatabase {
   std::vector<Eigen::MatrixXd> damping;         ///< B(w); kg/s, kg m/s, kg m2/s
   std::vector<double> headings;                 ///< theta, rad
   std::vector<Eigen::MatrixXcd> froude_krylov;  ///< for each frequency, 6N x headings; N/m, N
-  std::vector<Eigen::MatrixXcd> diffraction;    ///< likewise
+  std::vector<Eigen::MatrixXcd> diffraction;    ///< of the same shape and units
   /// For each mode, how much its radiation force on itself, B + i w A, changes at most over the
   /// frequencies from panels of twice the size to these, relative; infinite: those have no solution;
   /// empty: unknown. At first order it is the panels' error itself, at second order three times it.

@@ -9,7 +9,7 @@ namespace blocklift::dynamics {
 /// heading of the waves, c and c_g their phase and group velocity and P the power that is taken
 /// out of the motion otherwise than by waves (W/m2),
 ///
-///   F_x = rho g c_g/(2 c) int |H|^2 (cos theta - cos t) dt + cos theta P/c,  F_y likewise by sine,
+///   F_x = rho g c_g/(2 c) int |H|^2 (cos theta - cos t) dt + cos theta P/c,  F_y by sine in place of cosine,
 ///   M_z = - rho g c_g/(2 w) (int i H* H' dt + 2 sqrt(2 pi/k) Re(i H'(theta) exp(-i pi/4))),
 ///
 /// the latter about the vertical axis through the origin. The first is Maruo's (1960), with P for
@@ -30,7 +30,7 @@ std::vector<Eigen::MatrixXd> calc_mean_drift(const HydrodynamicDatabase& databas
 /// Power that waves of unit amplitude lose at the body beside what is sent out again (W/m2), by the
 /// far field alone, for each frequency and heading: that of the damping if the far field is exact.
 ///   - rho g c_g/2 (int |H|^2 dt + 2 sqrt(2 pi/k) Re(H(theta) exp(-i pi/4)))
-/// @throws ModelError likewise.
+/// @throws ModelError as calc_mean_drift does.
 std::vector<Eigen::VectorXd> calc_absorbed_power(const HydrodynamicDatabase& database,
                                                  const std::vector<Eigen::MatrixXcd>& motions);
 

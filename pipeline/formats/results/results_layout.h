@@ -89,7 +89,7 @@
 ///                                      buckling first; what the columns are stands in its
 ///                                      description
 ///   /structure/columns             (o) bars   texts [b]
-///                                      table   [b x 19], a free span of a bar a row, likewise
+///                                      table   [b x 19], a free span of a bar a row, sorted so too
 ///   /structure/padeyes/<lug>       (o) the governing state of a padeye; attributes state, rope,
 ///                                      time (o)
 ///     corners                          m [c x 8], x y of four corners of a column of elements,

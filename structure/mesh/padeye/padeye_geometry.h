@@ -20,7 +20,7 @@ struct PadeyeGeometry {
   double cheek_thickness = 0;  ///< of each cheek plate
   double height = 0;           ///< from the base to the middle of the hole
   double base_left = 0;        ///< of the base, towards -x
-  double base_right = 0;       ///< likewise towards +x
+  double base_right = 0;       ///< of the base, towards +x
 
   bool has_cheeks() const { return cheek_thickness > 0; }
   /// Thickness that the pin bears on.

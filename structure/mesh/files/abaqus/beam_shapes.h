@@ -24,7 +24,7 @@ struct BeamShape {
 /// Of a *BEAM SECTION: a shape by its dimensions. @throws CardError for what is wrong or not known.
 BeamShape read_beam_section(AbaqusModel& model, const SectionBlocks& blocks);
 /// Of a *BEAM GENERAL SECTION: figures or a shape, with moduli of its own or a material; sections
-/// whose moduli agree share one. @throws CardError likewise.
+/// whose moduli agree share one. @throws CardError as above.
 BeamShape read_general_beam_section(AbaqusModel& model, const SectionBlocks& blocks);
 
 }  // namespace blocklift::structure

@@ -37,7 +37,7 @@ struct AbaqusDeckElement {
   int scope = 0;
   SourceLine line;
   int shell = -1;          ///< place in the mesh
-  int solid = -1;          ///< likewise
+  int solid = -1;          ///< place in the mesh
   std::vector<int> beams;  ///< places in the mesh
 };
 
@@ -66,7 +66,7 @@ struct AbaqusMaterial {
   std::optional<Elasticity> of_solids = std::nullopt;
   SourceLine line;
   int place = -1;              ///< in Mesh::materials
-  int directional_place = -1;  ///< likewise, of its nearest isotropic one
+  int directional_place = -1;  ///< there too, of its nearest isotropic one
 };
 
 /// What the stages of reading share.

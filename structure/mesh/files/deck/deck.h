@@ -130,7 +130,7 @@ struct Deck {
   std::vector<LedgerEntry> ledger;  ///< by name
   std::vector<DeckRemark> remarks;
   std::vector<std::string> groups_without_thickness;
-  std::vector<std::string> groups_without_section;  ///< of beams whose section is -1 likewise
+  std::vector<std::string> groups_without_section;  ///< of beams whose section is -1
 };
 
 struct DeckOptions {

@@ -26,7 +26,7 @@ class DeckLog {
 
   /// What keeps the deck from being read. Said once where the text is the same, with their count.
   void complain(SourceLine line, const std::string& text);
-  /// What the user should know, likewise.
+  /// What the user should know. Said once where the text is the same, with their count.
   void remark(SourceLine line, const std::string& text);
 
   /// Counts a card that was read.

@@ -280,7 +280,7 @@ BarCard read_bar(NastranModel& model, const CardView& card) {
 }
 
 /// PBARL PID MID GROUP TYPE / DIM1 DIM2 ... NSM
-/// PBEAML likewise, then stations: SO X/XB DIM1 ... NSM
+/// PBEAML begins so too, then stations: SO X/XB DIM1 ... NSM
 BarCard read_shaped(NastranModel& model, const CardView& card) {
   const Shape* shape = find_shape(card.text(3));
   if (shape == nullptr)

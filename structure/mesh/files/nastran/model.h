@@ -40,7 +40,7 @@ struct NastranStation {
 /// Property of a bar, beam or rod.
 struct NastranBar {
   int section = 0;       ///< place in Mesh::beam_sections
-  int end_section = -1;  ///< of a tapered beam, likewise
+  int end_section = -1;  ///< at its second end where a beam tapers
   bool is_rod = false;   ///< no stiffness against bending
   /// Centroid from the line that the element's offsets lead to, along axes 2 and 3, m.
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();

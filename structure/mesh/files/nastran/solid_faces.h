@@ -16,7 +16,7 @@ namespace blocklift::structure {
 /// OptiStruct's.
 struct FaceGrids {
   int corner = 0;                            ///< vertex
-  std::optional<int> second = std::nullopt;  ///< likewise
+  std::optional<int> second = std::nullopt;  ///< a vertex
 };
 
 /// Place among the faces of the solid's topology; -1: no face, or more than one, is named so.

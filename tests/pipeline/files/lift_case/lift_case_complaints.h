@@ -20,7 +20,7 @@ inline std::string complaints_about(const SampleLift& lift) {
   return diagnostics.to_text();
 }
 
-/// Likewise of the sample lift with one passage of its case replaced.
+/// What is said of the sample lift with one passage of its case replaced.
 inline std::string complaints_about_case(const std::string& old_passage,
                                          const std::string& new_passage) {
   SampleLift lift;
