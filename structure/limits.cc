@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
-#include <thread>
 
 namespace blocklift::structure {
 
@@ -37,14 +35,6 @@ void set_blas_threads(int threads) {
 }
 
 }  // namespace
-
-int usable_threads() {
-  if (const char* given = std::getenv("OMP_NUM_THREADS")) {
-    const int threads = std::atoi(given);
-    if (threads > 0) return threads;
-  }
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
 
 OneBlasThread::OneBlasThread() : before_(blas_threads()) {
   if (before_ > 1) set_blas_threads(1);

@@ -2,10 +2,6 @@
 
 namespace blocklift::structure {
 
-/// Threads that work is dealt out to where a function is not told how many: the variable
-/// OMP_NUM_THREADS, which BLAS follows too, otherwise as many as the machine has.
-int usable_threads();
-
 /// While it lives OpenBLAS computes with one thread: it forms its sums in another order for each
 /// number of threads, and what a motion follows from must not depend on that.
 class OneBlasThread {

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstddef>
 
-#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/algebra/single_precision.h"
 #include "dynamics/instruction_sets.h"
+#include "parallel/threads.h"
 
 extern "C" {
 void ssymv_(const char* half, const int* n, const float* alpha, const float* a, const int* lda,
@@ -126,8 +126,8 @@ void multiply_symmetric(const Eigen::MatrixXf& A, const Eigen::MatrixXf& X, Eige
   };
   // Threads are not worth their start below ten million products, half a millisecond.
   const int threads = static_cast<double>(X.size()) * static_cast<double>(n) < 1e7 ? 1 : 0;
-  parallel_for(static_cast<int>((n + columns_together - 1) / columns_together), threads,
-               multiply_some);
+  parallel::for_each(static_cast<int>((n + columns_together - 1) / columns_together), threads,
+                     multiply_some);
 }
 
 }  // namespace blocklift::dynamics

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "parallel/threads.h"
 #include "pipeline/build/history_memory.h"
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/measure_checks.h"
@@ -35,7 +36,6 @@
 #include "pipeline/results/result_file.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/results/word_document.h"
-#include "structure/batches.h"
 #include "structure/limits.h"
 #include "structure/output/part_files.h"
 #include "structure/output/vtu.h"
@@ -305,8 +305,8 @@ void lift_and_begin_block(const std::optional<KeptRefinement>& earlier, const Pr
     begin_block(
         the_case, earlier, [](auto&&...) {}, block);
   };
-  structure::in_batches(2, 1, std::min(2, structure::usable_threads()),
-                        [&](int which, int) { which == 0 ? lift() : begin(); });
+  parallel::in_batches(2, 1, std::min(2, parallel::usable_threads()),
+                       [&](int which, int) { which == 0 ? lift() : begin(); });
 }
 
 }  // namespace
@@ -422,7 +422,7 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
   Preparation preparation(folder);
   Stopwatch watch;
   const std::string run = new_run_identity();
-  structure::in_batches(2, 1, std::min(2, structure::usable_threads()), [&](int which, int) {
+  parallel::in_batches(2, 1, std::min(2, parallel::usable_threads()), [&](int which, int) {
     if (which == 0)
       write_result_file(assessment, run, preparation.folder() / layout::results_file);
     else

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "structure/limits.h"
+#include "parallel/threads.h"
 
 namespace blocklift::pipeline {
 
@@ -89,7 +89,7 @@ std::string describe_arithmetic() {
   void* threads = ::dlsym(RTLD_DEFAULT, "openblas_get_num_threads");
   return fmt::format(
       "{}, {} and {} threads", name ? reinterpret_cast<char* (*)()>(name)() : "other kernels",
-      threads ? reinterpret_cast<int (*)()>(threads)() : 0, structure::usable_threads());
+      threads ? reinterpret_cast<int (*)()>(threads)() : 0, parallel::usable_threads());
 }
 
 }  // namespace blocklift::pipeline

@@ -9,8 +9,8 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "parallel/threads.h"
 #include "pipeline/lift/stopwatch.h"
-#include "structure/batches.h"
 #include "structure/error.h"
 #include "structure/stress/block_field.h"
 #include "structure/stress_tensor.h"
@@ -157,7 +157,7 @@ class StateMaker {
                 .first;
       }
     };
-    structure::in_batches(static_cast<int>(von_mises.value.size()), 256, 0, take);
+    parallel::in_batches(static_cast<int>(von_mises.value.size()), 256, 0, take);
   }
 
   const UnitResponses& responses_;

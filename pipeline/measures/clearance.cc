@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "parallel/threads.h"
 #include "pipeline/measures/place_at.h"
-#include "structure/batches.h"
 
 namespace blocklift::pipeline {
 
@@ -115,7 +115,7 @@ template <class DistanceAt>
 Eigen::VectorXd distances(const History& history, const DistanceAt& distance_at) {
   Eigen::VectorXd values(history.sample_count());
   const std::vector<Eigen::Index> chosen = chosen_samples(history.sample_count());
-  structure::in_batches(static_cast<int>(chosen.size()), 8, 0, [&](int first, int count) {
+  parallel::in_batches(static_cast<int>(chosen.size()), 8, 0, [&](int first, int count) {
     for (int i = first; i < first + count; ++i) {
       const Eigen::Index sample = chosen[i];
       values[sample] = distance_at(history, sample);

@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
@@ -197,7 +197,7 @@ SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, 
   const int count = static_cast<int>(mesh.solids.size());
   SquaredNorms norms(count);
   const AveragedCorners corners(space, motion);
-  in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
+  parallel::in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
     for (int s = first; s < first + many; ++s) {
       const Solid& solid = mesh.solids[s];
       const Elasticity compliance = elasticity_of(mesh, solid).inverse();
@@ -242,7 +242,7 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& mo
   Eigen::MatrixXd values(space.nodes_per_shell(), rule.cols());
   for (Eigen::Index q = 0; q < rule.cols(); ++q)
     values.col(q) = space.shell_values(rule.col(q).head<2>());
-  in_batches(cells, std::max(32, cells / 64), threads, [&](int first, int count) {
+  parallel::in_batches(cells, std::max(32, cells / 64), threads, [&](int first, int count) {
     ShellOperator own(space, rule.topRows<2>());
     Resultants smooth(6, space.nodes_per_shell());
     for (int cell = first; cell < first + count; ++cell) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/large_pages.h"
 #include "structure/mesh/solid_lugs.h"
 
@@ -94,7 +94,7 @@ TimedExtreme largest_displacement(const UnitResponses& responses, const LoadHist
   const ElasticModel& model = responses.model();
   const Eigen::Index nodes = model.space().node_count();
   Eigen::MatrixXd displacements = make_large(3 * nodes, responses.count());
-  in_batches(responses.count(), 1, threads, [&](int k, int) {
+  parallel::in_batches(responses.count(), 1, threads, [&](int k, int) {
     const Eigen::VectorXd relative =
         responses.without_rigid_motion(responses.displacements().col(k));
     displacements.col(k).reshaped(3, nodes) = relative.reshaped(6, nodes).topRows<3>();

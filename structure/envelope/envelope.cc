@@ -9,7 +9,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/envelope/envelope_search.h"
 #include "structure/error.h"
 
@@ -49,7 +49,7 @@ void keep(PointExtremes& extremes, int point, const Found& found, double sign = 
 StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
                                     const UnitResponsesAt& stress, int threads) {
   StressEnvelope envelope{sized(points), sized(points), sized(points)};
-  in_batches(points, batch_size, threads, [&](int first, int count) {
+  parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);
     SearchWorkspace workspace(history);
     for (int i = 0; i < count; ++i) {
@@ -66,7 +66,7 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int threads) {
   PointExtremes extremes = sized(points);
-  in_batches(points, batch_size, threads, [&](int first, int count) {
+  parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);
     SearchWorkspace workspace(history);
     for (int i = 0; i < count; ++i)
@@ -79,7 +79,7 @@ PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
 void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
                      const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads) {
   const int runs = static_cast<int>(begin.size()) - 1;
-  in_batches(runs, 16, threads, [&](int first, int count) {
+  parallel::in_batches(runs, 16, threads, [&](int first, int count) {
     const int from = begin[first], points = begin[first + count] - from;
     if (points == 0) return;
     const Rows rows = responses_of(history, stress, from, points, 6);
@@ -123,7 +123,7 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
   LargestStresses all;
   all.von_mises.resize(sets);
   std::mutex updating;
-  in_batches(points, batch_size, threads, [&](int first, int count) {
+  parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
     const Rows rows = responses_of(history, stress, first, count, 6);
     SearchWorkspace workspace(history);
     LargestStresses known;
@@ -165,7 +165,7 @@ template <class Search>
 LargestValue find_largest(int points, int threads, const Search& search) {
   LargestValue all;
   std::mutex updating;
-  in_batches(points, batch_size, threads, [&](int first, int count) {
+  parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
     LargestValue known;
     {
       const std::lock_guard lock(updating);

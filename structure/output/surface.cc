@@ -13,7 +13,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/envelope/envelope.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/solid.h"
@@ -191,7 +191,7 @@ void Surface::take_envelopes_of_shells(const UnitResponses& responses,
     const SharedPoints shared(cell_points_, begin * per_cell, count * per_cell);
     // Both surfaces of each sample.
     Eigen::MatrixXd stress(12L * per_cell * count, responses.count());
-    in_batches(count, 16, 0, [&](int first, int taken) {
+    parallel::in_batches(count, 16, 0, [&](int first, int taken) {
       ShellStress recovery(space, unit);
       for (int i = first; i < first + taken; ++i) {
         const Eigen::MatrixXd rows = recovery.of_all(begin + i, responses.displacements());
@@ -225,7 +225,7 @@ void Surface::take_envelopes_of_beams(const UnitResponses& responses,
   const Space& space = responses.model().space();
   const auto stations = static_cast<int>(stations_.size());
   Eigen::MatrixXd of_stations(static_cast<Eigen::Index>(histories.size()), stations);
-  in_batches(stations, 64, 0, [&](int first, int count) {
+  parallel::in_batches(stations, 64, 0, [&](int first, int count) {
     // The points of these sections, one below the other, and where those of each begin.
     Eigen::MatrixXd stress(0, responses.count());
     std::vector<int> begin{0};

@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/index.h"
 #include "structure/practice/bar_chains.h"
 #include "structure/practice/stiffener_chains.h"
@@ -372,7 +372,7 @@ void BlockBars::look_at(std::size_t span, const Eigen::MatrixXd& factors, const 
 std::vector<BlockBars::WorstOfSpan> BlockBars::find_worst(const Eigen::MatrixXd& factors,
                                                           double factor, int threads) const {
   std::vector<WorstOfSpan> result(spans_.size());
-  in_batches(static_cast<int>(spans_.size()), 1, threads, [&](int first, int count) {
+  parallel::in_batches(static_cast<int>(spans_.size()), 1, threads, [&](int first, int count) {
     for (std::size_t s = at(first); s < at(first + count); ++s) {
       const BarSpan& span = spans_[s];
       const bool trips = span.tripping_strength > 0;

@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/shell_stress.h"
@@ -365,7 +365,7 @@ void BlockPanels::integrate(const ElasticModel& model,
       weights += volume * Eigen::Vector3d(1, off[1] * off[1], off[0] * off[0]);
     }
   };
-  in_batches(static_cast<int>(panels_.size()), 4, 0, [&](int first, int count) {
+  parallel::in_batches(static_cast<int>(panels_.size()), 4, 0, [&](int first, int count) {
     ShellStress recovery(space, rule.topRows<2>());
     for (int p = first; p < first + count; ++p) {
       Eigen::Vector3d weights = Eigen::Vector3d::Zero();  // volume and second moments
@@ -416,7 +416,7 @@ BucklingUtilisation BlockPanels::utilisation(int panel, const PanelStress& stres
 std::vector<BlockPanels::Worst> BlockPanels::find_worst(const Eigen::MatrixXd& factors,
                                                         int threads) const {
   std::vector<Worst> result(panels_.size());
-  in_batches(static_cast<int>(panels_.size()), 8, threads, [&](int first, int count) {
+  parallel::in_batches(static_cast<int>(panels_.size()), 8, threads, [&](int first, int count) {
     const Eigen::MatrixXd all =
         components_.middleRows(rows_per_panel * first, rows_per_panel * count) * factors;
     for (int p = 0; p < count; ++p)

@@ -10,10 +10,9 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/large_pages.h"
-#include "structure/limits.h"
 #include "structure/response/loose_block.h"
 #include "structure/stopwatch.h"
 #include "structure/system/assembly.h"
@@ -38,7 +37,7 @@ constexpr double standard_gravity = 9.80665;  // m/s^2
 UnitResponses::~UnitResponses() = default;
 
 UnitResponses::UnitResponses(const ElasticModel& model, int threads) : model_(model) {
-  if (threads <= 0) threads = usable_threads();
+  if (threads <= 0) threads = parallel::usable_threads();
   Stopwatch watch;
   SparseLower stiffness = assemble_stiffness(model.space(), threads);
   timing_.assembly_s = watch.lap();
@@ -72,7 +71,7 @@ UnitResponses::UnitResponses(const ElasticModel& model, const UnitResponses& sam
 
 void UnitResponses::balance_loads(Eigen::MatrixXd& loads,
                                   Eigen::Ref<Eigen::MatrixXd> accelerations) const {
-  in_batches(static_cast<int>(accelerations.cols()), 1, 0, [&](int k, int) {
+  parallel::in_batches(static_cast<int>(accelerations.cols()), 1, 0, [&](int k, int) {
     // Twice: the second pass removes the rounding of the first.
     accelerations.col(k).setZero();
     for (int pass = 0; pass < 2; ++pass) {

@@ -11,7 +11,7 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <fmt/format.h>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
@@ -526,7 +526,7 @@ void Space::number_unknowns() {
 
 Eigen::MatrixXd Space::expand(const Eigen::MatrixXd& unknowns) const {
   Eigen::MatrixXd motion = make_large(freedoms(), unknowns.cols());
-  in_batches(static_cast<int>(unknowns.cols()), 1, 0, [&](int column, int) {
+  parallel::in_batches(static_cast<int>(unknowns.cols()), 1, 0, [&](int column, int) {
     for (int f = 0; f < freedoms(); ++f) {
       double sum = 0;
       for (const Term* term = begin_of(f); term != end_of(f); ++term)
@@ -539,7 +539,7 @@ Eigen::MatrixXd Space::expand(const Eigen::MatrixXd& unknowns) const {
 
 Eigen::MatrixXd Space::reduce(const Eigen::MatrixXd& forces) const {
   Eigen::MatrixXd reduced = make_large(unknowns(), forces.cols());
-  in_batches(static_cast<int>(forces.cols()), 1, 0, [&](int column, int) {
+  parallel::in_batches(static_cast<int>(forces.cols()), 1, 0, [&](int column, int) {
     reduced.col(column).setZero();
     for (int f = 0; f < freedoms(); ++f)
       if (const double force = forces(f, column); force != 0)

@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 
 namespace blocklift::structure {
 
@@ -70,7 +70,7 @@ Eigen::MatrixXd stresses_of_cells(const Space& space, const Eigen::Matrix2Xd& po
                                   int count, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Eigen::Index per_cell = shell_stress_rows * points.cols();
   Eigen::MatrixXd rows(per_cell * count, motions.cols());
-  in_batches(count, 64, 0, [&](int begin, int taken) {
+  parallel::in_batches(count, 64, 0, [&](int begin, int taken) {
     ShellStress recovery(space, points);
     for (int i = begin; i < begin + taken; ++i)
       rows.middleRows(per_cell * i, per_cell) = recovery.of_all(first + i, motions);

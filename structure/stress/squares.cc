@@ -10,7 +10,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/large_pages.h"
 #include "structure/response/cell_finder.h"
@@ -313,7 +313,7 @@ class SiteMarker {
 std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
                                   const FieldWalker& walker, double size) {
   std::vector<std::vector<Square>> of_fields(fields.fields.size());
-  in_batches(static_cast<int>(of_fields.size()), 1, 0, [&](int field, int) {
+  parallel::in_batches(static_cast<int>(of_fields.size()), 1, 0, [&](int field, int) {
     of_fields[field] = SquarePlacer(mesh, walker, size).place(fields.fields[field]);
   });
   std::vector<Square> squares;
@@ -347,13 +347,13 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
   // A node's six freedoms of all motions lie together.
   auto by_rows = make_large<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
       motions.rows(), motions.cols());
-  in_batches(static_cast<int>(motions.rows()), 4096, threads, [&](int first, int count) {
+  parallel::in_batches(static_cast<int>(motions.rows()), 4096, threads, [&](int first, int count) {
     by_rows.middleRows(first, count) = motions.middleRows(first, count);
   });
   const Eigen::Index columns = motions.cols();
   components_.setZero(3 * static_cast<Eigen::Index>(squares_.size()), columns);
   bending_ = components_;
-  in_batches(static_cast<int>(squares_.size()), 64, threads, [&](int first, int count) {
+  parallel::in_batches(static_cast<int>(squares_.size()), 64, threads, [&](int first, int count) {
     Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> moved(6, columns);
     Eigen::MatrixXd strain(3, columns), curvature(3, columns);
     for (int s = first; s < first + count; ++s) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/index.h"
 #include "structure/mesh/solid_lugs.h"
 #include "structure/stress_tensor.h"
@@ -79,7 +79,7 @@ std::vector<Maxima> find_peaks(const StressPoints& points, const Eigen::MatrixXd
   const int batches = (points.count() + batch - 1) / batch;
   const auto cases = static_cast<std::size_t>(motions.cols());
   std::vector<std::vector<Maxima>> of_batch(at(batches));
-  in_batches(points.count(), batch, 0, [&](int first, int count) {
+  parallel::in_batches(points.count(), batch, 0, [&](int first, int count) {
     std::vector<Maxima> maxima(cases, none);
     const Eigen::MatrixXd stress = points.stresses(first, count, motions);
     for (int i = 0; i < count; ++i) {

@@ -9,14 +9,13 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
-#include "structure/limits.h"
 #include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
@@ -55,10 +54,11 @@ std::vector<Neighbour> neighbours_of(const Elimination& elimination, int g) {
 Pattern make_pattern(const Elimination& elimination, int threads) {
   Pattern pattern;
   pattern.neighbours.resize(elimination.groups.size());
-  in_batches(static_cast<int>(elimination.groups.size()), 256, threads, [&](int first, int count) {
-    for (int g = first; g < first + count; ++g)
-      pattern.neighbours[g] = neighbours_of(elimination, g);
-  });
+  parallel::in_batches(static_cast<int>(elimination.groups.size()), 256, threads,
+                       [&](int first, int count) {
+                         for (int g = first; g < first + count; ++g)
+                           pattern.neighbours[g] = neighbours_of(elimination, g);
+                       });
   pattern.column_start.reserve(at(elimination.count) + 1);
   pattern.column_start.push_back(0);
   for (std::size_t g = 0; g < elimination.groups.size(); ++g) {
@@ -94,14 +94,15 @@ SparseLower make_matrix(const Elimination& elimination, const Pattern& pattern, 
   prefer_large_pages(matrix.valuePtr(), at(entries) * sizeof(double));
   prefer_large_pages(matrix.innerIndexPtr(), at(entries) * sizeof(long));
   std::copy(pattern.column_start.begin(), pattern.column_start.end(), matrix.outerIndexPtr());
-  in_batches(static_cast<int>(elimination.groups.size()), 256, threads, [&](int first, int count) {
-    for (int g = first; g < first + count; ++g) {
-      const UnknownGroup& group = elimination.groups[g];
-      write_rows(elimination, pattern, g, matrix.innerIndexPtr());
-      std::fill(matrix.valuePtr() + pattern.column_start[group.first],
-                matrix.valuePtr() + pattern.column_start[group.first + group.count], 0.0);
-    }
-  });
+  parallel::in_batches(
+      static_cast<int>(elimination.groups.size()), 256, threads, [&](int first, int count) {
+        for (int g = first; g < first + count; ++g) {
+          const UnknownGroup& group = elimination.groups[g];
+          write_rows(elimination, pattern, g, matrix.innerIndexPtr());
+          std::fill(matrix.valuePtr() + pattern.column_start[group.first],
+                    matrix.valuePtr() + pattern.column_start[group.first + group.count], 0.0);
+        }
+      });
   return matrix;
 }
 
@@ -275,7 +276,7 @@ void take_entries(const std::vector<int>& unknowns, const Eigen::MatrixXd& matri
 
 SparseLower assemble(const Elimination& elimination,
                      const std::function<FindEntries()>& make_worker, int threads) {
-  if (threads <= 0) threads = usable_threads();
+  if (threads <= 0) threads = parallel::usable_threads();
   const Pattern pattern = make_pattern(elimination, threads);
   require_memory(elimination, pattern);
   SparseLower matrix = make_matrix(elimination, pattern, threads);
@@ -286,10 +287,10 @@ SparseLower assemble(const Elimination& elimination,
   std::vector<ElementEntries> entries(at(batch));
   for (int first = 0; first < count; first += batch) {
     const int last = std::min(count, first + batch);
-    in_batches(threads, 1, threads, [&](int thread, int) {
+    parallel::in_batches(threads, 1, threads, [&](int thread, int) {
       for (int e = first + thread; e < last; e += threads) workers[thread](e, entries[e - first]);
     });
-    in_batches(threads, 1, threads, [&](int thread, int) {
+    parallel::in_batches(threads, 1, threads, [&](int thread, int) {
       for (int e = first; e < last; ++e)
         scatter(elimination, pattern, e, entries[e - first], matrix, thread, threads);
     });

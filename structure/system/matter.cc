@@ -9,7 +9,7 @@
 #include <deal.II/fe/fe_values.h>
 #include <fmt/format.h>
 
-#include "structure/batches.h"
+#include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
@@ -199,7 +199,7 @@ Matter::Matter(const Space& space, int threads) : space_(space) {
   if (cells == 0) return;
   shapes_ = ShellRule(space).shapes();
   points_.resize(at(cells) * shapes_.size());
-  in_batches(cells, 256, threads, [&](int first, int count) {
+  parallel::in_batches(cells, 256, threads, [&](int first, int count) {
     ShellRule rule(space);
     for (int cell = first; cell < first + count; ++cell)
       rule.find(cell, points_.data() + at(cell) * shapes_.size());
@@ -309,7 +309,7 @@ Eigen::MatrixXd inertia_loads(const Matter& matter, const MassProperties& mass, 
   };
   // Shell by shell: threads add to rows of their own, each row in the order of its cells.
   const std::vector<std::vector<int>> cells = cells_by_shell(space);
-  in_batches(static_cast<int>(cells.size()), 32, threads, [&](int first, int count) {
+  parallel::in_batches(static_cast<int>(cells.size()), 32, threads, [&](int first, int count) {
     for (int shell = first; shell < first + count; ++shell)
       for (const int cell : cells[shell]) matter.visit_shell(cell, add);
   });

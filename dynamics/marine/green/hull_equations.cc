@@ -8,11 +8,11 @@
 
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/algebra/gauss_legendre.h"
-#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/green/wave_green_function.h"
 #include "dynamics/marine/panels/rankine_problem.h"
 #include "dynamics/marine/radiation/incident_wave.h"
+#include "parallel/threads.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -135,7 +135,7 @@ void HullEquations::integrate_images() {
     images_.push_back({MatrixXd::Zero(count, count), MatrixXd::Zero(count, hull_count_)});
     surface_images_.push_back(images_.back());
   }
-  parallel_for(count, settings_.threads, [&](int j) {
+  parallel::for_each(count, settings_.threads, [&](int j) {
     Eigen::VectorXd source(count), dipole(count);
     for (int g = 0; g < images; ++g) {
       for (std::size_t k = 0; k < (deep ? 2U : 3U); ++k) {
@@ -233,7 +233,7 @@ std::vector<HullEquations::Influence<Complex>> HullEquations::integrate_waves(
     }
   }
   if (std::isinf(frequency) && is_deep(model_.water())) return waves;
-  parallel_for(size(), settings_.threads, [&](int j) {
+  parallel::for_each(size(), settings_.threads, [&](int j) {
     WaveColumn column{green, levels};
     add_wave_column(j, column, waves);
   });

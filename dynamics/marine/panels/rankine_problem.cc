@@ -10,9 +10,9 @@
 #include <limits>
 #include <numbers>
 
-#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/algebra/single_precision.h"
 #include "dynamics/errors.h"
+#include "parallel/threads.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -56,7 +56,7 @@ PointColumns image_of(const PanelMesh& mesh, const Symmetry& symmetry, int image
 /// empty matrix is not due.
 void add_influence(const PanelMesh& panels, const std::vector<ImagePoints>& images, int threads,
                    MatrixXd& source, MatrixXd& dipole) {
-  parallel_for(panels.size(), threads, [&](int j) {
+  parallel::for_each(panels.size(), threads, [&](int j) {
     double* const source_column = source.size() > 0 ? source.col(j).data() : nullptr;
     double* const dipole_column = dipole.size() > 0 ? dipole.col(j).data() : nullptr;
     const Panel& panel = panels.panels[j];

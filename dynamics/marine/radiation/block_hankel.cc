@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "dynamics/algebra/dense_algebra.h"
-#include "dynamics/algebra/parallel_for.h"
+#include "parallel/threads.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -109,7 +109,7 @@ MatrixXd BlockHankel::multiply(const MatrixXd& columns, Index shift) const {
   MatrixXd product(columns.rows(), columns.cols());
   const Index batches = (columns.cols() + columns_at_once - 1) / columns_at_once;
   const Index frequencies = length_ / 2 + 1;
-  parallel_for(static_cast<int>(batches), 0, [&](int batch) {
+  parallel::for_each(static_cast<int>(batches), 0, [&](int batch) {
     const Index first = batch * columns_at_once;
     const Index count = std::min(columns_at_once, columns.cols() - first);
     Transforms transforms(modes_, length_);

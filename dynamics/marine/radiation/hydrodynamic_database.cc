@@ -9,11 +9,11 @@
 #include <optional>
 #include <sstream>
 
-#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/frequency_domain.h"
 #include "dynamics/marine/radiation/impulse_run.h"
 #include "dynamics/marine/radiation/incident_wave.h"
+#include "parallel/threads.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -188,7 +188,7 @@ void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
   const Water& water = model_.water();
   const MatrixXd weighted_normals = model_.body_areas().asDiagonal() * part_.normal_velocities();
   const auto headings = static_cast<Eigen::Index>(database.headings.size());
-  parallel_for(
+  parallel::for_each(
       static_cast<int>(database.frequencies.size()), settings_.rankine.threads, [&](int index) {
         const auto k = static_cast<std::size_t>(index);
         const double w = database.frequencies[k];

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "dynamics/algebra/dense_algebra.h"
-#include "dynamics/algebra/parallel_for.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/block_hankel.h"
+#include "parallel/threads.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -454,7 +454,7 @@ MemoryStateSpace fit_memory(const HydrodynamicDatabase& database, const MemoryFi
 std::vector<MemoryStateSpace> fit_memories(const std::vector<HydrodynamicDatabase>& databases,
                                            const MemoryFit& fit) {
   std::vector<std::optional<MemoryStateSpace>> fitted(databases.size());
-  parallel_for(static_cast<int>(fitted.size()), 0, [&](int k) {
+  parallel::for_each(static_cast<int>(fitted.size()), 0, [&](int k) {
     const auto index = static_cast<std::size_t>(k);
     fitted[index].emplace(fit_memory(databases[index], fit));
   });

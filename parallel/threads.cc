@@ -1,15 +1,22 @@
-#include "structure/batches.h"
+#include "parallel/threads.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-#include "structure/limits.h"
+namespace blocklift::parallel {
 
-namespace blocklift::structure {
+int usable_threads() {
+  if (const char* given = std::getenv("OMP_NUM_THREADS")) {
+    const int threads = std::atoi(given);
+    if (threads > 0) return threads;
+  }
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 void in_batches(int count, int batch_size, int threads,
                 const std::function<void(int first, int count)>& work) {
@@ -42,4 +49,8 @@ void in_batches(int count, int batch_size, int threads,
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace blocklift::structure
+void for_each(int count, int threads, const std::function<void(int)>& work) {
+  in_batches(count, 1, threads, [&](int i, int) { work(i); });
+}
+
+}  // namespace blocklift::parallel
