@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -21,6 +22,10 @@ namespace {
 // Stiffness added to every direction, relative to its weight over 1 m: holds neutral directions.
 constexpr double holding_stiffness = 1e-7;
 
+// Steps with the stiffness of an equilibrium before are taken as long as each leaves at most this
+// part of the residual: a step with a stiffness of its own takes as long as some ten of them.
+constexpr double slow = 0.1;
+
 }  // namespace
 
 struct EquilibriumSolver::Implementation {
@@ -37,6 +42,7 @@ struct EquilibriumSolver::Implementation {
   void calc_stiffness(const Eigen::VectorXd& u, const Contacts* set, Eigen::MatrixXd& stiffness);
   double scaled_norm(const Eigen::VectorXd& residual) const;
   bool newton();
+  bool newton_with_known_stiffness(Eigen::VectorXd& u);
   bool solve_active_set();
   bool relax();
   bool try_step(double h, double force, Eigen::VectorXd& f);
@@ -78,6 +84,7 @@ struct EquilibriumSolver::Implementation {
   sundials::Vector unknowns, unknown_scale, force_scale;
   sundials::Matrix matrix;
   Eigen::PartialPivLU<Eigen::MatrixXd> factor;  ///< of minus the stiffness
+  bool is_factorised = false;                   ///< for as many unknowns as there are
   sundials::LinearSolver linear_solver;
   void* kinsol = nullptr;
   std::exception_ptr exception;
@@ -103,6 +110,7 @@ EquilibriumSolver::Implementation::Implementation(const LiftSystem& lift, Equili
 void EquilibriumSolver::Implementation::make_kinsol(Eigen::Index n) {
   weight.setOnes(n);
   residual_here.resize(n);
+  is_factorised = false;
   if (kinsol) KINFree(&kinsol);
   if (n == 0) return;
   unknowns = sundials::make_vector(n, context);
@@ -241,7 +249,8 @@ int EquilibriumSolver::Implementation::factorise_callback(SUNLinearSolver solver
   auto& self = *static_cast<Implementation*>(solver->content);
   self.factor.compute(sundials::view(J));
   const auto pivots = self.factor.matrixLU().diagonal();
-  return pivots.allFinite() && pivots.cwiseAbs().minCoeff() > 0.0 ? 0 : singular;
+  self.is_factorised = pivots.allFinite() && pivots.cwiseAbs().minCoeff() > 0.0;
+  return self.is_factorised ? 0 : singular;
 }
 
 int EquilibriumSolver::Implementation::solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x,
@@ -257,9 +266,35 @@ void EquilibriumSolver::Implementation::accept(const Eigen::VectorXd& u) {
   set_reference(q);
 }
 
+// Newton's method with the factor of a stiffness that was found elsewhere: from one instant to the
+// next it hardly changes. False where that does not hold, or there is none.
+bool EquilibriumSolver::Implementation::newton_with_known_stiffness(Eigen::VectorXd& u) {
+  if (!is_factorised) return false;
+  u.setZero(coordinates.size());
+  Eigen::VectorXd residual(u.size());
+  double before = std::numeric_limits<double>::infinity();
+  try {
+    for (;;) {
+      calc_residual(u, &contacts, residual);
+      const double norm = scaled_norm(residual);
+      if (norm <= settings.tolerance) return true;
+      if (!(norm <= slow * before)) return false;
+      u -= factor.solve(residual);
+      before = norm;
+    }
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 // Newton's method with the contacts as they stand; true when it converged.
 bool EquilibriumSolver::Implementation::newton() {
   if (coordinates.size() == 0) return true;
+  Eigen::VectorXd quick;
+  if (newton_with_known_stiffness(quick)) {
+    accept(quick);
+    return true;
+  }
   auto u = sundials::view(unknowns.get());
   u.setZero();
   sundials::check(KINSetMaxNewtonStep(kinsol, 1e3), "KINSetMaxNewtonStep");

@@ -203,6 +203,27 @@ TEST(Equilibrium, SweepOfTheTwoGoliathsCarriesTheWeight) {
   }
 }
 
+// A sweep goes on with the stiffness of earlier instants: where it arrives is what a solver that
+// knows nothing of them finds for each instant by itself, from some way off.
+TEST(Equilibrium, SweepIsWhatEachInstantGivesAlone) {
+  const LiftSystem lift = samples::two_goliaths();
+  const Eigen::VectorXd beside = Eigen::VectorXd::Constant(lift.mechanism().nv(), 0.01);
+  int compared = 0;
+  const auto compare = [&](Eigen::Index sample, double t, LiftWorkspace& w) {
+    if (sample % 50 != 0) return;
+    EquilibriumSolver alone(lift);
+    Eigen::VectorXd q(w.q.size());
+    lift.mechanism().integrate(w.q, beside, 1.0, q);
+    alone.solve(t, q);
+    const Eigen::VectorXd difference = tensions(w) - tensions(alone.workspace());
+    EXPECT_LT(difference.lpNorm<Eigen::Infinity>(), 1e-8 * 860e3 * g) << "at " << t << " s";
+    ++compared;
+  };
+  static_sweep(lift, sample_times(lift.operation().duration(), 1.0), lift.q_start(), {}, {},
+               compare);
+  EXPECT_GT(compared, 5);
+}
+
 TEST(Equilibrium, NoneSaysWhenWhoAndWhatToTry) {
   const LiftSystem lift = BeamOnRopes{{}, {}, {}, 0.0, 0.0}.build();
   EquilibriumSolver solver(lift);
