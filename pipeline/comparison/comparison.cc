@@ -242,7 +242,9 @@ std::string shown_change(const ComparedFigure& figure, std::size_t result) {
   if (!change) return "";
   // Less than half a unit of the last digit is no change, of either sign.
   const double shown = std::abs(*change) < 0.005 ? 0 : *change;
-  return fmt::format("{:+.2f} {}", shown, figure.is_in_percent() ? "pt" : "%");
+  // From a thousand on hundredths would say nothing and fill the column.
+  const int decimals = std::abs(shown) < 999.995 ? 2 : 0;
+  return fmt::format("{:+.{}f} {}", shown, decimals, figure.is_in_percent() ? "pt" : "%");
 }
 
 std::string shown_move(const ResultComparison& comparison, const MovedFigure& moved) {

@@ -67,7 +67,10 @@ double allowed_difference(const ExpectedFigure& figure) {
 std::optional<std::string> complaint_about(const ExpectedFigure& figure, const Json* found) {
   if (!found) return "is not in the summary";
   const auto differs = [&](const std::string& wanted) {
-    return fmt::format("is {} instead of {}", found->dump(), wanted);
+    // Ten digits: what the tightest tolerance in use asks for.
+    const std::string is =
+        found->is_number() ? fmt::format("{:.10g}", found->get<double>()) : found->dump();
+    return fmt::format("is {} instead of {}", is, wanted);
   };
   if (figure.equals) {
     if (text_of_value(*found) == *figure.equals) return std::nullopt;

@@ -92,6 +92,15 @@ TEST_F(ComparedFolders, AreHeldToTolerancesOfWhichTheLastCounts) {
   EXPECT_THAT(compare("verdict=0%").moved, IsEmpty());
 }
 
+// Ten characters would touch the figure beside them.
+TEST(ShownChange, KeepsToItsColumnHoweverLarge) {
+  ComparedFigure figure;
+  figure.values = {5.37, 248.41};
+  EXPECT_EQ(shown_change(figure, 1), "+4526 %");
+  figure.values = {-1.0, -10.99};
+  EXPECT_EQ(shown_change(figure, 1), "-999.00 %");
+}
+
 TEST_F(ComparedFolders, RefuseTolerancesThatFitNoFigure) {
   EXPECT_THAT(refusal_of({"before", "after"}, "stres_increase=1%"),
               HasSubstr("did you mean \"stress_increase\"?"));
