@@ -13,6 +13,9 @@ struct SeriesFile {
   std::vector<std::vector<double>> columns;  ///< all of one length
   /// Number of lines of the file before the first row, for messages.
   int lines_before = 0;
+  std::vector<int> lines;      ///< of each row, for messages
+  std::vector<bool> is_clock;  ///< of each column: its values were instants of a clock, now in s
+  bool has_dates = false;      ///< such instants had dates: they count from the year 1970 on
 
   std::size_t row_count() const { return columns.empty() ? 0 : columns.front().size(); }
 };
@@ -23,10 +26,20 @@ class SeriesFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads rows of numbers set apart by commas or semicolons; a first line that is no row of numbers
-/// is the header. Empty lines and lines that begin with # are passed over.
+/// What a cell may hold besides a number.
+enum class SeriesCells {
+  numbers,  ///< nothing
+  /// What loggers write: nothing or NaN where a value lacks (a quiet NaN then), and instants of a
+  /// clock (read_clock_time).
+  of_loggers
+};
+
+/// Reads rows of numbers set apart by commas, semicolons or tabulators; a first line that is no row of
+/// numbers is the header. Between semicolons or tabulators a comma may stand for the decimal point.
+/// Empty lines and lines that begin with # are passed over, and so is a byte order mark.
 /// @throws SeriesFileError if the file cannot be read, has no rows, rows of different length, or a
-///   value that is not a finite number.
-SeriesFile read_series_file(const std::filesystem::path& path);
+///   value that is not a finite number, nor what else cells may hold.
+SeriesFile read_series_file(const std::filesystem::path& path,
+                            SeriesCells allowed = SeriesCells::numbers);
 
 }  // namespace blocklift::pipeline

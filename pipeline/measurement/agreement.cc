@@ -80,14 +80,22 @@ std::vector<Sharing> find_sharing(const std::vector<TimeSeries>& measured,
                                   const TimeWindow& window) {
   std::vector<Sharing> shares(measured.size());
   if (measured.empty()) return shares;
+  std::vector<TimeWindow> gaps;
+  for (const TimeSeries& one : measured) {
+    const std::vector<TimeWindow> own = gaps_of(one);
+    gaps.insert(gaps.end(), own.begin(), own.end());
+  }
+  const auto is_known = [&](double instant) {
+    return window.contains(instant) && !is_in_gap(gaps, instant);
+  };
   double largest = 0;
   for (const double instant : measured.front().time)
-    if (window.contains(instant)) largest = std::max(largest, sum_at(measured, instant));
+    if (is_known(instant)) largest = std::max(largest, sum_at(measured, instant));
   double instants = 0;
   for (const double instant : measured.front().time) {
     const double ours = sum_at(measured, instant);
     const double theirs = sum_at(computed, instant);
-    if (!window.contains(instant) || ours < largest / 10 || ours <= 0 || theirs <= 0) continue;
+    if (!is_known(instant) || ours < largest / 10 || ours <= 0 || theirs <= 0) continue;
     ++instants;
     for (std::size_t k = 0; k < measured.size(); ++k) {
       shares[k].measured += measured[k].at(instant) / ours;

@@ -48,8 +48,8 @@ struct Sharing {
 };
 
 /// Mean shares of each rope in the sum of all, over the instants in the window at which the
-/// measured sum is at least a tenth of its largest.
-/// @param measured of each rope, all with the same instants, on the clock of the lift.
+/// measured sum is at least a tenth of its largest and no rope has a gap.
+/// @param measured of each rope, on the clock of the lift; the instants are those of the first.
 std::vector<Sharing> find_sharing(const std::vector<TimeSeries>& measured,
                                   const std::vector<TimeSeries>& computed,
                                   const TimeWindow& window);

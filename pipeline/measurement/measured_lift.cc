@@ -97,6 +97,22 @@ TimeWindow common_time(const std::vector<TimeSeries>& series, TimeWindow window)
   return window;
 }
 
+/// Says where channels have gaps: what was measured there is not known.
+void doubt_gaps(MeasuredLift& lift) {
+  for (const HeldChannel& channel : lift.channels) {
+    const std::vector<TimeWindow> gaps = gaps_of(channel.measured);
+    if (gaps.empty()) continue;
+    const TimeWindow& longest = *std::max_element(
+        gaps.begin(), gaps.end(),
+        [](const TimeWindow& a, const TimeWindow& b) { return a.length() < b.length(); });
+    lift.doubts.push_back(gaps.size() == 1
+                              ? fmt::format("{} has nothing from {:.1f} s to {:.1f} s",
+                                            channel.name, longest.from, longest.to)
+                              : fmt::format("{} has {} gaps, the longest from {:.1f} s to {:.1f} s",
+                                            channel.name, gaps.size(), longest.from, longest.to));
+  }
+}
+
 void compare_channels(const TimeWindow& window, MeasuredLift& lift) {
   for (HeldChannel& channel : lift.channels) {
     channel.agreement = compare_series(channel.measured, channel.computed.in_motion,
@@ -238,6 +254,7 @@ MeasuredLift hold_against_measurements(const std::filesystem::path& result,
   lift.computed_wave_height =
       input_quantity(lift.result, ".spectrum.significant_height", Dimension::length);
   const TimeWindow window = settings.window.value_or(whole_time());
+  doubt_gaps(lift);
   compare_channels(window, lift);
   share_ropes(window, lift);
   if (settings.decay) identify_decays(*settings.decay, lift);

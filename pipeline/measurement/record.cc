@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <set>
@@ -80,7 +81,7 @@ class RecordReader {
         diagnostics_(diagnostics),
         name_(std::make_shared<const std::string>(shown_path(path))) {
     try {
-      file_ = read_series_file(path);
+      file_ = read_series_file(path, SeriesCells::of_loggers);
     } catch (const SeriesFileError& error) {
       complain_about_file(path, error.what());
       is_read_ = false;
@@ -129,21 +130,52 @@ class RecordReader {
       return false;
     }
     time_column_ = static_cast<std::size_t>(found - file_.names.begin());
-    const std::optional<double> factor = factor_of(head_of(*found), "s", head_, diagnostics_);
-    if (!factor) return false;
     time_ = file_.columns[time_column_];
-    for (double& instant : time_) instant *= *factor;
+    if (file_.is_clock[time_column_]) {
+      if (!count_from_first(head_of(*found))) return false;
+    } else {
+      const std::optional<double> factor = factor_of(head_of(*found), "s", head_, diagnostics_);
+      if (!factor) return false;
+      for (double& instant : time_) instant *= *factor;
+    }
     if (time_.size() < fewest_rows) {
       diagnostics_.error(head_, fmt::format("the record has {} rows; at least {} are needed",
                                             time_.size(), fewest_rows));
       return false;
     }
-    for (std::size_t i = 1; i < time_.size(); ++i) {
-      if (time_[i] > time_[i - 1]) continue;
-      diagnostics_.error({name_, file_.lines_before + static_cast<int>(i) + 1, 1},
+    for (std::size_t i = 0; i < time_.size(); ++i) {
+      const Mark row{name_, file_.lines[i], 1};
+      if (std::isnan(time_[i])) {
+        diagnostics_.error(row, "the row has no time");
+        return false;
+      }
+      if (i == 0 || time_[i] > time_[i - 1]) continue;
+      diagnostics_.error(row,
                          fmt::format("the time {:.9g} s does not follow {:.9g} s; time has to rise",
-                                     time_[i], time_[i - 1]));
+                                     time_[i], time_[i - 1]),
+                         {"sort the rows by their time, and leave one row for each instant"});
       return false;
+    }
+    return true;
+  }
+
+  /// Instants of a clock become seconds since the record's first; without a date the clock may pass
+  /// midnight.
+  bool count_from_first(const ColumnHead& head) {
+    if (head.unit && *head.unit != "UTC") {
+      diagnostics_.error(head_,
+                         fmt::format("the column \"{}\" has instants of a clock and the unit {}",
+                                     head.name, *head.unit),
+                         {"leave the unit out: such instants count in seconds from the first"});
+      return false;
+    }
+    constexpr double day = 86400;
+    double days = 0;
+    const double first = time_.front();
+    for (std::size_t i = 0; i < time_.size(); ++i) {
+      if (!file_.has_dates && i > 0 && time_[i] + days - first < time_[i - 1] - day / 2)
+        days += day;
+      time_[i] += days - first;
     }
     return true;
   }
@@ -152,7 +184,12 @@ class RecordReader {
                     MeasuredRecord& record) {
     ColumnHead head = head_of(file_.names[column]);
     head.name = name_in_results(head.name, names);
-    MeasuredChannel channel{head.name, "", {time_, file_.columns[column]}};
+    MeasuredChannel channel{head.name, "", {}};
+    for (std::size_t i = 0; i < time_.size(); ++i) {
+      if (std::isnan(file_.columns[column][i])) continue;
+      channel.series.time.push_back(time_[i]);
+      channel.series.values.push_back(file_.columns[column][i]);
+    }
     if (!seen_.insert(head.name).second) {
       diagnostics_.error(head_, fmt::format("the column \"{}\" is there twice", head.name));
       return;
@@ -170,6 +207,17 @@ class RecordReader {
       return;
     } else {
       channel.unit = read_computed_channel(results_, head.name).unit;
+    }
+    if (file_.is_clock[column]) {
+      diagnostics_.error(head_,
+                         fmt::format("the column \"{}\" has instants of a clock", head.name));
+      return;
+    }
+    if (channel.series.size() < fewest_rows) {
+      diagnostics_.error(
+          head_, fmt::format("the column \"{}\" has {} values; at least {} are needed", head.name,
+                             channel.series.size(), fewest_rows));
+      return;
     }
     const std::optional<double> factor = factor_of(head, channel.unit, head_, diagnostics_);
     if (!factor) return;

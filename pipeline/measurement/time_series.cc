@@ -13,6 +13,27 @@ double TimeSeries::at(double instant) const {
   return values[next - 1] + share * (values[next] - values[next - 1]);
 }
 
+std::vector<TimeWindow> gaps_of(const TimeSeries& series) {
+  constexpr double wide = 10;
+  std::vector<TimeWindow> gaps;
+  if (series.size() < 3) return gaps;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < series.size(); ++i)
+    steps.push_back(series.time[i] - series.time[i - 1]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double usual = *middle;
+  for (std::size_t i = 1; i < series.size(); ++i)
+    if (series.time[i] - series.time[i - 1] > wide * usual)
+      gaps.push_back({series.time[i - 1], series.time[i]});
+  return gaps;
+}
+
+bool is_in_gap(const std::vector<TimeWindow>& gaps, double instant) {
+  return std::any_of(gaps.begin(), gaps.end(),
+                     [&](const TimeWindow& gap) { return instant > gap.from && instant < gap.to; });
+}
+
 TimeSeries samples_in(const TimeSeries& series, const TimeWindow& window) {
   TimeSeries samples;
   for (std::size_t i = 0; i < series.size(); ++i) {

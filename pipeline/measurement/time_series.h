@@ -22,7 +22,15 @@ struct TimeWindow {
   double to = 0;
 
   bool contains(double instant) const { return instant >= from && instant <= to; }
+  double length() const { return to - from; }
 };
+
+/// Where a series says nothing: between samples that follow each other ten times as far apart as
+/// half of them do at most. What lies between is not known.
+std::vector<TimeWindow> gaps_of(const TimeSeries& series);
+
+/// Does an instant lie within one of the gaps? Their ends, where samples are, do not.
+bool is_in_gap(const std::vector<TimeWindow>& gaps, double instant);
 
 /// The samples whose instants lie in a window.
 TimeSeries samples_in(const TimeSeries& series, const TimeWindow& window);

@@ -18,13 +18,23 @@ struct EvenSeries {
   std::vector<double> values;
 };
 
-EvenSeries evenly_sampled(const TimeSeries& series, double step) {
-  EvenSeries even{series.time.front(), {}};
-  const double span = series.time.back() - series.time.front();
-  const auto count = static_cast<std::size_t>(std::floor(span / step)) + 1;
+/// @param span that all rows have in common; a series that begins later or ends earlier rests there.
+EvenSeries evenly_sampled(const TimeSeries& series, const TimeWindow& span, double step) {
+  EvenSeries even{span.from, {}};
+  const auto count = static_cast<std::size_t>(std::floor((span.to - span.from) / step)) + 1;
   for (std::size_t i = 0; i < count; ++i)
     even.values.push_back(series.at(even.start + static_cast<double>(i) * step));
   return even;
+}
+
+/// From the first instant of all series to their last.
+TimeWindow span_of(const std::vector<ChannelPair>& channels, TimeSeries ChannelPair::*which) {
+  TimeWindow span{(channels.front().*which).time.front(), (channels.front().*which).time.back()};
+  for (const ChannelPair& channel : channels) {
+    span.from = std::min(span.from, (channel.*which).time.front());
+    span.to = std::max(span.to, (channel.*which).time.back());
+  }
+  return span;
 }
 
 double mean_step(const TimeSeries& series) {
@@ -165,15 +175,15 @@ std::optional<TimeShift> find_time_shift(const std::vector<ChannelPair>& channel
   for (const ChannelPair& channel : channels)
     if (moves(channel.measured) && moves(channel.computed)) moving.push_back(channel);
   if (moving.empty()) return std::nullopt;
-  const TimeSeries& measured = moving.front().measured;
-  const TimeSeries& computed = moving.front().computed;
+  const TimeWindow measured = span_of(moving, &ChannelPair::measured);
+  const TimeWindow computed = span_of(moving, &ChannelPair::computed);
   CoarseSearch search;
-  search.step = std::max({mean_step(measured), mean_step(computed),
-                          (measured.time.back() - measured.time.front()) / coarse_samples,
-                          (computed.time.back() - computed.time.front()) / coarse_samples});
+  search.step = std::max({mean_step(moving.front().measured), mean_step(moving.front().computed),
+                          (measured.to - measured.from) / coarse_samples,
+                          (computed.to - computed.from) / coarse_samples});
   for (const ChannelPair& channel : moving) {
-    search.measured.push_back(evenly_sampled(channel.measured, search.step));
-    search.computed.push_back(evenly_sampled(channel.computed, search.step));
+    search.measured.push_back(evenly_sampled(channel.measured, measured, search.step));
+    search.computed.push_back(evenly_sampled(channel.computed, computed, search.step));
   }
   search.run();
   if (search.scores.empty()) return std::nullopt;
@@ -182,7 +192,7 @@ std::optional<TimeShift> find_time_shift(const std::vector<ChannelPair>& channel
                        [](const Score& a, const Score& b) { return a.worth < b.worth; }) -
       search.scores.begin());
   const double coarse =
-      computed.time.front() - measured.time.front() +
+      computed.from - measured.from +
       search.step * static_cast<double>(search.first_lag + static_cast<long>(best));
   TimeShift found;
   found.shift = find_maximum(coarse - search.step, coarse + search.step,

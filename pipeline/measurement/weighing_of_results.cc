@@ -134,7 +134,11 @@ std::vector<WeighingInstant> weighing_instants(const ResultsReader& results,
     common.from = std::max(common.from, series.time.front());
     common.to = std::min(common.to, series.time.back());
   }
-  const std::vector<double> instants = samples_in(tensions.at(paths.front().channel), common).time;
+  std::vector<double> instants = samples_in(tensions.at(paths.front().channel), common).time;
+  for (const RopePath& path : paths) {
+    const std::vector<TimeWindow> gaps = gaps_of(tensions.at(path.channel));
+    std::erase_if(instants, [&](double instant) { return is_in_gap(gaps, instant); });
+  }
   const std::size_t stride =
       std::max<std::size_t>(1, (instants.size() + most_instants - 1) / most_instants);
   BodyMotions motions(results);

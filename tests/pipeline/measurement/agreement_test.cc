@@ -45,5 +45,25 @@ TEST(FindSharing, AveragesSharesWhereTheLoadHangs) {
   EXPECT_NEAR(shares[0].computed, 0.5, 1e-12);
 }
 
+// Between two samples far apart a line would make shares that nobody measured.
+TEST(FindSharing, PassesOverGaps) {
+  TimeSeries a, b, half;
+  for (int t = 0; t <= 60; ++t) {
+    half.time.push_back(t);
+    half.values.push_back(50);
+    a.time.push_back(t);
+    a.values.push_back(t == 20 || t == 40 ? 90 : 30);
+    if (t > 20 && t < 40) continue;  // the cell is silent; what lies between is not 70
+    b.time.push_back(t);
+    b.values.push_back(t == 20 || t == 40 ? 10 : 70);
+  }
+  ASSERT_EQ(gaps_of(b).size(), 1u);
+  EXPECT_EQ(gaps_of(b)[0].from, 20);
+  EXPECT_EQ(gaps_of(b)[0].to, 40);
+  EXPECT_TRUE(gaps_of(a).empty());
+  const auto shares = find_sharing({a, b}, {half, half}, {0, 60});
+  EXPECT_NEAR(shares[0].measured, (40 * 0.3 + 2 * 0.9) / 42, 1e-12);
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

@@ -51,6 +51,24 @@ class MeasuredLifts : public ::testing::Test {
   const test::TemporaryFolder folder_;
 };
 
+TEST_F(MeasuredLifts, SayWhereCellsAreSilent) {
+  std::string cells = "time;ropes.R1 [kN];ropes.R2 [t]\n";
+  for (int i = 0; i <= 500; ++i) {
+    const double t = 5 + 0.1 * i;
+    const bool is_silent = i > 100 && i < 150;
+    cells +=
+        fmt::format("2026-05-04 10:{:02}:{:06.3f};{:.9g};{}\n", i / 600, 0.1 * (i % 600),
+                    test::sample_tension(t) / 1000,
+                    is_silent ? "" : fmt::format("{:.9g}", test::sample_tension(t) / 14709.975));
+  }
+  folder_.write("cells.csv", cells);
+  const MeasuredLift lift = hold();
+  EXPECT_NEAR(lift.records.at(0).shift, 5, 2e-3);
+  EXPECT_THAT(lift.doubts, ElementsAre("ropes.R2 has nothing from 15.0 s to 20.0 s"));
+  ASSERT_TRUE(lift.channels[1].agreement);
+  EXPECT_EQ(lift.channels[1].agreement->samples, 501u - 49u);
+}
+
 TEST_F(MeasuredLifts, AreAlignedAndCompared) {
   const MeasuredLift lift = hold();
   EXPECT_NEAR(lift.records.at(0).shift, -123.4, 2e-3);

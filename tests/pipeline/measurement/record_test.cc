@@ -77,10 +77,48 @@ TEST_F(MeasuredRecords, SayAllThatIsWrongWithTheirPlaces) {
   EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(9, ",1") + "3,1\n"),
               HasSubstr("record.csv:11:1: error: the time 3 s does not follow 8 s"));
   EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(3, ",1") + "3,x\n"),
-              HasSubstr("record.csv:5:1: error: \"x\" is not a finite number"));
+              HasSubstr("record.csv:5:1: error: \"x\" is neither a finite number nor an instant"));
   EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(3, ",1")), HasSubstr("3 rows"));
   const ResultsReader results("lift/results.h5");
   EXPECT_THROW(read_records({"missing.csv"}, results), InputError);
+}
+
+// Each channel has the instants at which it said something.
+TEST_F(MeasuredRecords, MayHaveGaps) {
+  const auto records =
+      read("time [s],ropes.R1 [N],ropes.R2 [N]\n" + rows(9, ",1,2") + "9,,2\n10,NaN,3\n11,4,3\n");
+  ASSERT_EQ(records[0].channels.size(), 2u);
+  EXPECT_EQ(records[0].channels[0].series.size(), 10u);
+  EXPECT_EQ(records[0].channels[0].series.time.back(), 11);
+  EXPECT_EQ(records[0].channels[0].series.values.back(), 4);
+  EXPECT_EQ(records[0].channels[1].series.size(), 12u);
+  EXPECT_THAT(refusal_of("time [s],ropes.R1 [N],ropes.R2 [N]\n" + rows(7, ",1,2") + "8,,2\n"),
+              HasSubstr("the column \"ropes.R1\" has 7 values; at least 8 are needed"));
+  EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(9, ",1") + ",1\n"),
+              HasSubstr("record.csv:11:1: error: the row has no time"));
+}
+
+TEST_F(MeasuredRecords, MayHaveTheTimeOfAClock) {
+  std::string cells = "time;ropes.R1 [kN]\n";
+  for (int i = 0; i < 9; ++i)
+    cells += (i < 5 ? "23:59:5" + std::to_string(i + 5) : "00:00:0" + std::to_string(i - 5)) +
+             ",5;2,5\n";
+  const auto over_midnight = read(cells);
+  EXPECT_EQ(over_midnight[0].channels[0].series.time.front(), 0);
+  EXPECT_EQ(over_midnight[0].channels[0].series.time.back(), 8);
+  EXPECT_EQ(over_midnight[0].channels[0].series.values.back(), 2500);
+
+  // The hour when summer time ends comes twice, and its zone tells which it is.
+  cells = "time,ropes.R1 [kN]\n";
+  for (const char* zone : {"+02:00", "+01:00"})
+    for (int i = 0; i < 5; ++i)
+      cells += "2026-10-25 02:" + std::to_string(10 + 10 * i) + ":00" + zone + ",1\n";
+  const auto over_summer = read(cells);
+  EXPECT_EQ(over_summer[0].channels[0].series.time[5], 3600);
+
+  EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n10:00:00,1\n10:00:01,1\n10:00:02,1\n10:00:03,1\n"
+                         "10:00:04,1\n10:00:05,1\n10:00:06,1\n10:00:07,1\n"),
+              HasSubstr("leave the unit out"));
 }
 
 TEST_F(MeasuredRecords, FindTensionsAndAttitudesInTheResults) {

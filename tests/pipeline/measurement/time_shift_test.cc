@@ -50,6 +50,19 @@ TEST(FindTimeShift, BearsNoiseOnSeveralChannels) {
   EXPECT_NEAR(found->shift, 11.4, 0.05);
 }
 
+// Cells that begin to speak and fall silent at instants of their own.
+TEST(FindTimeShift, TakesChannelsThatBeginAndEndElsewhere) {
+  const TimeSeries computed = series_of(0, 80, 0.05, taken_over);
+  const auto measured = [&](double from, double to) {
+    return series_of(from, to, 0.1, [](double t) { return taken_over(t + 11.4); });
+  };
+  const auto found = find_time_shift({{measured(0, 60), computed},
+                                      {measured(3, 25), computed},
+                                      {measured(5, 66), samples_in(computed, {10, 80})}});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->shift, 11.4, 0.05);
+}
+
 TEST(FindTimeShift, DoubtsWhatEveryPeriodWouldDo) {
   const auto wave = [](double t) { return std::sin(t); };
   const auto found = find_time_shift({{series_of(0, 30, 0.1, wave), series_of(0, 60, 0.1, wave)}});
