@@ -108,13 +108,14 @@ class PadeyeRun {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       places.col(i) = result_.placed.p_BP +
                       result_.placed.R_BP * result_.model->part().mesh.nodes.col(nodes[i]);
-    // Across the lug's own thickness: the pad or a deck may meet it there.
-    Vector3 across = result_.placed.R_BP.col(2);
-    if (is_on_mesh_ && !goes_on_below(places)) across = result_.placed.R_BP.col(1);
-    // Of a lug of solids no plate has its thickness: they stand on the edge below by rigid arms.
+    // Of a lug of solids no plate has its thickness: they stand on a line of plating by rigid arms.
+    const Vector3 axis = result_.placed.R_BP.col(2);
     Eigen::Matrix3Xd feet = places;
     for (Eigen::Index i = 0; is_solid_ && i < feet.cols(); ++i)
-      feet.col(i) -= across.dot(feet.col(i) - result_.placed.p_BP) * across;
+      feet.col(i) -= axis.dot(feet.col(i) - result_.placed.p_BP) * axis;
+    // Across the lug's own thickness: the pad or a deck may meet it there.
+    Vector3 across = axis;
+    if (is_on_mesh_ && !goes_on_below(feet)) across = result_.placed.R_BP.col(1);
     base_ = structure::displacements_of_arms(responses_.model(), responses_.displacements(), feet,
                                              places, across);
   }

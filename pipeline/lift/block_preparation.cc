@@ -76,8 +76,12 @@ bool stand_padeyes(const BlockModel& block, structure::Mesh& mesh, Diagnostics& 
     } catch (const structure::ModelError& error) {
       all_stand = false;
       diagnostics.error(lug.is_solid.mark, error.what(),
-                        {"a solid padeye stands on the free edge of a plate, or of a plate that "
-                         "others cross there, by its base alone; as: shells takes any lug"});
+                        {block.mesh ? "a solid padeye stands on plates all along its base, where "
+                                      "the mesh has none beside it; as: shells takes the mesh as "
+                                      "it is"
+                                    : "a solid padeye stands on the free edge of a plate, or of a "
+                                      "plate that others cross there, by its base alone; as: "
+                                      "shells takes any lug"});
     }
   }
   return all_stand;

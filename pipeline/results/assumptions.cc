@@ -350,9 +350,9 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
       "are not part of it.");
   if (const std::string lugs = names_of_solid_lugs(*assessment.lift_case.load.model); !lugs.empty())
     list.push_back(fmt::format(
-        "Solids in the block are the padeyes of {}: they stand on the pad's edge, whose "
-        "displacement and rotation their base follows with plane cross-sections, and the force is "
-        "spread over the whole bore. Their elements are not divided where plates' are; their "
+        "Solids in the block are the padeyes of {}: they stand on the plating along their base, "
+        "which follows its displacement and rotation with straight cross-sections, and the force "
+        "is spread over the whole bore. Their elements are not divided where plates' are; their "
         "strength is that of the padeyes' own fine meshes and formulae.",
         lugs));
   if (const auto& mesh = assessment.lift_case.load.model->mesh)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -425,6 +426,8 @@ class MeshReader {
     if (lug.pin.value.allFinite()) placed.pin = lug.pin.value;
     if (!placed.pin && !lug.node && !lug.set) return;  // complained about elsewhere
     if (!find_carriers(lug, deck, placed)) return;
+    // What lies below its base carries a solid, however far the pin is from all nodes.
+    if (lug.is_solid.value && placed.pin) placed.vertex = nearest_corner(deck.mesh, *placed.pin);
     try {
       structure::add_lug(deck.mesh, placed);
       lug.pin.value = deck.mesh.lifting_points.back().p_BPin;
@@ -432,6 +435,19 @@ class MeshReader {
     } catch (const structure::ModelError& wrong) {
       diagnostics_.error(lug.name.mark, wrong.what());
     }
+  }
+
+  /// Of all shells'; -1 without any.
+  static int nearest_corner(const Mesh& mesh, const Vector3& place) {
+    int nearest = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (const structure::Shell& shell : mesh.shells)
+      for (const int corner : shell.vertices) {
+        const double distance = (mesh.vertices[corner] - place).norm();
+        if (distance < least) nearest = corner;
+        least = std::min(least, distance);
+      }
+    return nearest;
   }
 
   /// A padeye's base lies within plates: what drives its fine mesh.
@@ -443,8 +459,10 @@ class MeshReader {
     const structure::PlateFinder plates(mesh);
     const structure::PadeyeGeometry& g = placed->geometry;
     constexpr int steps = 16;
+    // A solid stands by its middle plane on whatever is below.
+    const double half = lug.is_solid.value ? 0 : g.thickness / 2;
     for (int i = 0; i <= steps; ++i)
-      for (const double z : {-g.thickness / 2, g.thickness / 2}) {
+      for (const double z : {-half, half}) {
         const double x = -g.base_left + (g.base_left + g.base_right) * i / steps;
         const Vector3 place = placed->p_BP + placed->R_BP * Vector3(x, -g.height, z);
         if (plates.find(place)) continue;

@@ -414,6 +414,22 @@ Format<PadeyeOnMesh> padeye_on_mesh_format() {
   return table.format();
 }
 
+Format<Located<bool>> shells_or_solid() {
+  return located(choice<bool>({{"shells", false}, {"solid", true}}));
+}
+
+/// A solid padeye has a place of its own, and what lies below its base carries it.
+void check_solid_place(const LugModel& lug, Reading& reading) {
+  if (!lug.is_solid.value) return;
+  const std::string user = reading.owner() + ", a solid,";
+  const std::vector<std::string> allowed{
+      "a solid padeye has a pin and a padeye; the plates below its base carry it"};
+  if (lug.pin.mark.line <= 0) reading.error(lug.is_solid.mark, user + " has no pin", allowed);
+  if (lug.node) reading.error(lug.node->mark, user + " names a node", allowed);
+  if (lug.set) reading.error(lug.set->mark, user + " names a set", allowed);
+  if (lug.radius) reading.error(lug.is_solid.mark, user + " has a radius", allowed);
+}
+
 /// A lug on a mesh.
 Format<LugModel> place_format() {
   Table<LugModel> table(
@@ -434,7 +450,11 @@ Format<LugModel> place_format() {
       .optional("padeye", &LugModel::on_mesh, padeye_on_mesh_format(),
                 "how it stands as one of the block's padeyes; without, what carries it is checked "
                 "alone")
+      .by_default("as", &LugModel::is_solid, shells_or_solid(), "shells",
+                  "what the model has of it: nothing but the mesh as it is, or its padeye as a "
+                  "solid that stands on the plates below its base")
       .rule([](const LugModel& lug, Reading& reading, const Mark& mark) {
+        check_solid_place(lug, reading);
         const bool has_place = lug.node || lug.set || lug.pin.mark.line > 0;
         if (!has_place)
           reading.error(
@@ -462,8 +482,7 @@ Table<Written<LugModel>>& lug_keys(Table<Written<LugModel>>& table, const Axes& 
       .optional("padeye", &LugModel::padeye, reference(),
                 "one of the block's padeyes: what the lug is made as, checked by hand formulae and "
                 "by a fine mesh")
-      .by_default("as", &LugModel::is_solid,
-                  located(choice<bool>({{"shells", false}, {"solid", true}})), "shells",
+      .by_default("as", &LugModel::is_solid, shells_or_solid(), "shells",
                   "what the model has of it: its plate as shells, or its padeye as a solid that "
                   "stands on the pad's edge")
       .rule([of_normal](const Written<LugModel>& lug, Reading& reading, const Mark& mark) {

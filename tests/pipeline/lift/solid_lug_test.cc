@@ -1,12 +1,17 @@
 // Lugs of a block that are solids, from their keys to the figures of a lift.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
+#include <numbers>
+#include <set>
 #include <string>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +19,7 @@
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/results/assumptions.h"
+#include "structure/mesh/files/nastran/writer.h"
 #include "tests/pipeline/small_lift.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -192,6 +198,188 @@ TEST(SolidLug, WhatCannotBeOneIsSaidWithFileLineAndKey) {
   // In the midst of its plate a lug is no padeye.
   say(slope_with_lug("[0.5 m, 0.9 m]", "[0.9 m, 1.3 m], thickness: 30 mm, pin: [1 m, 1.15 m, 0 m]"),
       "lug L1 cannot be a solid: slope is joined to its plate");
+}
+
+/// A floor with a web across its middle as a deck of squares of 0.2 m, mm-t-N.
+std::string tee_deck() {
+  std::string text = "SOL 101\nCEND\nBEGIN BULK\n";
+  int grids = 0, elements = 0;
+  std::map<std::array<int, 3>, int> grid_at;
+  const auto grid = [&](int x, int y, int z) {
+    const auto [found, is_new] = grid_at.try_emplace({x, y, z}, grids + 1);
+    if (is_new) text += fmt::format("GRID,{},,{}.,{}.,{}.\n", ++grids, 200 * x, 200 * y, 200 * z);
+    return found->second;
+  };
+  std::string cells;
+  for (int x = 0; x < 10; ++x) {
+    for (int y = 0; y < 6; ++y)
+      cells += fmt::format("CQUAD4,{},1,{},{},{},{}\n", ++elements, grid(x, y, 0),
+                           grid(x + 1, y, 0), grid(x + 1, y + 1, 0), grid(x, y + 1, 0));
+    for (int z = 0; z < 5; ++z)
+      cells += fmt::format("CQUAD4,{},2,{},{},{},{}\n", ++elements, grid(x, 3, z),
+                           grid(x + 1, 3, z), grid(x + 1, 3, z + 1), grid(x, 3, z + 1));
+  }
+  return text + cells +
+         "PSHELL,1,1,20.,1,,1\nPSHELL,2,1,30.,1,,1\n"
+         "MAT1,1,206000.,,0.3,7.85-9,,,,\n,355.\nENDDATA\n";
+}
+
+SolidLugBlock mesh_block_of(const std::string& lugs, const std::string& deck = tee_deck()) {
+  const test::TemporaryFolder folder;
+  folder.write("tee.bdf", deck);
+  folder.write("block.yaml",
+               "kind: block\nmesh: {file: tee.bdf, units: mm-t-N, yield_stress: 355 MPa}\n"
+               "padeyes: {small: {radius: 120 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm}}\n"
+               "lugs:\n" +
+                   lugs);
+  ModelLibrary library({});
+  Diagnostics diagnostics;
+  SolidLugBlock result;
+  result.block = library.read_block("block.yaml", diagnostics);
+  if (!diagnostics.has_errors()) check_block_model(*result.block, "block", diagnostics);
+  result.complaints = diagnostics.to_text();
+  return result;
+}
+
+/// A lug of a deck with how its padeye stands, and more of its keys.
+std::string lug_of_deck(const std::string& name, const std::string& pin,
+                        const std::string& more = ", as: solid") {
+  return "  " + name + ": {pin: " + pin +
+         ", padeye: {design: small, axis: [0, 1, 0], up: [0, 0, 1], height: 250 mm, base: [300 mm, "
+         "300 mm]}" +
+         more + "}\n";
+}
+
+const char* const pin_over_web = "[1 m, 0.6 m, 1.25 m]";
+const char* const pin_over_floor = "[1.1 m, 0.3 m, 0.25 m]";
+
+// On the edge of a web thinner than the padeye, and on a floor with nothing in its own plane below,
+// between the grids of the deck.
+TEST(SolidLug, StandsOnAMesh) {
+  const SolidLugBlock read = mesh_block_of(lug_of_deck("L1", pin_over_web) +
+                                           lug_of_deck("L2", pin_over_floor) + "  L3: {node: 5}\n");
+  ASSERT_EQ(read.complaints, "");
+  const auto model = coarse_model_of(*read.block, 0.3);
+  ASSERT_TRUE(model);
+  const structure::Mesh& mesh = model->mesh();
+  ASSERT_EQ(mesh.lifting_points.size(), 3U);
+  // Area of base, tangents and arc less the hole, which sixteen divisions have to 0.2 %.
+  const double to_corner = std::hypot(0.3, 0.25), radius = 0.12;
+  const double tangent = std::sqrt(to_corner * to_corner - radius * radius);
+  const double arc =
+      2 * std::numbers::pi - 2 * std::atan2(0.3, 0.25) - 2 * std::acos(radius / to_corner);
+  const double padeye =
+      7850 * 0.04 *
+      (0.3 * 0.25 + tangent * radius + arc * radius * radius / 2 - std::numbers::pi * 0.03 * 0.03);
+  const double plates = 7850 * 2 * (1.2 * 0.02 + 1 * 0.03);
+  EXPECT_NEAR(model->mass_properties().mass, plates + 2 * padeye, 0.004 * padeye);
+  EXPECT_EQ(mesh.groups.size(), 4U);
+  EXPECT_EQ(mesh.groups[2].name, "L1");
+  EXPECT_EQ(mesh.groups[3].name, "L2");
+  std::set<long> labels;
+  for (const auto& shell : mesh.shells) labels.insert(shell.label);
+  for (const auto& solid : mesh.solids) labels.insert(solid.label);
+  EXPECT_EQ(labels.size(), mesh.shells.size() + mesh.solids.size());
+  EXPECT_EQ(*labels.rbegin(), static_cast<long>(labels.size()));
+  const structure::UnitResponses responses(*model);
+  structure::LoadCase load;
+  load.lug_forces_B = {Vector3(1, 2, 3), Vector3(-2, 0.5, 1), Vector3::Zero()};
+  structure::Wrench wrench{};
+  for (int lug = 0; lug < 2; ++lug) {
+    const Vector3& pin = mesh.lifting_points[lug].p_BPin;
+    EXPECT_LT((mesh.vertices[mesh.lifting_points[lug].vertex] - pin).norm(), 1e-12);
+    wrench.force += load.lug_forces_B[lug];
+    wrench.moment += pin.cross(load.lug_forces_B[lug]);
+  }
+  load.field = structure::balancing_field(model->mass_properties(), wrench);
+  EXPECT_LT(responses.balance(load).reaction_over_weight, 1e-8);
+  // Across the floor the plate gives way, over the web the padeye stands on its edge.
+  const auto moved = [&](int lug, int axis) {
+    const Eigen::VectorXd unit =
+        responses.without_rigid_motion(responses.displacements().col(3 * lug + axis));
+    return model->lug_loads().col(3 * lug + axis).dot(unit);
+  };
+  EXPECT_GT(moved(1, 2), 5 * moved(0, 2));
+}
+
+/// The same floor and web as plates, with a padeye of solids on the web's edge.
+const char* const tee_of_plates =
+    "kind: block\n"
+    "materials: {S: {youngs_modulus: 206 GPa, poisson_ratio: 0.3, density: 7850 kg/m^3, "
+    "yield_stress: 355 MPa}}\n"
+    "plates:\n"
+    "  floor: {normal: z, at: 0 m, x: [0 m, 2 m], y: [0 m, 1.2 m], thickness: 20 mm}\n"
+    "  web: {normal: y, at: 0.6 m, x: [0 m, 2 m], z: [0 m, 1 m], thickness: 30 mm}\n"
+    "pads: {P: {plate: web, normal: y, at: 0.6 m, x: [0.5 m, 1.5 m], z: [0.5 m, 1 m], thickness: "
+    "45 mm}}\n"
+    "padeyes: {small: {radius: 120 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm}}\n"
+    "lugs: {L1: {pad: P, normal: y, at: 0.6 m, x: [0.7 m, 1.3 m], z: [1 m, 1.4 m], thickness: 45 "
+    "mm, pin: [1 m, 0.6 m, 1.25 m], padeye: small, as: solid}}\n";
+
+/// How the pin moves under unit forces there, without the motion as a whole, m/N.
+Eigen::Matrix3d give_of_pin(const structure::ElasticModel& model) {
+  const structure::UnitResponses responses(model);
+  Eigen::Matrix3d give;
+  for (int axis = 0; axis < 3; ++axis)
+    give.col(axis) = model.lug_loads().leftCols<3>().transpose() *
+                     responses.without_rigid_motion(responses.displacements().col(axis));
+  return give;
+}
+
+// The plates of a block as a deck bear the same padeye in the same way.
+TEST(SolidLug, OnAMeshIsThatOnPlates) {
+  const SolidLugBlock plates = block_of(tee_of_plates);
+  ASSERT_EQ(plates.complaints, "");
+  const auto on_plates = coarse_model_of(*plates.block, 0.3);
+  ASSERT_TRUE(on_plates);
+  structure::Deck deck;
+  deck.units = structure::unit_system("mm-t-N");
+  deck.mesh = on_plates->mesh();
+  deck.mesh.solids.clear();
+  deck.mesh.surface_points.clear();
+  deck.mesh.rigid_links.clear();
+  deck.mesh.distributing_links.clear();
+  deck.mesh.equations.clear();
+  deck.mesh.lifting_points.clear();
+  const SolidLugBlock read =
+      mesh_block_of(lug_of_deck("L1", pin_over_web), structure::to_nastran(deck));
+  ASSERT_EQ(read.complaints, "");
+  const auto on_mesh = coarse_model_of(*read.block, 10);
+  ASSERT_TRUE(on_mesh);
+  EXPECT_EQ(on_mesh->mesh().shells.size(), on_plates->mesh().shells.size());
+  EXPECT_EQ(on_mesh->mesh().solids.size(), on_plates->mesh().solids.size());
+  // Eleven digits of a card.
+  const Eigen::Matrix3d expected = give_of_pin(*on_plates), found = give_of_pin(*on_mesh);
+  EXPECT_GT(expected.norm(), 0);
+  EXPECT_LT((found - expected).norm(), 1e-6 * expected.norm()) << found << "\nfor\n" << expected;
+}
+
+// A pin far from all nodes of a coarse deck is carried by what lies below its base.
+TEST(SolidLug, StandsBetweenNodesThatAreFarApart) {
+  const std::string deck =
+      "SOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,4000.,0.,0.\nGRID,3,,4000.,3000.,0.\n"
+      "GRID,4,,0.,3000.,0.\nCQUAD4,1,1,1,2,3,4\nPSHELL,1,1,20.,1,,1\n"
+      "MAT1,1,206000.,,0.3,7.85-9,,,,\n,355.\nENDDATA\n";
+  const SolidLugBlock read = mesh_block_of(lug_of_deck("L1", "[2 m, 1.5 m, 0.25 m]"), deck);
+  ASSERT_EQ(read.complaints, "");
+  EXPECT_TRUE(coarse_model_of(*read.block, 0.5));
+}
+
+TEST(SolidLug, WhatCannotStandOnAMeshIsSaid) {
+  const auto say = [](const std::string& lugs, const std::string& wanted) {
+    const std::string complaints = mesh_block_of(lugs).complaints;
+    EXPECT_THAT(complaints, ::testing::StartsWith("block.yaml:5:"));
+    EXPECT_THAT(complaints, HasSubstr(wanted));
+  };
+  say(lug_of_deck("L1", pin_over_web, ", node: 5, as: solid"), "lug L1, a solid, names a node");
+  say(lug_of_deck("L1", pin_over_web, ", set: P, as: solid"), "lug L1, a solid, names a set");
+  say(lug_of_deck("L1", pin_over_web, ", radius: 1 m, as: solid"), "lug L1, a solid, has a radius");
+  say("  L1: {node: 5, as: solid}\n", "lug L1 is to be a solid and names no padeye");
+  say(lug_of_deck("L1", pin_over_web, ", as: shell"), "did you mean \"shells\"?");
+  say(lug_of_deck("L1", "[0.2 m, 0.6 m, 1.25 m]"), "where the block has no plate");
+  // Down in the web.
+  say(lug_of_deck("L1", "[1 m, 0.6 m, 0.25 m]"),
+      "lug L1 cannot be a solid: the mesh has property 2 at (1, 0.6, 0.125) m already");
 }
 
 /// The small lift with its first lug as a solid or as shells.

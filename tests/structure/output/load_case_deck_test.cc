@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/files/nastran/writer.h"
+#include "structure/mesh/lug_on_mesh.h"
 #include "structure/mesh/padeye/padeye_in_block.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/unit_responses.h"
@@ -163,10 +165,28 @@ Mesh box_with_solid_lug(double largest_element) {
   return mesh;
 }
 
+/// The same as a mesh with a padeye of solids askew on its bottom, across edges of its shells.
+Mesh box_with_lug_on_plating(double largest_element) {
+  BlockDescription block = testing::small_block();
+  block.largest_element = largest_element;
+  block.pads.clear();
+  block.lugs.clear();
+  Mesh mesh = generate_shell_mesh(block);
+  const Vector3 pin(1.1, 1.3, 0.25);
+  add_lug(mesh, {"L1", pin});
+  Eigen::Matrix3d R_BP;
+  R_BP.col(0) = Vector3(0.8, 0.6, 0);
+  R_BP.col(1) = Vector3::UnitZ();
+  R_BP.col(2) = R_BP.col(0).cross(R_BP.col(1));
+  stand_padeye(mesh, {"L1", {0.12, 0.03, 0.06, 0.057, 0.09, 0.01, 0.25, 0.4, 0.4}, R_BP, pin});
+  return mesh;
+}
+
 // What lies within a shell is said by equations, which the reader takes for the same tie.
 TEST(LoadCaseDeck, PlacesWithinShellsAreEquations) {
-  for (const int degree : {1, 2}) {
-    const ElasticModel model(box_with_solid_lug(1), {degree, {}});
+  for (const auto& [is_on_mesh, degree] : {std::pair(false, 1), {false, 2}, {true, 1}, {true, 2}}) {
+    const ElasticModel model(is_on_mesh ? box_with_lug_on_plating(1) : box_with_solid_lug(1),
+                             {degree, {}});
     const UnitResponses responses(model, 1);
     const LoadCase load = pull(model);
     const Deck deck = deck_of(responses, load);
