@@ -35,8 +35,9 @@ structure::Mesh mesh_of(const structure::Deck& deck, bool is_massless, const Mar
   structure::Mesh mesh = deck.mesh;
   if (!is_massless) return mesh;
   for (const structure::LoadSet& set : deck.load_sets)
-    if (!set.gravity.isZero(0))
-      refuse(mark, "the deck's materials have no density, and gravity acts in its cases",
+    if (set.is_on_masses())
+      refuse(mark,
+             "the deck's materials have no density, and gravity or rotation acts in its cases",
              {"give its materials a density (RHO of MAT1, *DENSITY)"});
   for (structure::Material& material : mesh.materials) material.density = 1;
   return mesh;

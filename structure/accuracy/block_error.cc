@@ -103,11 +103,9 @@ Eigen::VectorXd motion_of_cell(const Space& space, int cell, const Eigen::Vector
   return local;
 }
 
-Law law_of(const ElasticModel& model, int cell) {
+Law law_of(const ElasticModel& model, int cell, double thickness) {
   const Shell& shell = model.mesh().shells[model.space().shells()[cell].shell];
-  return shell_stiffness_law(model.mesh().material_of(shell),
-                             model.mesh().section_of(shell).thickness)
-      .topLeftCorner<6, 6>();
+  return shell_stiffness_law(model.mesh().material_of(shell), thickness).topLeftCorner<6, 6>();
 }
 
 /// Resultants of a cell at an operator's points, in its field's axes.
@@ -115,12 +113,12 @@ Resultants resultants_of(const ElasticModel& model, const Orientation& orientati
                          ShellOperator& shell_operator, int cell, const Eigen::VectorXd& motion) {
   shell_operator.reinit(cell);
   const Eigen::VectorXd local = motion_of_cell(model.space(), cell, motion);
-  const Law law = law_of(model, cell);
   Resultants resultants(6, static_cast<Eigen::Index>(shell_operator.points().size()));
   for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
     const ShellPoint& point = shell_operator.points()[q];
-    resultants.col(q) = orientation.turn(point, model.space().shells()[cell].shell) *
-                        (law * (point.strain.topRows<6>() * local));
+    resultants.col(q) =
+        orientation.turn(point, model.space().shells()[cell].shell) *
+        (law_of(model, cell, point.thickness) * (point.strain.topRows<6>() * local));
   }
   return resultants;
 }
@@ -250,8 +248,13 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& mo
       for (int i = 0; i < space.nodes_per_shell(); ++i)
         smooth.col(i) = recovered.col(points.of(cell, i));
       const Resultants difference = smooth * values - s_h;
-      const Law compliance = law_of(model, cell).inverse();
+      Law compliance;
+      double thickness = 0;  // that it is of
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
+        if (own.points()[q].thickness != thickness) {
+          thickness = own.points()[q].thickness;
+          compliance = law_of(model, cell, thickness).inverse();
+        }
         const double area = rule(2, q) * own.points()[q].area;
         norms.error[cell] += area * difference.col(q).dot(compliance * difference.col(q));
         norms.norm[cell] += area * s_h.col(q).dot(compliance * s_h.col(q));

@@ -311,6 +311,7 @@ ShellOperator::~ShellOperator() = default;
 ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points, Source source)
     : space_(space),
       has_ties_(source == Source::ties || space.degree() == 1),
+      places_(points),
       points_(at(points.cols())),
       table_(std::make_unique<Tabulation>(space.implementation(), points, surface_flags)),
       mean_(std::make_unique<Mean>(space)) {
@@ -336,7 +337,8 @@ void ShellOperator::reinit(int cell) {
   mean_->table.values.reinit(iterator);
   for (TiedStrains& tie : ties_) tie.table->values.reinit(iterator);
 
-  const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
+  const ShellCell& located = space_.shells()[cell];
+  const Shell& shell = space_.mesh().shells[located.shell];
   const double offset = space_.mesh().section_of(shell).offset;
   // One direction for the whole cell, so that components can be compared and averaged in it.
   const Vector3 along = space_.place(cell, {1, 0.5}) - space_.place(cell, {0, 0.5});
@@ -356,6 +358,9 @@ void ShellOperator::reinit(int cell) {
     point.normal = surface.n;
     std::tie(point.e_1, point.e_2) = unit_tangents(surface, along);
     point.area = surface.area;
+    point.thickness =
+        thickness_at(space_.mesh(), shell,
+                     located.origin + located.size * places_.col(static_cast<Eigen::Index>(q)));
     turns.push_back(turn_to(surface, point.e_1, point.e_2));
   }
   const bool is_balanced = !has_ties_ || (space_.degree() > 1 && mean_->is_even());
@@ -436,10 +441,11 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Ma
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Mesh& mesh,
                                                                         const Shell& shell,
                                                                         const Vector3& e_1,
-                                                                        const Vector3& e_2) {
+                                                                        const Vector3& e_2,
+                                                                        double thickness) {
   const ShellSection& section = mesh.section_of(shell);
   Eigen::Matrix<double, shell_strains, shell_strains> law =
-      shell_stiffness_law(mesh.material_of(shell), section.thickness);
+      shell_stiffness_law(mesh.material_of(shell), thickness);
   if (section.laminate < 0) return law;
   const Laminate& laminate = mesh.laminates[section.laminate];
   law.block<3, 3>(membrane_11, membrane_11) = laminate.membrane;
@@ -468,16 +474,18 @@ const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
   operator_.reinit(cell);
   const std::vector<ShellPoint>& points = operator_.points();
-  const bool is_layered = space_.mesh().section_of(shell).laminate >= 0;
+  const bool is_uneven = shell.taper >= 0 || space_.mesh().section_of(shell).laminate >= 0;
   Eigen::Matrix<double, shell_strains, shell_strains> root;
   const Eigen::Index columns = points.front().strain.cols();
   // K = sum (root B)' (root B): half of the work of B' D B, and symmetric to the last digit.
   rooted_.resize(shell_strains * static_cast<Eigen::Index>(points.size()), columns);
   for (std::size_t q = 0; q < points.size(); ++q) {
-    // A plate of one material has one law, whatever its axes.
-    if (q == 0 || is_layered)
-      root =
-          shell_stiffness_law(space_.mesh(), shell, points[q].e_1, points[q].e_2).llt().matrixU();
+    // An even plate of one material has one law, whatever its axes.
+    if (q == 0 || is_uneven)
+      root = shell_stiffness_law(space_.mesh(), shell, points[q].e_1, points[q].e_2,
+                                 points[q].thickness)
+                 .llt()
+                 .matrixU();
     rooted_.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)).noalias() =
         std::sqrt(weights_[q] * points[q].area) * (root * points[q].strain);
   }

@@ -29,7 +29,8 @@ struct ShellPoint {
   Vector3 place = Vector3::Zero();                       ///< m
   Vector3 e_1 = Vector3::Zero(), e_2 = Vector3::Zero();  ///< unit tangents at right angles
   Vector3 normal = Vector3::Zero();                      ///< e_1 x e_2
-  double area = 0;  ///< |dx/dxi x dx/deta|, m^2 per unit of the square
+  double area = 0;       ///< |dx/dxi x dx/deta|, m^2 per unit of the square
+  double thickness = 0;  ///< m
   /// shell_strains x 6 nodes: strains of the mid-surface in e_1, e_2 for unit freedoms.
   Eigen::Matrix<double, shell_strains, Eigen::Dynamic, Eigen::RowMajor> strain;
 };
@@ -81,6 +82,7 @@ class ShellOperator {
 
   const Space& space_;
   bool has_ties_;
+  Eigen::Matrix2Xd places_;  ///< of the points
   std::vector<ShellPoint> points_;
   std::unique_ptr<Tabulation> table_;
   std::vector<TiedStrains> ties_;
@@ -96,10 +98,9 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Ma
 /// The same of a shell as it is, layered or not, for strains along unit tangents e_1 and e_2 and
 /// the shell's own normal: A, B, D and S of a laminate turned into them, with the drilling
 /// stiffness of its nearest plate.
-Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Mesh& mesh,
-                                                                        const Shell& shell,
-                                                                        const Vector3& e_1,
-                                                                        const Vector3& e_2);
+/// @param thickness there, m (thickness_at); layers have their section's.
+Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(
+    const Mesh& mesh, const Shell& shell, const Vector3& e_1, const Vector3& e_2, double thickness);
 
 /// Stiffness of shells, N/m, N, N m: freedoms in the order of Space::element_freedoms. One object
 /// serves one thread.

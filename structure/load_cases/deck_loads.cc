@@ -142,6 +142,17 @@ class LoadAdder {
   Eigen::VectorXd& load_;
 };
 
+/// What a spin is of the twelve inertia fields (InertiaField), which turn about the origin: with
+/// the axis elsewhere there is the acceleration of its place besides.
+Eigen::Matrix<double, 12, 1> field_of(const Spin& spin) {
+  const Vector3& w = spin.velocity;
+  const Vector3 of_place = w.cross(w.cross(spin.place)) - spin.acceleration.cross(spin.place);
+  Eigen::Matrix<double, 12, 1> field;
+  field << -of_place, -spin.acceleration, w.cwiseAbs2(), w.x() * w.y(), w.y() * w.z(),
+      w.z() * w.x();
+  return field;
+}
+
 }  // namespace
 
 Eigen::VectorXd load_of(const ElasticModel& model, const Deck& deck,
@@ -156,6 +167,7 @@ Eigen::VectorXd load_of(const ElasticModel& model, const Deck& deck,
     for (const BeamLoad& along : set.beam_loads) adder.add(along, factor);
     if (!set.gravity.isZero(0))
       load -= factor * (model.inertia_loads().leftCols<3>() * set.gravity);
+    for (const Spin& spin : set.spins) load += factor * (model.inertia_loads() * field_of(spin));
   }
   return load;
 }

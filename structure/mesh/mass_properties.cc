@@ -95,7 +95,7 @@ void integrate(const Mesh& mesh, const Shell& shell, const Visit& visit) {
                     : on_bilinear(mesh, shell, points[i], points[j]);
       const Vector3 normal = place.along_xi.cross(place.along_eta);
       const double size = normal.norm();
-      visit(weights[i] * weights[j] * size, place.point,
+      visit(weights[i] * weights[j] * size, Eigen::Vector2d(points[i], points[j]), place.point,
             size > 0 ? Vector3(normal / size) : normal);
     }
 }
@@ -106,12 +106,14 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
   for (const Shell& shell : mesh.shells) {
     if (shell.section < 0) continue;
     const ShellSection& section = mesh.section_of(shell);
-    const double per_area =
-        mesh.material_of(shell).density * section.thickness + section.mass_per_area;
     MassSum& sum = of_region(shell.region);
-    integrate(mesh, shell, [&](double part, const Vector3& point, const Vector3& normal) {
-      sum.add(per_area * part, point + section.offset * normal);
-    });
+    integrate(
+        mesh, shell,
+        [&](double part, const Eigen::Vector2d& xi, const Vector3& point, const Vector3& normal) {
+          const double per_area = mesh.material_of(shell).density * thickness_at(mesh, shell, xi) +
+                                  section.mass_per_area;
+          sum.add(per_area * part, point + section.offset * normal);
+        });
   }
   for (const Beam& beam : mesh.beams) {
     const Vector3 from = mesh.vertices[beam.vertices[0]] + beam.offset[0];
@@ -162,7 +164,9 @@ std::vector<MeshMass> mass_by_group(const Mesh& mesh) {
 
 double area(const Mesh& mesh, const Shell& shell) {
   double sum = 0;
-  integrate(mesh, shell, [&](double part, const Vector3&, const Vector3&) { sum += part; });
+  integrate(mesh, shell, [&](double part, const Eigen::Vector2d&, const Vector3&, const Vector3&) {
+    sum += part;
+  });
   return sum;
 }
 

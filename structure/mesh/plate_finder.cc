@@ -1,6 +1,7 @@
 #include "structure/mesh/plate_finder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -69,8 +70,14 @@ std::optional<PlateFoot> find_plate_foot(const Mesh& mesh, const Shell& shell,
 }  // namespace
 
 PlateFinder::PlateFinder(const Mesh& mesh) : mesh_(mesh), tree_(mesh, all_shells(mesh)) {
-  for (const ShellSection& section : mesh.shell_sections)
+  double farthest_offset = 0;
+  for (const ShellSection& section : mesh.shell_sections) {
     reach_ = std::max(reach_, 0.51 * section.thickness + std::abs(section.offset));
+    farthest_offset = std::max(farthest_offset, std::abs(section.offset));
+  }
+  for (const std::array<double, 4>& corners : mesh.shell_tapers)
+    reach_ = std::max(reach_,
+                      0.51 * *std::max_element(corners.begin(), corners.end()) + farthest_offset);
 }
 
 std::optional<PlatePlace> PlateFinder::find(const Vector3& place, const Vector3& normal) const {
@@ -82,7 +89,7 @@ std::optional<PlatePlace> PlateFinder::find(const Vector3& place, const Vector3&
     const auto foot = find_plate_foot(mesh_, shell, place);
     if (!foot) return;
     const double height = foot->height - section.offset,
-                 share = std::abs(height) / (section.thickness / 2);
+                 half = thickness_at(mesh_, shell, foot->xi) / 2, share = std::abs(height) / half;
     if (share > 1 + 2 * slack_of_thickness) return;
     // The share breaks ties between shells of plates that look the same way.
     const double rank =
@@ -93,7 +100,7 @@ std::optional<PlatePlace> PlateFinder::find(const Vector3& place, const Vector3&
     best->shell = number;
     best->xi = foot->xi;
     best->normal = foot->normal;
-    best->height = std::clamp(height, -section.thickness / 2, section.thickness / 2);
+    best->height = std::clamp(height, -half, half);
   });
   return best;
 }

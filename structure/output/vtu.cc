@@ -70,7 +70,11 @@ class Collector {
       const ShellSection& section = space_.mesh().section_of(shell);
       for (const std::array<int, 4>& corners : squares) {
         add_corners(first, corners);
-        add_cell(shell.region, section.material, section.thickness);
+        Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+        for (const int corner : corners) middle += 0.25 * unit.col(corner);
+        const ShellCell& located = space_.shells()[cell];
+        add_cell(shell.region, section.material,
+                 thickness_at(space_.mesh(), shell, located.origin + located.size * middle));
       }
     }
   }

@@ -344,20 +344,18 @@ void BlockPanels::stiffen(const std::vector<PlateStiffening>& stiffening) {
 void BlockPanels::integrate(const ElasticModel& model,
                             const Eigen::Ref<const Eigen::MatrixXd>& motions) {
   const Space& space = model.space();
-  const Mesh& mesh = model.mesh();
   components_.setZero(rows_per_panel * static_cast<Eigen::Index>(panels_.size()), motions.cols());
   const Eigen::Matrix3Xd rule = square_rule(space.degree() + 1);
   const CellFinder finder(space);
   const auto add = [&](int p, int cell, ShellStress& recovery, Eigen::Vector3d& weights) {
     const Panel& panel = panels_[p];
     const Eigen::MatrixXd rows = recovery.of_all(cell, motions);
-    const double thickness = mesh.section_of(mesh.shells[space.shells()[cell].shell]).thickness;
     auto sums = components_.middleRows<rows_per_panel>(rows_per_panel * p);
     for (Eigen::Index q = 0; q < rule.cols(); ++q) {
       const ShellPoint& point = recovery.points()[q];
       const Eigen::MatrixXd stress =
           turn_into(panel, point) * rows.middleRows<3>(shell_stress_rows * q + membrane_stress_11);
-      const double volume = rule(2, q) * point.area * thickness;
+      const double volume = rule(2, q) * point.area * point.thickness;
       const Eigen::Vector2d off = in_plane(panel, point.place - panel.centre_B);
       sums.topRows<3>() += volume * stress;
       sums.row(3) += volume * off[1] * stress.row(0);

@@ -60,13 +60,11 @@ Eigen::MatrixXd displacements_of_arms(const ElasticModel& model,
 Eigen::MatrixXd stresses_at(const ElasticModel& model,
                             const Eigen::Ref<const Eigen::MatrixXd>& motions,
                             const SteelPlace& place) {
-  const Mesh& mesh = model.mesh();
   const Space& space = model.space();
   ShellStress stress(space, place.xi);
   const Eigen::MatrixXd rows = stress.of_all(place.cell, motions);
   const ShellPoint& point = stress.points().front();
-  const double share =
-      2 * place.height / mesh.section_of(mesh.shells[space.shells()[place.cell].shell]).thickness;
+  const double share = 2 * place.height / point.thickness;
   Eigen::Matrix3d axes;
   axes << point.e_1, point.e_2, point.normal;
   Eigen::MatrixXd result(6, motions.cols());

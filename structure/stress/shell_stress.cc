@@ -37,7 +37,6 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::Matr
   const Shell& shell = mesh.shells[space_.shells()[cell].shell];
   current_ = of_triangles_ && shell.is_triangle() ? of_triangles_.get() : &of_squares_;
   current_->reinit(cell);
-  const double thickness = mesh.section_of(shell).thickness;
   const Eigen::MatrixXd local = motions_of_cell(space_, cell, motions);
   Eigen::MatrixXd rows(shell_stress_rows * static_cast<Eigen::Index>(points().size()),
                        motions.cols());
@@ -45,9 +44,10 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::Matr
     const Eigen::MatrixXd strain = points()[q].strain * local;
     auto here =
         rows.middleRows<shell_stress_rows>(shell_stress_rows * static_cast<Eigen::Index>(q));
+    const double thickness = points()[q].thickness;
     // Forces and moments as an even plate of the thickness bears them; of layers, their mean.
     const Eigen::MatrixXd forces =
-        shell_stiffness_law(mesh, shell, points()[q].e_1, points()[q].e_2) * strain;
+        shell_stiffness_law(mesh, shell, points()[q].e_1, points()[q].e_2, thickness) * strain;
     here.middleRows<3>(membrane_stress_11) = forces.middleRows<3>(membrane_11) / thickness;
     here.middleRows<3>(bending_stress_11) =
         forces.middleRows<3>(curvature_11) * (6 / (thickness * thickness));

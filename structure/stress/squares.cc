@@ -308,6 +308,15 @@ class SiteMarker {
   std::vector<Square>& squares_;
 };
 
+/// Where the thickness varies a square has that of its middle, m.
+double thickness_of(const Mesh& mesh, const FieldWalker& walker, const Square& square) {
+  const Shell& shell = mesh.shells[square.shell];
+  if (shell.taper >= 0)
+    if (const auto middle = walker.find(square.centre_B, {square.shell, {0.5, 0.5}}))
+      return thickness_at(mesh, mesh.shells[middle->shell], middle->xi);
+  return mesh.section_of(shell).thickness;
+}
+
 }  // namespace
 
 std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
@@ -390,11 +399,11 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
         add(curvature, t_1, t_2);
       }
       const double area = square.size * square.size;
-      const auto law = shell_stiffness_law(model.mesh(), shell, square.e_1, square.e_2);
+      const double t = thickness_of(model.mesh(), walker, square);
+      const auto law = shell_stiffness_law(model.mesh(), shell, square.e_1, square.e_2, t);
       const Eigen::Matrix3d membrane = law.block<3, 3>(membrane_11, membrane_11),
                             coupling = side * law.block<3, 3>(membrane_11, curvature_11),
                             bending = law.block<3, 3>(curvature_11, curvature_11);
-      const double t = section.thickness;
       strain += side * section.offset * curvature;
       components_.middleRows<3>(3 * s) = (membrane * strain + coupling * curvature) / (area * t);
       bending_.middleRows<3>(3 * s) =

@@ -140,12 +140,16 @@ class ShellRule {
   std::size_t size() const { return rule_.size(); }
   void find(int cell, ShellGaussPoint* points) {
     values_.reinit(space_.implementation().shell_cells[cell]);
-    const double thickness =
-        space_.mesh().section_of(space_.mesh().shells[space_.shells()[cell].shell]).thickness;
+    const ShellCell& located = space_.shells()[cell];
+    const Shell& shell = space_.mesh().shells[located.shell];
     for (unsigned q = 0; q < rule_.size(); ++q) {
       const auto& x = values_.quadrature_point(q);
       const auto& n = values_.normal_vector(q);
-      points[q] = {{x[0], x[1], x[2]}, {n[0], n[1], n[2]}, 0.5 * values_.JxW(q) * thickness};
+      const auto& xi = rule_.point(q);
+      const double thickness = thickness_at(
+          space_.mesh(), shell, located.origin + located.size * Eigen::Vector2d(xi[0], xi[1]));
+      points[q] = {
+          {x[0], x[1], x[2]}, {n[0], n[1], n[2]}, 0.5 * values_.JxW(q) * thickness, thickness};
     }
   }
 
@@ -169,7 +173,8 @@ void visit_cell(const Space& space, int cell, const std::vector<Eigen::VectorXd>
     point.volume = points[q].volume;
     point.mass = point.volume * space.mesh().material_of(shell).density;
     for (const double side : {-1.0, 1.0}) {
-      point.arm = (section.offset + side * section.thickness / std::sqrt(12.0)) * points[q].normal;
+      point.arm =
+          (section.offset + side * points[q].thickness / std::sqrt(12.0)) * points[q].normal;
       point.place = points[q].place + point.arm;
       visit(point);
     }

@@ -39,6 +39,7 @@ struct ShellGaussPoint {
   Vector3 place = Vector3::Zero();   ///< m
   Vector3 normal = Vector3::Zero();  ///< unit
   double volume = 0;                 ///< of half the thickness, m^3
+  double thickness = 0;              ///< m
 };
 
 /// All matter of a space, its shells' points found once for all that is summed over them.

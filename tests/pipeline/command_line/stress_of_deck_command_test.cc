@@ -106,12 +106,11 @@ TEST_F(StressOfDeck, SpringsToTheGroundHold) {
 
 // What the deck has and its cases lack is a warning beside their figures.
 TEST_F(StressOfDeck, LoadsThatAreLeftOutAreSaid) {
-  change("PLOAD4,3,1,-0.01\n", "PLOAD4,3,1,-0.01\nRFORCE,3,11,,10.,0.,0.,1.\n");
+  change("PLOAD4,3,1,-0.01\n", "PLOAD4,3,1,-0.01\nACCEL,3,,0.,0.,1.,Z,10.\n");
   const Outcome outcome = stress("strip.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              HasSubstr("warning: these cases lack what the deck has: RFORCE: 0 of 1"));
-  EXPECT_THAT(text_of_file("out/summary.json"), HasSubstr("RFORCE: 0 of 1 used"));
+  EXPECT_THAT(outcome.out, HasSubstr("warning: these cases lack what the deck has: ACCEL: 0 of 1"));
+  EXPECT_THAT(text_of_file("out/summary.json"), HasSubstr("ACCEL: 0 of 1 used"));
 }
 
 TEST_F(StressOfDeck, WhatSupportsLeaveFreeIsTold) {

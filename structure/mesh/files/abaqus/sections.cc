@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -35,6 +36,8 @@ class Sections {
       for (const AbaqusBlock* block : scope.blocks)
         if (block->name == "NODAL THICKNESS")
           model_.guarded(*block, [&] { read_nodal_thickness(scope, *block); });
+        else if (block->name == "SHELL SECTION" && block->has("NODAL THICKNESS"))
+          is_nodal_by_section_ = true;
     for (const AbaqusScope& scope : model_.scopes) {
       for (std::size_t i = 0; i < scope.blocks.size(); ++i) {
         SectionBlocks blocks{&scope, scope.blocks[i], {}};
@@ -132,8 +135,11 @@ class Sections {
         throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
       if (element.shell >= 0)
         throw CardError{fmt::format("element {} has two sections", element.label)};
-      add_shell(element, section_by_nodes(element, place, block), of_region,
+      const std::vector<double> thicknesses =
+          thicknesses_at_nodes(element, block, section.thickness);
+      add_shell(element, section_by_nodes(thicknesses, place), of_region,
                 axes ? laminate_axis(*axes, element) : Vector3::Zero());
+      taper(mesh_.shells[element.shell], thicknesses);
     }
   }
 
@@ -146,29 +152,33 @@ class Sections {
     });
   }
 
-  /// The section of a shell whose nodes have a thickness of their own: as the section that it is
-  /// of, with the mean over its corners.
-  int section_by_nodes(const AbaqusDeckElement& element, int place, const AbaqusBlock& block) {
-    double sum = 0;
+  /// Thickness at the corners of a shell whose nodes have one of their own; else none. Abaqus gives
+  /// it to the sections that ask for it, CalculiX, which needs no parameter, to all shells at these
+  /// nodes, the others having their section's.
+  std::vector<double> thicknesses_at_nodes(const AbaqusDeckElement& element,
+                                           const AbaqusBlock& block, double of_section) {
+    const bool is_asked_for = block.has("NODAL THICKNESS");
+    const bool is_of_others = is_nodal_by_section_ || block.has("COMPOSITE");
+    if (!is_asked_for && (thickness_of_.empty() || is_of_others)) return {};
+    std::vector<double> around;
+    bool is_any = false;
     const std::size_t corners = element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
-    std::size_t known = 0;
-    for (std::size_t i = 0; i < corners; ++i)
-      if (const auto found = thickness_of_.find(element.nodes[i]); found != thickness_of_.end()) {
-        sum += found->second;
-        ++known;
-      }
-    // CalculiX needs no parameter beside the keyword, Abaqus one.
-    if (known < corners) {
-      if (!block.has("NODAL THICKNESS")) {
-        if (known > 0)
-          model_.log.remark(block.line,
-                            "shells that have a *NODAL THICKNESS at some corners only keep that of "
-                            "their section");
-        return place;
-      }
-      throw CardError{fmt::format("nodes of element {} have no *NODAL THICKNESS", element.label)};
+    for (std::size_t i = 0; i < corners; ++i) {
+      const auto found = thickness_of_.find(element.nodes[i]);
+      if (is_asked_for && found == thickness_of_.end())
+        throw CardError{fmt::format("nodes of element {} have no *NODAL THICKNESS", element.label)};
+      is_any = is_any || found != thickness_of_.end();
+      around.push_back(found == thickness_of_.end() ? of_section : found->second);
     }
-    const double thickness = sum / static_cast<double>(corners);
+    if (!is_any) around.clear();
+    return around;
+  }
+
+  /// The section of a shell with thicknesses of its own: as the one that it is of, with their mean.
+  int section_by_nodes(const std::vector<double>& thicknesses, int place) {
+    if (thicknesses.empty()) return place;
+    const double thickness = std::accumulate(thicknesses.begin(), thicknesses.end(), 0.0) /
+                             static_cast<double>(thicknesses.size());
     const auto [found, is_new] = section_of_thickness_.try_emplace(
         {place, thickness}, static_cast<int>(mesh_.shell_sections.size()));
     if (!is_new) return found->second;
@@ -178,8 +188,19 @@ class Sections {
     own.thickness = thickness;
     own.label = static_cast<long>(mesh_.shell_sections.size()) + 1;
     mesh_.shell_sections.push_back(own);
-    model_.log.leave_out("*NODAL THICKNESS", "its slope: each shell has the mean of its corners");
     return found->second;
+  }
+
+  void taper(Shell& shell, std::vector<double> thicknesses) {
+    if (thicknesses.empty()) return;
+    if (shell.is_triangle()) thicknesses.resize(3);
+    const auto [least, most] = std::minmax_element(thicknesses.begin(), thicknesses.end());
+    if (*most <= (1 + 1e-9) * *least) return;
+    shell.taper = static_cast<int>(mesh_.shell_tapers.size());
+    mesh_.shell_tapers.push_back(lexicographic(thicknesses));
+    if (mesh_.section_of(shell).offset != 0)
+      model_.log.leave_out("*NODAL THICKNESS",
+                           "the slope of a mid-surface that lies off the nodes by a share of it");
   }
 
   /// Of the mid-surface to the surface of the nodes, in thicknesses, along the normal.
@@ -433,6 +454,7 @@ class Sections {
   AbaqusModel& model_;
   Mesh& mesh_;
   std::map<int, double> thickness_of_;  ///< of nodes, m
+  bool is_nodal_by_section_ = false;    ///< does any section ask for it?
   std::map<std::pair<int, double>, int> section_of_thickness_;
   std::set<int> of_wrong_sections_;  ///< elements
 };

@@ -68,6 +68,7 @@ struct SpreadLoads {
     solids.for_each([&](const Key&, const SolidLoad& load) { set.solid_loads.push_back(load); });
     beams.for_each([&](const Key&, const BeamLoad& load) { set.beam_loads.push_back(load); });
     gravity.for_each([&](const Key&, const Vector3& pull) { set.gravity += pull; });
+    spins.for_each([&](const Key&, const Spin& spin) { set.spins.push_back(spin); });
   }
   template <typename Visit>
   void for_each_kind(const Visit& visit) {
@@ -75,12 +76,14 @@ struct SpreadLoads {
     visit(solids);
     visit(beams);
     visit(gravity);
+    visit(spins);
   }
 
   GivenBySteps<Key, PlateLoad> plates;
   GivenBySteps<Key, SolidLoad> solids;
   GivenBySteps<Key, BeamLoad> beams;
   GivenBySteps<Key, Vector3> gravity;
+  GivenBySteps<Key, Spin> spins;
 };
 
 /// Forces and moments, by node and freedom from 0 on.
@@ -254,7 +257,7 @@ class StepBlocks {
   /// Is there a load in a set at all? Those that are not known here have been left out.
   static bool acts(const LoadSet& loads) {
     return !loads.point_loads.empty() || !loads.plate_loads.empty() || !loads.solid_loads.empty() ||
-           !loads.beam_loads.empty() || !loads.gravity.isZero(0);
+           !loads.beam_loads.empty() || loads.is_on_masses();
   }
 
   // *CLOAD / node or set, freedom, value
@@ -277,8 +280,8 @@ class StepBlocks {
     });
   }
 
-  // *DLOAD / element or set, P | P1 ... | GRAV | PX ..., magnitude, direction; *DSLOAD / surface,
-  // P, magnitude
+  // *DLOAD / element or set, P | P1 ... | GRAV | PX ..., magnitude, direction, or CENTRIF, square
+  // of the angular velocity, place on the axis, its direction; *DSLOAD / surface, P, magnitude
   void add_spread_loads(const AbaqusBlock& block) {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"elements, kind and magnitude are due"};
@@ -286,6 +289,10 @@ class StepBlocks {
       const double value = abaqus_real(fields, 2, "magnitude");
       if (kind == "GRAV") {
         add_gravity(fields, value);
+        return;
+      }
+      if (kind == "CENTRIF") {
+        add_spin(fields, value);
         return;
       }
       if (block.name == "DSLOAD") {
@@ -302,28 +309,48 @@ class StepBlocks {
                             abaqus_real(fields, 4, "direction", 0.0),
                             abaqus_real(fields, 5, "direction", 0.0));
     if (!(direction.norm() > 0)) throw CardError{"GRAV has no direction"};
-    if (!fields[0].empty()) {
-      const std::vector<int> pulled = model_.elements_of(*scope_, fields[0]);
-      const std::set<int> set(pulled.begin(), pulled.end());
-      for (std::size_t e = 0; e < model_.elements.size(); ++e) {
-        const AbaqusKind kind = model_.elements[e].kind;
-        const bool has_mass = kind == AbaqusKind::shell || kind == AbaqusKind::beam ||
-                              kind == AbaqusKind::truss || kind == AbaqusKind::mass ||
-                              kind == AbaqusKind::solid;
-        if (has_mass && set.count(static_cast<int>(e)) == 0)
-          throw CardError{
-              fmt::format("GRAV pulls \"{}\" alone, not element {}; gravity of all is due",
-                          fields[0], model_.elements[e].label)};
-      }
-    }
+    require_all_masses(fields, "GRAV pulls", "gravity");
     now_.on_elements.gravity.add({"GRAV", -1},
                                  value * model_.units.length * direction.normalized());
+  }
+
+  void add_spin(const Fields& fields, double square) {
+    const auto vector = [&](std::size_t first, const char* what) {
+      return Vector3(abaqus_real(fields, first, what, 0.0),
+                     abaqus_real(fields, first + 1, what, 0.0),
+                     abaqus_real(fields, first + 2, what, 0.0));
+    };
+    const Vector3 axis = vector(6, "direction of the axis");
+    if (!(axis.norm() > 0)) throw CardError{"CENTRIF has no direction of its axis"};
+    if (square < 0)
+      throw CardError{"CENTRIF has the square of an angular velocity, which is not negative"};
+    require_all_masses(fields, "CENTRIF turns", "rotation");
+    Spin spin;
+    spin.place = model_.units.length * vector(3, "place on the axis");
+    spin.velocity = std::sqrt(square) * axis.normalized();
+    now_.on_elements.spins.add({"CENTRIF", -1}, spin);
+  }
+
+  /// What acts on masses acts on all of them.
+  void require_all_masses(const Fields& fields, const char* acts, const char* load) const {
+    if (fields[0].empty()) return;
+    const std::vector<int> named = model_.elements_of(*scope_, fields[0]);
+    const std::set<int> set(named.begin(), named.end());
+    for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+      const AbaqusKind kind = model_.elements[e].kind;
+      const bool has_mass = kind == AbaqusKind::shell || kind == AbaqusKind::beam ||
+                            kind == AbaqusKind::truss || kind == AbaqusKind::mass ||
+                            kind == AbaqusKind::solid;
+      if (has_mass && set.count(static_cast<int>(e)) == 0)
+        throw CardError{fmt::format("{} \"{}\" alone, not element {}; {} of all is due", acts,
+                                    fields[0], model_.elements[e].label, load)};
+    }
   }
 
   void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
     if (element.kind == AbaqusKind::solid) {
       if (element.solid < 0 || kind.size() != 2 || kind[0] != 'P' || kind[1] < '1' || kind[1] > '9')
-        model_.log.leave_out("*DLOAD", "loads other than P1 to P6 and GRAV of solids");
+        model_.log.leave_out("*DLOAD", "loads other than P1 to P6, GRAV and CENTRIF of solids");
       else
         now_.on_elements.solids.add({kind, element.solid},
                                     face_pressure(element, std::string{'S', kind[1]}, value));
@@ -337,7 +364,9 @@ class StepBlocks {
         {"PX", Vector3::UnitX()}, {"PY", Vector3::UnitY()}, {"PZ", Vector3::UnitZ()}};
     const auto direction = directions.find(kind);
     if (direction == directions.end() || element.beams.empty()) {
-      model_.log.leave_out("*DLOAD", "loads other than P of shells, PX, PY, PZ of beams and GRAV");
+      model_.log.leave_out("*DLOAD",
+                           "loads other than P of shells, PX, PY, PZ of beams, GRAV and "
+                           "CENTRIF");
       return;
     }
     for (const int beam : element.beams)

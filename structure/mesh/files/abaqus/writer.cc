@@ -16,6 +16,7 @@
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
+#include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -70,6 +71,7 @@ class AbaqusText {
     write_nodes();
     write_materials();
     write_shells();
+    write_nodal_thickness();
     write_beams();
     write_solids();
     write_masses();
@@ -125,7 +127,7 @@ class AbaqusText {
       std::vector<int> shells;
     };
     std::vector<Kind> kinds;
-    std::map<std::pair<int, std::string>, std::size_t> known;
+    std::map<std::tuple<int, std::string, bool>, std::size_t> known;
     for (std::size_t s = 0; s < mesh_.shells.size(); ++s) {
       const Shell& shell = mesh_.shells[s];
       if (shell.section < 0)
@@ -136,7 +138,8 @@ class AbaqusText {
       const bool is_quadratic = !middles_[s].empty();
       const char* type =
           shell.is_triangle() ? (is_quadratic ? "STRI65" : "S3") : (is_quadratic ? "S8R" : "S4");
-      const auto [found, is_new] = known.try_emplace({shell.section, type}, kinds.size());
+      const auto [found, is_new] =
+          known.try_emplace({shell.section, type, shell.taper >= 0}, kinds.size());
       if (is_new) kinds.push_back({shell.section, type, {}});
       kinds[found->second].shells.push_back(static_cast<int>(s));
     }
@@ -146,14 +149,46 @@ class AbaqusText {
       line(fmt::format("*ELEMENT, TYPE={}, ELSET={}", type, set));
       for (const int s : shells) write_shell(s);
       const ShellSection& section = mesh_.shell_sections[place];
-      line(fmt::format("*SHELL SECTION, ELSET={}, MATERIAL=M{}, OFFSET={}", set,
-                       section.material + 1, exact(-section.offset / section.thickness)));
+      line(fmt::format("*SHELL SECTION, ELSET={}, MATERIAL=M{}, OFFSET={}{}", set,
+                       section.material + 1, exact(-section.offset / section.thickness),
+                       mesh_.shells[shells.front()].taper >= 0 ? ", NODAL THICKNESS" : ""));
       line(exact(section.thickness / units_.length));
       if (section.mass_per_area > 0) {
         line(fmt::format("*NONSTRUCTURAL MASS, ELSET={}, UNITS=MASS PER AREA", set));
         line(exact(section.mass_per_area / units_.mass() * units_.length * units_.length));
       }
     }
+  }
+
+  /// A node has one thickness, whatever meets there.
+  void write_nodal_thickness() {
+    std::map<int, double> of_node;
+    const auto note = [&](int vertex, const Shell& shell, const Eigen::Vector2d& xi) {
+      const double thickness = thickness_at(mesh_, shell, xi);
+      const auto [found, is_new] = of_node.try_emplace(vertex, thickness);
+      if (std::abs(found->second - thickness) > 1e-6 * thickness)
+        throw ModelError(fmt::format(
+            "shells {:.6g} and {:.6g} mm thick meet at node {}, of which one has a thickness that "
+            "varies; *NODAL THICKNESS has one for each node",
+            1000 * found->second, 1000 * thickness, label(vertex)));
+    };
+    for (const bool is_tapered : {true, false})
+      for (std::size_t s = 0; s < mesh_.shells.size(); ++s) {
+        const Shell& shell = mesh_.shells[s];
+        if ((shell.taper >= 0) != is_tapered) continue;
+        const auto is_known = [&](int vertex) { return of_node.count(vertex) > 0; };
+        for (int corner = 0; corner < 4; ++corner)
+          if (is_tapered || is_known(shell.vertices[corner]))
+            note(shell.vertices[corner], shell, {corner & 1, corner >> 1});
+        const std::size_t corners = shell.is_triangle() ? 3 : 4;
+        for (std::size_t i = 0; i < middles_[s].size(); ++i)
+          if (is_tapered || is_known(middles_[s][i]))
+            note(middles_[s][i], shell, place_of_middle(corners, i));
+      }
+    if (of_node.empty()) return;
+    line("*NODAL THICKNESS");
+    for (const auto& [vertex, thickness] : of_node)
+      line(fmt::format("{}, {}", label(vertex), exact(thickness / units_.length)));
   }
 
   void write_shell(int s) {
@@ -516,6 +551,13 @@ class AbaqusText {
           line(
               fmt::format("{}, P{}, {}", beam_number_[load.beam], static_cast<char>('X' + i),
                           exact(factor * load.force_per_length[i] * units_.length / units_.force)));
+    for (const Spin& spin : set.spins) {
+      if (!spin.acceleration.isZero(0) || factor < 0)
+        throw ModelError("a rotation that grows, or pulls inwards, is not written here");
+      line(fmt::format(
+          "EVERYTHING, CENTRIF, {}, {}, {}", exact(factor * spin.velocity.squaredNorm()),
+          exact(Vector3(spin.place / units_.length)), exact(Vector3(spin.velocity.normalized()))));
+    }
     const double gravity = factor * set.gravity.norm() / units_.length;
     if (gravity != 0)
       line(fmt::format("EVERYTHING, GRAV, {}, {}", exact(gravity),

@@ -87,6 +87,13 @@ struct BeamLoad {
   Vector3 force_per_length = Vector3::Zero();  ///< N/m, along the world's axes
 };
 
+/// Turning about an axis that stays, as a load: what all masses feel of it.
+struct Spin {
+  Vector3 place = Vector3::Zero();     ///< on the axis, m
+  Vector3 velocity = Vector3::Zero();  ///< w, rad/s: forces -w x (w x r) per mass, r from the place
+  Vector3 acceleration = Vector3::Zero();  ///< a, rad/s^2: forces a x r per mass
+};
+
 struct LoadSet {
   long label = 0;
   std::string name;
@@ -95,6 +102,10 @@ struct LoadSet {
   std::vector<SolidLoad> solid_loads;
   std::vector<BeamLoad> beam_loads;
   Vector3 gravity = Vector3::Zero();  ///< acceleration that all masses feel, m/s^2
+  std::vector<Spin> spins;
+
+  /// Do masses bear a load?
+  bool is_on_masses() const { return !gravity.isZero(0) || !spins.empty(); }
 };
 
 /// Subcase or step.

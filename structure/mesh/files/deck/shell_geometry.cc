@@ -36,6 +36,11 @@ std::array<int, 4> lexicographic(const std::vector<int>& around) {
   return {around[0], around[1], around[3], around[2]};
 }
 
+std::array<double, 4> lexicographic(const std::vector<double>& around) {
+  if (around.size() == 3) return {around[0], around[1], around[2], around[2]};
+  return {around[0], around[1], around[3], around[2]};
+}
+
 Vector3 unit_normal(const Mesh& mesh, const Shell& shell) {
   const auto vertex = [&](std::size_t i) -> const Vector3& {
     return mesh.vertices[shell.vertices[i]];

@@ -23,6 +23,8 @@ Eigen::Vector2d place_of_middle(std::size_t corners, std::size_t i);
 
 /// Vertices in the order of Shell::vertices from those around a quadrangle or triangle.
 std::array<int, 4> lexicographic(const std::vector<int>& around);
+/// Likewise what they have.
+std::array<double, 4> lexicographic(const std::vector<double>& around);
 
 /// Unit normal of a shell in its middle.
 Vector3 unit_normal(const Mesh& mesh, const Shell& shell);

@@ -54,4 +54,11 @@ void CardWriter::card(const std::string& name, std::vector<CardField> fields) {
   text_ += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
 }
 
+std::string digits(const std::array<bool, 6>& components) {
+  std::string text;
+  for (std::size_t i = 0; i < 6; ++i)
+    if (components[i]) text += static_cast<char>('1' + i);
+  return text;
+}
+
 }  // namespace blocklift::structure

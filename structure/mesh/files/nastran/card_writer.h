@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ class CardField {
  private:
   std::string text_;
 };
+
+/// Components as a card has them: "135".
+std::string digits(const std::array<bool, 6>& components);
 
 /// Cards as text: small fields where all values are short, else large ones.
 class CardWriter {

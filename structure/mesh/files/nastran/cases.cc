@@ -296,7 +296,9 @@ class CaseControl {
       const std::string name = "case control " + upper(key.substr(0, key.find_first_of(" \t,(")));
       model_.log.read(name, line.line);
       if (asks_for_a_load(key))
-        model_.log.leave_out(name, "loads other than forces, moments, pressures and gravity");
+        model_.log.leave_out(name,
+                             "loads other than forces, moments, pressures, gravity and "
+                             "rotation");
       else
         model_.log.leave_out_wish(name, "what the solver is to do or print");
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -57,11 +58,17 @@ class Shells {
     if (!drop_repeated(card, corners, middles.empty()))
       throw CardError{fmt::format("{} {} has two corners in one grid", card.name(), card.text(0))};
     shell.vertices = lexicographic(corners);
-    const double thickness = own_thickness(card, layout, property);
+    const double thickness = own_thickness(card, layout, property, shell);
     const double offset =
         nastran_plate_offset(model_, card, layout.offset,
                              thickness > 0 ? thickness : nastran_shell_thickness(model_, property));
     shell.section = nastran_shell_section(model_, property, thickness, offset);
+    if (shell.taper >= 0 && (shell.section < 0 || mesh_.section_of(shell).laminate >= 0)) {
+      shell.taper = -1;
+      model_.log.remark(card.line(), card.name() +
+                                         ": thicknesses at corners of plates of layers, or without "
+                                         "a property, are not used");
+    }
     shell.region = nastran_region(model_, property, material_of(shell));
     const auto place = static_cast<int>(mesh_.shells.size());
     if (!middles.empty()) curve(shell, place, corners, middles);
@@ -124,9 +131,11 @@ class Shells {
     mesh_.curved_shells.push_back(quadratic_points(at_corners, at_middles));
   }
 
-  /// Thickness of a shell that has one of its own; 0: its property's.
-  double own_thickness(const CardView& card, const ShellLayout& layout, long property) {
-    double least = 0, most = 0, sum = 0;
+  /// Mean thickness of a shell that has one of its own, which may vary between its corners; 0: its
+  /// property's.
+  double own_thickness(const CardView& card, const ShellLayout& layout, long property,
+                       Shell& shell) {
+    std::vector<double> around;
     const bool is_relative = card.is(layout.flag, "1");
     const bool has_any = [&] {
       for (std::size_t i = 0; i < layout.corners; ++i)
@@ -143,15 +152,16 @@ class Shells {
       if (!(thickness > 0))
         throw CardError{
             fmt::format("{} {} has no positive thickness at a corner", card.name(), card.text(0))};
-      least = i == 0 ? thickness : std::min(least, thickness);
-      most = std::max(most, thickness);
-      sum += thickness;
+      around.push_back(thickness);
     }
-    if (most > 1.01 * least)
-      model_.log.remark(card.line(), card.name() +
-                                         ": plates whose corners are of several "
-                                         "thicknesses have their mean throughout");
-    const double mean = sum / static_cast<double>(layout.corners);
+    const auto [least, most] = std::minmax_element(around.begin(), around.end());
+    // Of a quadrangle that is read as a triangle it is not known which corner went.
+    if (*most > (1 + 1e-9) * *least && shell.is_triangle() == (around.size() == 3)) {
+      shell.taper = static_cast<int>(mesh_.shell_tapers.size());
+      mesh_.shell_tapers.push_back(lexicographic(around));
+    }
+    const double mean =
+        std::accumulate(around.begin(), around.end(), 0.0) / static_cast<double>(around.size());
     return std::abs(mean - of_property) < 1e-9 * mean ? 0 : mean;
   }
 

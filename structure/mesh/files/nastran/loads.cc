@@ -35,6 +35,7 @@ class Loads {
                      {"FORCE2", along(false)},
                      {"MOMENT2", along(true)},
                      {"GRAV", [&](const CardView& card) { add_gravity(card); }},
+                     {"RFORCE", [&](const CardView& card) { add_spin(card); }},
                      {"PLOAD", [&](const CardView& card) { add_pressure_on_grids(card); }},
                      {"PLOAD2", [&](const CardView& card) { add_pressure(card); }},
                      {"PLOAD4", [&](const CardView& card) { add_corner_pressure(card); }},
@@ -96,6 +97,25 @@ class Loads {
     const long system = card.integer(1, "coordinate system", 0);
     const Eigen::Matrix3d axes = model_.systems.get(system).axes;
     set(card).gravity += card.real(2, "acceleration") * model_.units.length * (axes * direction);
+  }
+
+  // RFORCE SID G CID A R1 R2 R3 METHOD / RACC MB IDRF: revolutions per unit of time, and of its
+  // square. By MSC's reference forces of the velocity act outwards, as inertia does, and those of
+  // the acceleration along it, against inertia.
+  void add_spin(const CardView& card) {
+    if (card.has(9) && !card.is(9, "0"))
+      throw CardError{"RFORCE for a part of a superelement (MB) is not known"};
+    if (card.has(10) && !card.is(10, "0"))
+      throw CardError{"RFORCE on some elements (IDRF) is not known; rotation of all is due"};
+    const Vector3 direction(card.real(4, "component", 0.0), card.real(5, "component", 0.0),
+                            card.real(6, "component", 0.0));
+    const Eigen::Matrix3d axes = model_.systems.get(card.integer(2, "coordinate system", 0)).axes;
+    const Vector3 revolution = 2 * std::numbers::pi * (axes * direction);
+    Spin spin;
+    if (card.has(1) && !card.is(1, "0")) spin.place = model_.place(model_.vertex(card, 1, "grid"));
+    spin.velocity = card.real(3, "angular velocity", 0.0) * revolution;
+    spin.acceleration = card.real(8, "angular acceleration", 0.0) * revolution;
+    set(card).spins.push_back(spin);
   }
 
   // PLOAD SID P G1 G2 G3 G4

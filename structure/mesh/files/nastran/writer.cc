@@ -5,7 +5,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -18,6 +17,8 @@
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/nastran/card_writer.h"
+#include "structure/mesh/files/nastran/load_cards.h"
+#include "structure/mesh/files/nastran/shell_cards.h"
 #include "structure/mesh/files/nastran/solid_faces.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -75,13 +76,6 @@ class NastranText {
 
   static void append(Fields& fields, const Vector3& vector) {
     for (int i = 0; i < 3; ++i) fields.emplace_back(vector[i]);
-  }
-
-  static std::string digits(const std::array<bool, 6>& components) {
-    std::string text;
-    for (std::size_t i = 0; i < 6; ++i)
-      if (components[i]) text += static_cast<char>('1' + i);
-    return text;
   }
 
   void check_surface_point(const SurfacePoint& point) const {
@@ -171,9 +165,10 @@ class NastranText {
   }
 
   // Z offsets belong to elements: sections that differ in them alone are one property.
-  long shell_property(const ShellSection& section) {
-    const auto key = std::tuple(section.thickness, section.material, section.mass_per_area,
-                                section.laminate, section.label);
+  // So do thicknesses at corners.
+  long shell_property(const ShellSection& section, bool is_tapered) {
+    const auto key = std::tuple(is_tapered ? 0.0 : section.thickness, section.material,
+                                section.mass_per_area, section.laminate, section.label);
     const auto found = shell_property_.find(key);
     if (found != shell_property_.end()) return found->second;
     const long property = properties_.take(section.label);
@@ -226,7 +221,7 @@ class NastranText {
       if (shell.section < 0)
         throw ModelError(fmt::format("shell {} has no thickness; a deck needs one", shell.label));
       const ShellSection& section = mesh_.section_of(shell);
-      const long property = shell_property(section);
+      const long property = shell_property(section, shell.taper >= 0);
       note_group(property, shell.region);
       std::vector<int> around{shell.vertices[0], shell.vertices[1], shell.vertices[3]};
       if (!shell.is_triangle()) around.push_back(shell.vertices[2]);
@@ -236,21 +231,22 @@ class NastranText {
       Fields fields{shell_number_.back(), property};
       for (const int vertex : around) fields.emplace_back(label(vertex));
       const bool is_quadratic = !middles_[s].empty();
-      if (is_quadratic && corners == 4) fields.resize(14);
-      fields.push_back(section.laminate < 0 ? CardField() : CardField(angle(shell)));
+      const std::vector<double> thicknesses = corner_thicknesses(mesh_, shell);
+      if (is_quadratic && corners == 4) fields.resize(10);
+      if (is_quadratic && corners == 4)
+        for (std::size_t i = 0; i < 4; ++i)
+          fields.push_back(thicknesses.empty() ? CardField() : CardField(length(thicknesses[i])));
+      fields.push_back(section.laminate < 0 ? CardField()
+                                            : CardField(laminate_angle(mesh_, shell)));
       if (section.offset != 0) fields.emplace_back(length(section.offset));
+      if (!thicknesses.empty() && !(is_quadratic && corners == 4)) {
+        fields.resize(10);
+        for (const double thickness : thicknesses) fields.emplace_back(length(thickness));
+      }
       const char* name = corners == 4 ? (is_quadratic ? "CQUAD8" : "CQUAD4")
                                       : (is_quadratic ? "CTRIA6" : "CTRIA3");
       out_.card(name, fields);
     }
-  }
-
-  /// Of axis 1 of a laminate from the first side, about the normal, degrees.
-  double angle(const Shell& shell) const {
-    const Vector3 normal = unit_normal(mesh_, shell);
-    const Vector3 side = mesh_.vertices[shell.vertices[1]] - mesh_.vertices[shell.vertices[0]];
-    const Vector3 axis = shell.laminate_axis - shell.laminate_axis.dot(normal) * normal;
-    return std::atan2(normal.dot(side.cross(axis)), side.dot(axis)) * 180 / std::numbers::pi;
   }
 
   long beam_property(int place, int end, bool is_rod) {
@@ -518,11 +514,7 @@ class NastranText {
                     {load_label_[s], beam_number_[load.beam],
                      std::string("F") + static_cast<char>('X' + i), "FR", 0.0, value, 1.0, value});
         }
-      if (!set.gravity.isZero()) {
-        Fields fields{load_label_[s], 0L, 1.0};
-        append(fields, set.gravity / units_.length);
-        out_.card("GRAV", fields);
-      }
+      write_loads_of_masses(set, load_label_[s], units_, out_);
     }
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) {
       if (combined_loads_[i] == 0) continue;

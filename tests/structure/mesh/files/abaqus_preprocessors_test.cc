@@ -488,7 +488,7 @@ TEST(Preprocessors, StepsThatAreNotStaticAreNoLoadCases) {
   const Deck later = abaqus(bar + R"(*STEP
 *STATIC
 *DLOAD
-BAR, CENTRIF, 100., 0., 0., 0., 0., 0., 1.
+BAR, ROTA, 100., 0., 0., 0., 0., 0., 1.
 *END STEP
 *STEP
 *STATIC
