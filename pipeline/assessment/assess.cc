@@ -133,7 +133,8 @@ void find_edges(const LiftRun& lift, const structure::ElasticModel& model,
 /// What pulls and presses on a lifted block, at rest and in motion.
 BlockLoads loads_on(const LiftRun& lift, const BlockRun& block,
                     const structure::ElasticModel& model) {
-  BlockLoads loads(lift.model, lift.static_history, lift.dynamic_history(), model);
+  BlockLoads loads(lift.model, lift.static_history, lift.dynamic_history(),
+                   model.mesh().lifting_points);
   // In the order in which they joined the unit responses.
   if (block.pressure)
     loads.add(*block.pressure,

@@ -7,7 +7,7 @@
 #include "dynamics/simulation/history.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/coupling/load_mapping.h"
-#include "structure/response/elastic_model.h"
+#include "structure/mesh/mesh.h"
 
 namespace blocklift::pipeline {
 
@@ -15,10 +15,9 @@ namespace blocklift::pipeline {
 struct BlockLoads {
   /// Ropes at its lugs.
   BlockLoads(const BuiltLift& lift, const dynamics::History& static_history,
-             const dynamics::History& dynamic_history, const structure::ElasticModel& model)
-      : attachment(attach_block(lift, model.mesh().lifting_points)),
-        at_rest(static_history),
-        in_motion(dynamic_history) {}
+             const dynamics::History& dynamic_history,
+             const std::vector<structure::LiftingPoint>& lugs)
+      : attachment(attach_block(lift, lugs)), at_rest(static_history), in_motion(dynamic_history) {}
 
   /// Loads besides, in the order in which they join the unit responses.
   /// @tparam Basis EdgeBasis or PressureBasis.

@@ -28,17 +28,21 @@
 #include "pipeline/study/study_design.h"
 #include "structure/accuracy/accuracy.h"
 #include "structure/limits.h"
+#include "structure/system/mass_distribution.h"
 
 namespace blocklift::pipeline {
 
 double LargestChecked::increase_percent() const { return percent_above(in_motion, at_rest); }
 
-/// A block that serves several members: its elements and, where they were asked for, the factor of
-/// its stiffness and its unit stresses.
+/// A block that serves several members: its lugs, where its mass is, and, where they were asked for,
+/// its unit stresses. Its elements with their load vectors take most of the memory; they stay where
+/// members move by the block's stiffness.
 struct StudyBlocks::Kept {
   std::string key;
-  std::unique_ptr<structure::ElasticModel> model;
-  std::unique_ptr<structure::UnitResponses> responses;
+  std::vector<structure::LiftingPoint> lugs;
+  structure::MassDistribution matter;
+  std::unique_ptr<structure::ElasticModel> model;       ///< null: no member asked for it
+  std::unique_ptr<structure::UnitResponses> responses;  ///< likewise
   std::optional<structure::StressBasis> basis;
   std::optional<structure::RefinedBlock> refined;  ///< that the basis is of, where it is needed
 };
@@ -80,8 +84,13 @@ std::optional<Value> stated(const std::optional<Located<Value>>& located) {
   return located ? std::optional<Value>(located->value) : std::nullopt;
 }
 
-MassProperties mass_of(const structure::ElasticModel& model, const BlockModel& block) {
-  return model.mass_with(stated(block.mass), stated(block.centre_of_mass));
+MassProperties mass_of(const structure::MassDistribution& matter, const BlockModel& block) {
+  return matter.with(block.mass ? &block.mass->value : nullptr,
+                     block.centre_of_mass ? &block.centre_of_mass->value : nullptr);
+}
+
+bool gives_way(const LiftCase& lift_case) {
+  return lift_case.dynamics.flexibility != Flexibility::rigid;
 }
 
 /// Holds a load case against the balance that a free body keeps.
@@ -176,17 +185,22 @@ StudyBlocks::Kept& StudyBlocks::kept(const LiftCase& lift_case, const Eigen::Vec
     return *kept_.back();
   }
   if (kept_.size() == most_kept) kept_.erase(kept_.begin());
-  kept_.push_back(std::make_unique<Kept>(Kept{std::move(key), model_of(lift_case), {}, {}, {}}));
+  auto model = model_of(lift_case);
+  structure::MassDistribution matter{structure::Matter(model->space())};
+  auto lugs = model->mesh().lifting_points;
+  if (!gives_way(lift_case)) model.reset();
+  kept_.push_back(std::make_unique<Kept>(
+      Kept{std::move(key), std::move(lugs), std::move(matter), std::move(model), {}, {}, {}}));
   return *kept_.back();
 }
 
 KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& values) {
   Kept& block = kept(lift_case, values);
   const BlockModel& as_lifted = *lift_case.load.model;
-  KnownBlock known{
-      load_mass(mass_of(*block.model, as_lifted)), block.model->mesh().lifting_points, {}};
-  if (lift_case.dynamics.flexibility == Flexibility::rigid) return known;
+  KnownBlock known{load_mass(mass_of(block.matter, as_lifted)), block.lugs, {}};
+  if (!gives_way(lift_case)) return known;
   const structure::OneBlasThread whatever_the_threads;
+  if (!block.model) block.model = model_of(lift_case);
   if (!block.responses) block.responses = make_unit_responses(*block.model, as_lifted);
   const auto model =
       block.model->with_mass(stated(as_lifted.mass), stated(as_lifted.centre_of_mass));
@@ -201,14 +215,14 @@ structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) {
   const structure::OneBlasThread whatever_the_threads;
   auto responses = make_unit_responses(*model, *lift_case.load.model);
   std::optional<LoadFlexibility> flexibility;
-  if (lift_case.dynamics.flexibility != Flexibility::rigid)
-    flexibility = make_flexibility(*responses, lift_case.dynamics);
+  if (gives_way(lift_case)) flexibility = make_flexibility(*responses, lift_case.dynamics);
   const LiftRun run = run_lift(lift_case,
                                prepare_lift(lift_case, load_mass(model->mass_properties()),
                                             progress_, flexibility ? &*flexibility : nullptr),
                                progress_);
   const auto factors = [&](const structure::ElasticModel& of, structure::UnitResponses& of_mesh) {
-    BlockLoads loads(run.model, run.static_history, run.dynamic_history(), of);
+    BlockLoads loads(run.model, run.static_history, run.dynamic_history(),
+                     of.mesh().lifting_points);
     if (const auto edges =
             find_edge_basis(of, run.model, run.static_history, run.dynamic_history())) {
       of_mesh.add_loads(edges->loads);
@@ -255,8 +269,8 @@ LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun
                                         const Eigen::VectorXd& values) {
   Kept& block = kept(lift_case, values);
   find_basis(block, runs_over_edges(lift_case), values);
-  const MassProperties mass = mass_of(*block.model, *lift_case.load.model);
-  BlockLoads loads(run.model, run.static_history, run.dynamic_history(), *block.model);
+  const MassProperties mass = mass_of(block.matter, *lift_case.load.model);
+  BlockLoads loads(run.model, run.static_history, run.dynamic_history(), block.lugs);
   const structure::StressBasis* basis = &*block.basis;
   std::optional<structure::StressBasis> with_edges;
   if (block.refined) {

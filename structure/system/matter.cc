@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Dense>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
-#include <fmt/format.h>
 
 #include "parallel/threads.h"
 #include "structure/error.h"
@@ -235,57 +233,6 @@ Wrench resultant(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& lo
     sum.moment += space.nodes().col(n).cross(force) + load.segment<3>(6 * n + 3);
   }
   return sum;
-}
-
-MassProperties find_mass_properties(const Space& space, const double* stated_mass,
-                                    const Vector3* stated_centre) {
-  return find_mass_properties(Matter(space), stated_mass, stated_centre);
-}
-
-MassProperties find_mass_properties(const Matter& matter, const double* stated_mass,
-                                    const Vector3* stated_centre) {
-  const Space& space = matter.space();
-  MassMoments steel;
-  matter.visit([&](const MatterPoint& p) { steel.add(p.mass, p.place); });
-  if (!(steel.mass > 0)) throw ModelError("the block has no mass; give its materials a density");
-  MassProperties result;
-  result.steel_mass = steel.mass;
-  result.steel_centre_B = steel.first / steel.mass;
-  const double mass = stated_mass ? *stated_mass : steel.mass;
-  const Vector3 centre = stated_centre ? *stated_centre : result.steel_centre_B;
-  if (!(std::isfinite(mass) && mass > 0))
-    throw ModelError(
-        fmt::format("the block's mass is stated as {:g} kg; it must be positive", mass));
-  result.factor_alpha = mass / steel.mass;
-  const Vector3 moved = mass * (centre - result.steel_centre_B);
-  if (!moved.isZero(0)) result.factor_beta = steel.about(result.steel_centre_B).ldlt().solve(moved);
-  result.smallest_density_factor = std::numeric_limits<double>::infinity();
-  result.largest_density_factor = -std::numeric_limits<double>::infinity();
-  Vector3 worst = Vector3::Zero();
-  for (Eigen::Index n = 0; n < space.node_count(); ++n) {
-    const double factor = result.density_factor(space.nodes().col(n));
-    if (factor < result.smallest_density_factor) worst = space.nodes().col(n);
-    result.smallest_density_factor = std::min(result.smallest_density_factor, factor);
-    result.largest_density_factor = std::max(result.largest_density_factor, factor);
-  }
-  if (result.smallest_density_factor < 0)
-    throw ModelError(fmt::format(
-        "no spread of outfitting makes the stated mass {:.1f} t and centre of mass ({:.3f}, "
-        "{:.3f}, "
-        "{:.3f}) m out of the plates' {:.1f} t at ({:.3f}, {:.3f}, {:.3f}) m: the density would be "
-        "negative at ({:.2f}, {:.2f}, {:.2f}) m; move the stated centre towards the plates', or "
-        "state more mass",
-        mass / 1e3, centre.x(), centre.y(), centre.z(), steel.mass / 1e3, result.steel_centre_B.x(),
-        result.steel_centre_B.y(), result.steel_centre_B.z(), worst.x(), worst.y(), worst.z()));
-  MassMoments all;
-  matter.visit(
-      [&](const MatterPoint& p) { all.add(p.mass * result.density_factor(p.place), p.place); });
-  result.mass = all.mass;
-  result.centre_of_mass_B = all.first / all.mass;
-  result.outfitting_mass = result.mass - result.steel_mass;
-  const Eigen::Matrix3d second = all.about(result.centre_of_mass_B);
-  result.inertia_BBcm_B = second.trace() * Eigen::Matrix3d::Identity() - second;
-  return result;
 }
 
 namespace {

@@ -1,12 +1,14 @@
 #include "structure/system/matter.h"
 
 #include <cmath>
+#include <memory>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
+#include "structure/system/mass_distribution.h"
 
 namespace blocklift::structure {
 namespace {
@@ -135,6 +137,27 @@ TEST(Matter, ThreadsChangeNoDigit) {
     add_forces(p, Vector3(-p.mass * mass.density_factor(p.place) * Vector3::UnitX()), in_turn);
   });
   EXPECT_EQ(in_turn.col(0), loads.col(0));
+}
+
+TEST(MassDistribution, GivesAnyStatedMassWithoutTheElements) {
+  const Mesh mesh = everything();
+  auto space = std::make_unique<Space>(mesh, Resolution{2, {}});
+  const double stated = 9000;
+  const Vector3 centre(1.6, 1.02, 0.6);
+  const MassProperties as_stated = find_mass_properties(*space, &stated, &centre);
+  const MassProperties of_steel = find_mass_properties(*space, nullptr, nullptr);
+  const MassDistribution distribution{Matter(*space)};
+  space.reset();
+  const MassProperties found = distribution.with(&stated, &centre);
+  EXPECT_EQ(found.mass, as_stated.mass);
+  EXPECT_EQ(found.centre_of_mass_B, as_stated.centre_of_mass_B);
+  EXPECT_EQ(found.inertia_BBcm_B, as_stated.inertia_BBcm_B);
+  EXPECT_EQ(found.factor_beta, as_stated.factor_beta);
+  EXPECT_EQ(found.smallest_density_factor, as_stated.smallest_density_factor);
+  EXPECT_NEAR(found.mass, stated, exact * stated);
+  EXPECT_EQ(distribution.with(nullptr, nullptr).inertia_BBcm_B, of_steel.inertia_BBcm_B);
+  const Vector3 far(40, 1, 0.4);
+  EXPECT_THROW(distribution.with(&stated, &far), ModelError);
 }
 
 // d'Alembert: the loads' resultant is that of the whole mass as one rigid body,
