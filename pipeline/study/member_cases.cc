@@ -1,7 +1,9 @@
 #include "pipeline/study/member_cases.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,6 +40,13 @@ std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
 /// @throws InputError with what is wrong with the study's case as it stands, before any change.
 void check_unchanged_case(const StudyFile& study) {
   Diagnostics diagnostics;
+  std::error_code ignored;
+  if (!std::filesystem::exists(study.case_path(), ignored)) {
+    diagnostics.error(study.case_name.mark,
+                      fmt::format("there is no case \"{}\"", study.case_name.value),
+                      {"it is looked for from the study's folder, then from the working folder"});
+    throw InputError(diagnostics);
+  }
   ModelLibrary library = ModelLibrary::of_installation();
   read_lift_case(study.case_path(), library, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);

@@ -224,7 +224,8 @@ TEST_F(SweepCommand, SaysWhatIsWrongWithTheCaseItselfAlone) {
   folder_.write("study.yaml", std::string("study: spread\ncase: elsewhere\n") + weight);
   const Outcome outcome = run("sweep study.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, HasSubstr("elsewhere: error: there is no such file\n1 error\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("study.yaml:2:7: error: there is no case \"elsewhere\"\n"));
+  EXPECT_THAT(outcome.err, HasSubstr("\n1 error\n"));
   EXPECT_THAT(outcome.err, ::testing::Not(HasSubstr("a member of the study")));
 }
 
