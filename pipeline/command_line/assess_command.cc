@@ -54,8 +54,10 @@ std::string published_text(const std::optional<double>& published, double ours) 
                      100 * (ours / *published - 1));
 }
 
-/// "+23.2".
-std::string change_text(double percent) { return fmt::format("{:+.1f}", percent); }
+/// "+23.2"; "-0.0" would read as a sign of something.
+std::string change_text(double percent) {
+  return fmt::format("{:+.1f}", std::abs(percent) < 0.05 ? 0 : percent);
+}
 
 void print_loads(const LiftRun& lift, const LiftCase& lift_case) {
   const auto at_rest = dynamics::find_largest_tensions(lift.static_history);
@@ -164,10 +166,11 @@ void print_block(const BlockAssessment& block, const HistoryAssessment* history)
   fmt::print("\nchecked von Mises stress and displacement, at rest and in motion\n{}",
              table.text());
   if (history && !block.simultaneous_by_rope.empty())
-    print_wrapped(fmt::format(
-        "every rope at its maximum gives {:+.1f} % of the largest stress, {:+.1f} % where it is "
-        "furthest off",
-        history->per_rope_maxima.largest_percent, history->per_rope_maxima.worst_percent));
+    print_wrapped(
+        fmt::format("every rope at its maximum gives {} % of the largest stress, {} % where it is "
+                    "furthest off",
+                    change_text(history->per_rope_maxima.largest_percent),
+                    change_text(history->per_rope_maxima.worst_percent)));
 }
 
 void print_accuracy(const structure::CheckedAccuracy& accuracy) {

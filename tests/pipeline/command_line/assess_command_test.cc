@@ -138,6 +138,10 @@ TEST_F(AssessCommand, KeepsToEightyColumns) {
   }
 }
 
+TEST_F(AssessCommand, GivesNilNoSign) {
+  EXPECT_THAT(run_blocklift("assess lift").out, Not(HasSubstr("-0.0")));
+}
+
 TEST_F(AssessCommand, TellsALiftThatFailsByItsExitCode) {
   change("case.yaml", "rope_safety_factor: 5", "rope_safety_factor: 1000");
   const Outcome outcome = run_blocklift("assess lift -o out");
