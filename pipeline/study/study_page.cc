@@ -29,7 +29,7 @@ constexpr const char* style =
     ".range{display:inline-block;position:relative;width:16em;height:.8em;"
     "background:linear-gradient(#8888,#8888) center/1px 100% no-repeat}"
     ".bar{position:absolute;top:0;height:100%;background:#2f6db3}.bar.minus{background:#c2571a}"
-    ".note{color:#5a6675}.scroll{overflow-x:auto}"
+    ".note{color:#5a6675}.scroll{overflow-x:auto}.even{table-layout:fixed}"
     "@media (prefers-color-scheme:dark){body{color:#e3e8ee;background:#14191f}"
     "th,td{border-color:#38424d}svg{background:#fff}.note{color:#a9b4c0}}";
 
@@ -37,6 +37,11 @@ std::string cells(const std::vector<std::string>& texts, const char* tag) {
   std::string row = "<tr>";
   for (const std::string& text : texts) row += fmt::format("<{0}>{1}</{0}>", tag, text);
   return row + "</tr>\n";
+}
+
+/// An index of Sobol' with its interval: "0.67 (0.61 to 0.74)".
+std::string index_text(double value, double low, double high) {
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", value, low, high);
 }
 
 /// "1.23 (1.20 to 1.27)"; an end that the sample is too small for is left open.
@@ -140,18 +145,19 @@ std::string sensitivities(const StudyResults& results) {
   if (results.sensitivities.empty()) return "";
   std::string text =
       "<h2>Sobol' indices</h2>\n<p class=\"note\">Share of the variance that a variable has by "
-      "itself, and with all others together; in brackets intervals of 95 %.</p>\n";
+      "itself, and with all others together; in brackets intervals of 95 %. What lies below 0 or "
+      "above 1 does so by chance: more members narrow the intervals.</p>\n";
   for (std::size_t i = 0; i < results.sensitivities.size(); ++i) {
     const Sensitivity& one = results.sensitivities[i];
-    text += "<div class=\"scroll\"><table>\n" +
+    text += "<div class=\"scroll\"><table class=\"even\">\n" +
             cells({name_with_unit(results, results.spreads[results.leading[i]].path), "by itself",
                    "in all"},
                   "th");
     for (std::size_t v = 0; v < results.study.variables.size(); ++v) {
       const auto k = static_cast<Eigen::Index>(v);
       text += cells({escape_html(results.study.variables[v].name.value),
-                     with_interval(one.first[k], one.first_low[k], one.first_high[k]),
-                     with_interval(one.total[k], one.total_low[k], one.total_high[k])},
+                     index_text(one.first[k], one.first_low[k], one.first_high[k]),
+                     index_text(one.total[k], one.total_low[k], one.total_high[k])},
                     "td");
     }
     text += "</table></div>\n";
