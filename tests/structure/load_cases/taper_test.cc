@@ -144,7 +144,8 @@ TEST(Taper, MassIsThatOfTheWedge) {
   EXPECT_NEAR(model.mass_properties().inertia_BBcm_B(1, 1), flat + across, 1e-9 * flat);
 }
 
-// Over a triangle the integral of t x is A / 12 times the sum of t_i x_j, those of one corner twice.
+// Over a triangle the integral of t x is A / 12 times the sum of t_i x_j, where those of one corner
+// count twice.
 TEST(Taper, TrianglesHaveOne) {
   const Deck deck = test::nastran(
       "SOL 101\nCEND\nBEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,0.5,1.,0.\n"
