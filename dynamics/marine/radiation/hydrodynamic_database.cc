@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/database_parts.h"
 #include "dynamics/marine/radiation/frequency_domain.h"
 #include "dynamics/marine/radiation/impulse_run.h"
-#include "dynamics/marine/radiation/incident_wave.h"
 #include "parallel/threads.h"
 
 namespace blocklift::dynamics {
@@ -24,17 +24,6 @@ using Eigen::MatrixXd;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void check(const DatabaseSettings& settings) {
-  if (settings.frequencies.empty()) throw ModelError("no frequency is given for the database");
-  for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
-    const double w = settings.frequencies[k];
-    if (!(w > 0.0) || !std::isfinite(w) || (k > 0 && w <= settings.frequencies[k - 1])) {
-      throw ModelError("frequency " + std::to_string(k + 1) + " of the database is " +
-                       std::to_string(w) + " rad/s: frequencies must be positive and ascend");
-    }
-  }
 }
 
 /// Tells the progress of the parts: a third of each for its solution, the rest for its march.
@@ -82,14 +71,15 @@ class PartComputation {
   double added_mass_asymmetry(MatrixXd& infinite_added_mass) const;
   void run(double step, long steps, std::vector<MatrixXd>& retardation, const Progress& progress);
   void add_frequencies(HydrodynamicDatabase& database) const;
-  void add_excitation(HydrodynamicDatabase& database) const;
-  /// To the far field, made for all parts together.
-  void add_far_field(HydrodynamicDatabase& database) const;
+  /// To excitation, and to the far field, made for all parts together.
+  void add_waves(HydrodynamicDatabase& database) const;
+  void add_distant_waves(HydrodynamicDatabase& database) const;
   /// To the radiation forces of the coarser solution, one 6N x 6N for each frequency.
   void add_coarser(std::vector<MatrixXcd>& forces) const;
 
  private:
   MatrixXcd mode_potentials(std::size_t frequency) const;
+  FlowOfPart flow(std::size_t frequency) const;
 
   const PanelModel& model_;
   const DatabaseSettings& settings_;
@@ -184,136 +174,29 @@ MatrixXcd PartComputation::mode_potentials(std::size_t frequency) const {
   return bodies;
 }
 
-void PartComputation::add_excitation(HydrodynamicDatabase& database) const {
-  const Water& water = model_.water();
-  const MatrixXd weighted_normals = model_.body_areas().asDiagonal() * part_.normal_velocities();
-  const auto headings = static_cast<Eigen::Index>(database.headings.size());
-  parallel::for_each(
-      static_cast<int>(database.frequencies.size()), settings_.rankine.threads, [&](int index) {
-        const auto k = static_cast<std::size_t>(index);
-        const double w = database.frequencies[k];
-        const MatrixXcd weighted_potentials = model_.body_areas().asDiagonal() * mode_potentials(k);
-        for (Eigen::Index h = 0; h < headings; ++h) {
-          const IncidentWave wave(water, w, database.headings[h]);
-          const Eigen::VectorXcd potential = model_.part_of(
-              part_.parity(), [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
-          const Eigen::VectorXcd opposed =
-              model_.part_of(part_.parity(), [&](const Vector3& p, const Vector3& n) -> Complex {
-                return -(wave.velocity(p).transpose() * n)(0);
-              });
-          const Complex factor = Complex(0.0, w * water.density * part_.image_count());
-          const Eigen::VectorXcd incident = factor * (weighted_normals.transpose() * potential);
-          const Eigen::VectorXcd diffracted = factor * (weighted_potentials.transpose() * opposed);
-          for (std::size_t m = 0; m < part_.modes().size(); ++m) {
-            database.froude_krylov[k](part_.modes()[m], h) += incident[m];
-            database.diffraction[k](part_.modes()[m], h) += diffracted[m];
-          }
-        }
-      });
+FlowOfPart PartComputation::flow(std::size_t frequency) const {
+  return {part_.parity(), part_.modes(), part_.normal_velocities(), mode_potentials(frequency)};
 }
 
-// By Green's theorem with the wave psi = f(z) exp(i k (x cos theta + y sin theta)), f that of the
-// incident waves, and stationary phase far away:
-//   H = sqrt(k/2 pi) exp(i pi/4)/(2 c_g) int (dphi/dn psi - phi dpsi/dn) dS over the bodies.
-void PartComputation::add_far_field(HydrodynamicDatabase& database) const {
-  const Water& water = model_.water();
-  const Parity& parity = part_.parity();
+void PartComputation::add_waves(HydrodynamicDatabase& database) const {
+  parallel::for_each(static_cast<int>(database.frequencies.size()), settings_.rankine.threads,
+                     [&](int index) {
+                       const auto k = static_cast<std::size_t>(index);
+                       add_excitation(model_, flow(k), k, database);
+                     });
+}
+
+void PartComputation::add_distant_waves(HydrodynamicDatabase& database) const {
   const FrequencyDomain scattering(model_, part_, damping_);
-  FarField& far = database.far_field;
-  const auto waves_of = [&](double w, const std::vector<double>& angles, double turn,
-                            MatrixXcd& potentials, MatrixXcd& velocities) {
-    const auto count = static_cast<Eigen::Index>(angles.size());
-    potentials.resize(model_.body_areas().size(), count);
-    velocities.resize(model_.body_areas().size(), count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const IncidentWave wave(water, w, angles[j] + turn);
-      potentials.col(j) = model_.part_of(
-          parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
-      velocities.col(j) =
-          model_.part_of(parity, [&](const Vector3& p, const Vector3& n) -> Complex {
-            return (wave.velocity(p).transpose() * n)(0);
-          });
-    }
-  };
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-    const double w = database.frequencies[k], number = calc_wave_number(w, water);
-    MatrixXcd psi, psi_n, incident, incident_n;
-    // The wave that meets the sought one comes from where that goes.
-    waves_of(w, far.directions, std::numbers::pi, psi, psi_n);
-    waves_of(w, database.headings, 0.0, incident, incident_n);
-    // psi is w/(i g) times the potential of an incident wave of unit amplitude.
-    const Complex scale = w / Complex(0.0, water.gravity) / (2.0 * calc_group_velocity(w, water)) *
-                          std::sqrt(number / (2.0 * std::numbers::pi)) *
-                          std::polar(1.0 * part_.image_count(), 0.25 * std::numbers::pi);
-    const auto send = [&](const MatrixXcd& velocities, const MatrixXcd& potentials) {
-      const MatrixXcd weighted_velocities = model_.body_areas().asDiagonal() * velocities;
-      const MatrixXcd weighted_potentials = model_.body_areas().asDiagonal() * potentials;
-      return MatrixXcd(scale * (psi.transpose() * weighted_velocities -
-                                psi_n.transpose() * weighted_potentials));
-    };
-    const Complex rate(0.0, w);
-    far.radiated[k](Eigen::all, part_.modes()) +=
-        rate * send(part_.normal_velocities().cast<Complex>(), mode_potentials(k));
-    if (database.headings.empty()) continue;
-    far.scattered[k] += send(-incident_n, scattering.calc_body_potentials(w, -incident_n));
-  }
-}
-
-/// Nothing sent out yet.
-FarField make_empty_far_field(const PanelModel& model, const DatabaseSettings& settings) {
-  double reach = 0.0;
-  for (const WettedBody& body : model.bodies()) {
-    for (const Panel& panel : body.hull.panels) {
-      reach = std::max(reach, panel.centroid.head<2>().norm());
+    const double w = database.frequencies[k];
+    FlowOfPart sent = flow(k);
+    if (!database.headings.empty()) {
+      sent.scattered = scattering.calc_body_potentials(
+          w, calc_opposed_velocities(model_, part_.parity(), w, database.headings));
     }
+    add_far_field(model_, sent, k, database);
   }
-  const int count =
-      direction_count(reach, calc_wave_number(settings.frequencies.back(), model.water()));
-  FarField far;
-  for (int j = 0; j < count; ++j) far.directions.push_back(2.0 * std::numbers::pi * j / count);
-  far.radiated.assign(settings.frequencies.size(), MatrixXcd::Zero(count, model.mode_count()));
-  far.scattered.assign(settings.frequencies.size(),
-                       MatrixXcd::Zero(count, settings.headings.size()));
-  return far;
-}
-
-HydrodynamicDatabase make_empty(const PanelModel& model, const DatabaseSettings& settings) {
-  HydrodynamicDatabase database;
-  database.water = model.water();
-  for (const WettedBody& body : model.bodies()) {
-    database.body_names.push_back(body.name);
-    database.reference_points.push_back(body.reference_point);
-    database.displaced_volumes.push_back(body.hull.displaced_volume());
-  }
-  const int modes = model.mode_count();
-  const std::size_t count = settings.frequencies.size();
-  const auto headings = static_cast<Eigen::Index>(settings.headings.size());
-  database.infinite_added_mass = MatrixXd::Zero(modes, modes);
-  database.frequencies = settings.frequencies;
-  database.headings = settings.headings;
-  database.added_mass.assign(count, MatrixXd::Zero(modes, modes));
-  database.damping = database.added_mass;
-  database.froude_krylov.assign(count, MatrixXcd::Zero(modes, headings));
-  database.diffraction = database.froude_krylov;
-  return database;
-}
-
-/// Largest relative change of each mode's radiation force on itself over the frequencies. Zero for
-/// a mode with next to no force, such as the turns of a round body about its axis.
-Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
-                               const std::vector<MatrixXcd>& coarser) {
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(database.mode_count());
-  for (std::size_t k = 0; k < coarser.size(); ++k) {
-    for (Eigen::Index m = 0; m < change.size(); ++m) {
-      const Complex force(database.damping[k](m, m),
-                          database.frequencies[k] * database.added_mass[k](m, m));
-      const Eigen::Index first = m - m % 3;
-      const double largest = database.added_mass[k].diagonal().segment<3>(first).maxCoeff();
-      if (std::abs(force) < 1e-3 * database.frequencies[k] * largest) continue;
-      change[m] = std::max(change[m], std::abs(coarser[k](m, m) - force) / std::abs(force));
-    }
-  }
-  return change;
 }
 
 }  // namespace
@@ -361,13 +244,12 @@ double database_bytes(const PanelModel& model, const DatabaseSettings& settings)
 
 HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSettings& settings,
                                       DatabaseReport* report) {
-  check(settings);
+  check_frequencies(settings);
   require_panels_for_waves(model, settings.frequencies.back());
   if (model.surface_mesh().size() == 0) {
     throw ModelError("no body reaches the surface: without a surface mesh there are no waves");
   }
-  HydrodynamicDatabase database = make_empty(model, settings);
-  if (settings.with_far_field) database.far_field = make_empty_far_field(model, settings);
+  HydrodynamicDatabase database = make_empty_database(model, settings);
   const double lowest = settings.frequencies.front(), highest = settings.frequencies.back();
   const double duration =
       settings.duration > 0.0 ? settings.duration : 3.0 * 2.0 * std::numbers::pi / lowest;
@@ -409,8 +291,8 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     account.march_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
     progress.excite();
-    computation.add_excitation(database);
-    if (settings.with_far_field) computation.add_far_field(database);
+    computation.add_waves(database);
+    if (settings.with_far_field) computation.add_distant_waves(database);
     account.excitation_s += seconds_since(start);
     const RankineTiming& timing = computation.part().timing();
     account.solution.influence_s += timing.influence_s;

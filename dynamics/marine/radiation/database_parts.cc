@@ -1,0 +1,154 @@
+#include "dynamics/marine/radiation/database_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "dynamics/errors.h"
+#include "dynamics/marine/radiation/incident_wave.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+FarField make_empty_far_field(const PanelModel& model, const DatabaseSettings& settings) {
+  double reach = 0.0;
+  for (const WettedBody& body : model.bodies()) {
+    for (const Panel& panel : body.hull.panels) {
+      reach = std::max(reach, panel.centroid.head<2>().norm());
+    }
+  }
+  const int count =
+      direction_count(reach, calc_wave_number(settings.frequencies.back(), model.water()));
+  FarField far;
+  for (int j = 0; j < count; ++j) far.directions.push_back(2.0 * std::numbers::pi * j / count);
+  far.radiated.assign(settings.frequencies.size(), MatrixXcd::Zero(count, model.mode_count()));
+  far.scattered.assign(settings.frequencies.size(),
+                       MatrixXcd::Zero(count, settings.headings.size()));
+  return far;
+}
+
+}  // namespace
+
+void check_frequencies(const DatabaseSettings& settings) {
+  if (settings.frequencies.empty()) throw ModelError("no frequency is given for the database");
+  for (std::size_t k = 0; k < settings.frequencies.size(); ++k) {
+    const double w = settings.frequencies[k];
+    if (!(w > 0.0) || !std::isfinite(w) || (k > 0 && w <= settings.frequencies[k - 1])) {
+      throw ModelError("frequency " + std::to_string(k + 1) + " of the database is " +
+                       std::to_string(w) + " rad/s: frequencies must be positive and ascend");
+    }
+  }
+}
+
+HydrodynamicDatabase make_empty_database(const PanelModel& model,
+                                         const DatabaseSettings& settings) {
+  HydrodynamicDatabase database;
+  database.water = model.water();
+  for (const WettedBody& body : model.bodies()) {
+    database.body_names.push_back(body.name);
+    database.reference_points.push_back(body.reference_point);
+    database.displaced_volumes.push_back(body.hull.displaced_volume());
+  }
+  const int modes = model.mode_count();
+  const std::size_t count = settings.frequencies.size();
+  const auto headings = static_cast<Eigen::Index>(settings.headings.size());
+  database.infinite_added_mass = MatrixXd::Zero(modes, modes);
+  database.frequencies = settings.frequencies;
+  database.headings = settings.headings;
+  database.added_mass.assign(count, MatrixXd::Zero(modes, modes));
+  database.damping = database.added_mass;
+  database.froude_krylov.assign(count, MatrixXcd::Zero(modes, headings));
+  database.diffraction = database.froude_krylov;
+  if (settings.with_far_field) database.far_field = make_empty_far_field(model, settings);
+  return database;
+}
+
+Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
+                               const std::vector<MatrixXcd>& coarser) {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(database.mode_count());
+  for (std::size_t k = 0; k < coarser.size(); ++k) {
+    for (Eigen::Index m = 0; m < change.size(); ++m) {
+      const Complex force(database.damping[k](m, m),
+                          database.frequencies[k] * database.added_mass[k](m, m));
+      const Eigen::Index first = m - m % 3;
+      const double largest = database.added_mass[k].diagonal().segment<3>(first).maxCoeff();
+      if (std::abs(force) < 1e-3 * database.frequencies[k] * largest) continue;
+      change[m] = std::max(change[m], std::abs(coarser[k](m, m) - force) / std::abs(force));
+    }
+  }
+  return change;
+}
+
+MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity, double frequency,
+                                  const std::vector<double>& headings) {
+  MatrixXcd velocities(model.body_areas().size(), static_cast<Eigen::Index>(headings.size()));
+  for (std::size_t h = 0; h < headings.size(); ++h) {
+    const IncidentWave wave(model.water(), frequency, headings[h]);
+    velocities.col(static_cast<Eigen::Index>(h)) =
+        model.part_of(parity, [&](const Vector3& p, const Vector3& n) -> Complex {
+          return -(wave.velocity(p).transpose() * n)(0);
+        });
+  }
+  return velocities;
+}
+
+void add_excitation(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
+                    HydrodynamicDatabase& database) {
+  const double w = database.frequencies[frequency];
+  const MatrixXd weighted_normals = model.body_areas().asDiagonal() * flow.normal_velocities;
+  const MatrixXcd weighted_potentials = model.body_areas().asDiagonal() * flow.potentials;
+  const MatrixXcd opposed = calc_opposed_velocities(model, flow.parity, w, database.headings);
+  const Complex factor(0.0, w * model.water().density * model.symmetry().image_count());
+  for (Eigen::Index h = 0; h < opposed.cols(); ++h) {
+    const IncidentWave wave(model.water(), w, database.headings[static_cast<std::size_t>(h)]);
+    const Eigen::VectorXcd potential = model.part_of(
+        flow.parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
+    const Eigen::VectorXcd incident = factor * (weighted_normals.transpose() * potential);
+    const Eigen::VectorXcd diffracted = factor * (weighted_potentials.transpose() * opposed.col(h));
+    for (std::size_t m = 0; m < flow.modes.size(); ++m) {
+      const auto place = static_cast<Eigen::Index>(m);
+      database.froude_krylov[frequency](flow.modes[m], h) += incident[place];
+      database.diffraction[frequency](flow.modes[m], h) += diffracted[place];
+    }
+  }
+}
+
+void add_far_field(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
+                   HydrodynamicDatabase& database) {
+  const Water& water = model.water();
+  const double w = database.frequencies[frequency];
+  FarField& far = database.far_field;
+  // The wave that meets the sought one comes from where that goes.
+  const auto count = static_cast<Eigen::Index>(far.directions.size());
+  MatrixXcd psi(model.body_areas().size(), count);
+  std::vector<double> met;
+  for (Eigen::Index j = 0; j < count; ++j) {
+    met.push_back(far.directions[static_cast<std::size_t>(j)] + std::numbers::pi);
+    const IncidentWave wave(water, w, met.back());
+    psi.col(j) = model.part_of(flow.parity,
+                               [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
+  }
+  const MatrixXcd psi_n = -calc_opposed_velocities(model, flow.parity, w, met);
+  // psi is w/(i g) times the potential of an incident wave of unit amplitude.
+  const Complex scale = w / Complex(0.0, water.gravity) / (2.0 * calc_group_velocity(w, water)) *
+                        std::sqrt(calc_wave_number(w, water) / (2.0 * std::numbers::pi)) *
+                        std::polar(1.0 * model.symmetry().image_count(), 0.25 * std::numbers::pi);
+  const auto send = [&](const MatrixXcd& velocities, const MatrixXcd& potentials) {
+    const MatrixXcd weighted_velocities = model.body_areas().asDiagonal() * velocities;
+    const MatrixXcd weighted_potentials = model.body_areas().asDiagonal() * potentials;
+    return MatrixXcd(
+        scale * (psi.transpose() * weighted_velocities - psi_n.transpose() * weighted_potentials));
+  };
+  far.radiated[frequency](Eigen::all, flow.modes) +=
+      Complex(0.0, w) * send(flow.normal_velocities.cast<Complex>(), flow.potentials);
+  if (database.headings.empty()) return;
+  far.scattered[frequency] +=
+      send(calc_opposed_velocities(model, flow.parity, w, database.headings), flow.scattered);
+}
+
+}  // namespace blocklift::dynamics

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
+
+namespace blocklift::dynamics {
+
+// What a database holds of the flow about its bodies, however that was found.
+
+/// @throws ModelError unless there are frequencies, all of them positive and ascending.
+void check_frequencies(const DatabaseSettings& settings);
+
+/// Bodies, water, frequencies and headings; all forces nothing, and the far field where it is asked
+/// for.
+HydrodynamicDatabase make_empty_database(const PanelModel& model, const DatabaseSettings& settings);
+
+/// Largest relative change of each mode's radiation force on itself over the frequencies, from the
+/// forces B + i w A of coarser panels. Zero for a mode with next to no force, such as the turns of
+/// a round body about its axis.
+Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
+                               const std::vector<Eigen::MatrixXcd>& coarser);
+
+/// Normal velocities on the bodies that a wave of unit amplitude would have there, with the other
+/// sign: those of the waves scattered. A column for each heading (rad); 1/s.
+Eigen::MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity,
+                                         double frequency, const std::vector<double>& headings);
+
+/// The flow of one even or odd part at one frequency.
+struct FlowOfPart {
+  Parity parity;
+  std::vector<int> modes;             ///< that have this part
+  Eigen::MatrixXd normal_velocities;  ///< of these modes on the bodies' panels
+  Eigen::MatrixXcd potentials;        ///< there, of unit velocities; m, m2
+  Eigen::MatrixXcd scattered = {};    ///< there, of waves of unit amplitude, for each heading; m2/s
+};
+
+/// Adds the part's share of Froude-Krylov forces and, by Haskind's relation, of diffraction.
+/// @param frequency index.
+void add_excitation(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
+                    HydrodynamicDatabase& database);
+
+/// Adds what the part sends out far away: by Green's theorem with the wave psi = f(z) exp(i k
+/// (x cos theta + y sin theta)), f that of the incident waves, and stationary phase,
+///
+///   H = sqrt(k/2 pi) exp(i pi/4)/(2 c_g) int (dphi/dn psi - phi dpsi/dn) dS over the bodies.
+///
+/// @param frequency index.
+void add_far_field(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
+                   HydrodynamicDatabase& database);
+
+}  // namespace blocklift::dynamics
