@@ -11,7 +11,6 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/green/wave_green_function.h"
 #include "dynamics/marine/panels/rankine_problem.h"
-#include "dynamics/marine/radiation/incident_wave.h"
 #include "parallel/threads.h"
 
 namespace blocklift::dynamics {
@@ -66,7 +65,8 @@ HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
     : model_(model),
       settings_(settings),
       hull_count_(model.body_mesh().size()),
-      parities_(model.parities()) {
+      parities_(model.parities()),
+      clusters_(cluster_panels(model.body_mesh())) {
   const std::vector<Panel>& hull = model.body_mesh().panels;
   double size = settings.cell_size;
   if (!(size > 0.0)) size = std::sqrt(model.body_areas().mean());
@@ -240,37 +240,63 @@ std::vector<HullEquations::Influence<Complex>> HullEquations::integrate_waves(
   return waves;
 }
 
-std::vector<HullEquations::Part> HullEquations::solve(double frequency) const {
+MatrixXcd HullEquations::make_matrix(const Influence<Complex>& waves, double frequency,
+                                     int count) const {
+  const double w = frequency, g = model_.water().gravity;
+  MatrixXcd matrix(count, count);
+  matrix.leftCols(hull_count_) = -waves.dipole.topRows(count);
+  for (int j = hull_count_; j < count; ++j) {
+    const int region = cells_.region[j - hull_count_];
+    const Complex faded(w, region < 0 ? 0.0 : -settings_.lids[region].rate);
+    const Complex b = region < 0 ? Complex(-w * w / g) : (faded * faded - w * w) / g;
+    matrix.col(j) = -b * waves.source.col(j);
+  }
+  matrix.diagonal().head(hull_count_).array() += 2.0 * pi;
+  matrix.diagonal().tail(count - hull_count_).array() += 4.0 * pi;
+  return matrix;
+}
+
+std::vector<HullEquations::Part> HullEquations::solve(double frequency, bool with_coarser) const {
   if (!(frequency > 0.0)) throw ModelError("the frequency of waves must be positive");
   const std::vector<Influence<Complex>> waves = integrate_waves(frequency);
-  const double w = frequency, g = model_.water().gravity;
   // Without waves the potential is nothing on the surface, and needs no cells.
-  const int count = std::isinf(w) ? hull_count_ : size();
+  const int count = std::isinf(frequency) ? hull_count_ : size();
   std::vector<Part> parts;
   for (std::size_t p = 0; p < parities_.size(); ++p) {
-    Part part{parities_[p], {}, {}, {}};
+    Part& part = parts.emplace_back();
+    part.parity = parities_[p];
     const MatrixXd velocities = model_.normal_velocities(part.parity);
     for (int mode = 0; mode < model_.mode_count(); ++mode) {
       if (!velocities.col(mode).isZero(0.0)) part.modes.push_back(mode);
     }
     part.normal_velocities = velocities(Eigen::all, part.modes);
-    const auto& [source, dipole] = waves[p];
-    MatrixXcd matrix(count, count);
-    matrix.leftCols(hull_count_) = -dipole.topRows(count);
-    for (int j = hull_count_; j < count; ++j) {
-      const int region = cells_.region[j - hull_count_];
-      const Complex faded(w, region < 0 ? 0.0 : -settings_.lids[region].rate);
-      const Complex b = region < 0 ? Complex(-w * w / g) : (faded * faded - w * w) / g;
-      matrix.col(j) = -b * source.col(j);
-    }
-    matrix.diagonal().head(hull_count_).array() += 2.0 * pi;
-    matrix.diagonal().tail(count - hull_count_).array() += 4.0 * pi;
-    MatrixXcd right = -(source.topLeftCorner(count, hull_count_) * part.normal_velocities);
+    MatrixXcd matrix = make_matrix(waves[p], frequency, count);
+    MatrixXcd right = -(waves[p].source.topLeftCorner(count, hull_count_) * part.normal_velocities);
+    if (with_coarser) part.coarser_potentials = solve_coarser(matrix, right);
     solve_in_place(matrix, right, "the matrix of the hulls' panels");
     part.potentials = right.topRows(hull_count_);
-    parts.push_back(std::move(part));
   }
   return parts;
+}
+
+// Potentials are constant on the clusters, equations hold in the mean over each. Cells stay.
+MatrixXcd HullEquations::solve_coarser(const MatrixXcd& matrix, const MatrixXcd& right) const {
+  const Eigen::VectorXd areas = model_.body_areas();
+  const Eigen::VectorXd whole = clusters_.sum(areas);
+  const int cells = static_cast<int>(matrix.rows()) - hull_count_;
+  const auto place = [&](int j) {
+    return j < hull_count_ ? clusters_.of_panel[j] : clusters_.count + j - hull_count_;
+  };
+  const auto share = [&](int i) { return i < hull_count_ ? areas[i] / whole[place(i)] : 1.0; };
+  const int count = clusters_.count + cells;
+  MatrixXcd coarser = MatrixXcd::Zero(count, count);
+  MatrixXcd coarser_right = MatrixXcd::Zero(count, right.cols());
+  for (int i = 0; i < matrix.rows(); ++i) coarser_right.row(place(i)) += share(i) * right.row(i);
+  for (int j = 0; j < matrix.cols(); ++j) {
+    for (int i = 0; i < matrix.rows(); ++i) coarser(place(i), place(j)) += share(i) * matrix(i, j);
+  }
+  solve_in_place(coarser, coarser_right, "the matrix of coarser panels of the hulls");
+  return coarser_right.topRows(clusters_.count);
 }
 
 MatrixXcd HullEquations::calc_radiation(const std::vector<Part>& parts, double frequency) const {
@@ -284,21 +310,26 @@ MatrixXcd HullEquations::calc_radiation(const std::vector<Part>& parts, double f
   return result;
 }
 
+MatrixXcd HullEquations::calc_coarser_radiation(const std::vector<Part>& parts,
+                                                double frequency) const {
+  std::vector<Part> constant = parts;
+  for (Part& part : constant) {
+    part.potentials.resize(hull_count_, part.coarser_potentials.cols());
+    for (int j = 0; j < hull_count_; ++j) {
+      part.potentials.row(j) = part.coarser_potentials.row(clusters_.of_panel[j]);
+    }
+  }
+  return calc_radiation(constant, frequency);
+}
+
 MatrixXcd HullEquations::calc_diffraction(const std::vector<Part>& parts, double frequency,
                                           const std::vector<double>& headings) const {
   MatrixXcd result = MatrixXcd::Zero(model_.mode_count(), headings.size());
   const Complex factor(0.0, frequency * model_.water().density * model_.symmetry().image_count());
-  for (std::size_t h = 0; h < headings.size(); ++h) {
-    const IncidentWave wave(model_.water(), frequency, headings[h]);
-    for (const Part& part : parts) {
-      const Eigen::VectorXcd opposed =
-          model_.part_of(part.parity, [&](const Vector3& p, const Vector3& n) -> Complex {
-            return -(wave.velocity(p).transpose() * n)(0);
-          });
-      const Eigen::VectorXcd weighted = model_.body_areas().asDiagonal() * opposed;
-      result(part.modes, static_cast<Eigen::Index>(h)) +=
-          factor * (part.potentials.transpose() * weighted);
-    }
+  for (const Part& part : parts) {
+    const MatrixXcd weighted = model_.body_areas().asDiagonal() *
+                               calc_opposed_velocities(model_, part.parity, frequency, headings);
+    result(part.modes, Eigen::all) += factor * (part.potentials.transpose() * weighted);
   }
   return result;
 }

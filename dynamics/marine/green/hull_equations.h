@@ -4,11 +4,14 @@
 #include <vector>
 
 #include "dynamics/marine/green/water_plane_cells.h"
+#include "dynamics/marine/panels/panel_clusters.h"
+#include "dynamics/marine/radiation/database_parts.h"
 #include "dynamics/marine/radiation/free_surface.h"
 
 namespace blocklift::dynamics {
 
-/// Memory (bytes) that HullEquations take at their peak, while one frequency is solved.
+/// Memory (bytes) that HullEquations take at their peak, while one frequency is solved; coarser
+/// panels not counted, which take less than a twentieth of it.
 /// @param unknowns panels and cells that are computed with. @param parts even and odd ones.
 double hull_equations_bytes(int unknowns, int parts);
 
@@ -50,18 +53,19 @@ class HullEquations {
   int cell_count() const { return cells_.size(); }
 
   /// The flow of one even or odd part.
-  struct Part {
-    Parity parity;
-    std::vector<int> modes;             ///< that have this part
-    Eigen::MatrixXd normal_velocities;  ///< n.u of these modes on the hulls' panels
-    Eigen::MatrixXcd potentials;        ///< phi there of unit velocities; m, m2
+  struct Part : FlowOfPart {
+    /// phi of the modes on clusters of the hulls' panels, where they were asked for.
+    Eigen::MatrixXcd coarser_potentials = {};
   };
   /// @param frequency rad/s; infinite: the flow of an impulse, phi = 0 on the surface.
+  /// @param with_coarser find the flow with panels of twice the size, too (cluster_panels).
   /// @throws ModelError unless it is positive; SimulationError if a matrix is singular.
-  std::vector<Part> solve(double frequency) const;
+  std::vector<Part> solve(double frequency, bool with_coarser = false) const;
 
   /// B + i w A of unit velocities, 6N x 6N; the added mass itself of the infinite frequency.
   Eigen::MatrixXcd calc_radiation(const std::vector<Part>& parts, double frequency) const;
+  /// calc_radiation with the coarser panels.
+  Eigen::MatrixXcd calc_coarser_radiation(const std::vector<Part>& parts, double frequency) const;
   /// Diffraction forces in waves of unit amplitude, 6N x headings (rad), by Haskind's relation;
   /// N/m, N.
   Eigen::MatrixXcd calc_diffraction(const std::vector<Part>& parts, double frequency,
@@ -75,6 +79,10 @@ class HullEquations {
   };
   void integrate_images();
   std::vector<Influence<std::complex<double>>> integrate_waves(double frequency) const;
+  Eigen::MatrixXcd make_matrix(const Influence<std::complex<double>>& waves, double frequency,
+                               int count) const;
+  Eigen::MatrixXcd solve_coarser(const Eigen::MatrixXcd& matrix,
+                                 const Eigen::MatrixXcd& right) const;
   /// Adds what the waves of panel or cell j are at all centroids.
   struct WaveColumn;
   void add_wave_column(int j, WaveColumn& column,
@@ -91,6 +99,7 @@ class HullEquations {
   std::vector<double> diameters_;       ///< m
   double reach_ = 0.0, deepest_ = 0.0;  ///< m
   std::vector<Parity> parities_;
+  PanelClusters clusters_;  ///< of the hulls' panels
   /// Of 1/r + 1/r1 + 1/r2 by part, and of 1/r1 alone.
   std::vector<Influence<double>> images_, surface_images_;
 };

@@ -118,6 +118,23 @@ TEST(HullEquations, WaterWithinTheHullDoesNotSwing) {
   EXPECT_GT(worst_bare, 0.1);
 }
 
+// Clusters of panels give nearly the same flow as panels; panels without clusters are the same.
+TEST(HullEquations, ClustersOfPanelsGiveNearlyTheSameFlow) {
+  const PanelModel model = make_model({{"cylinder", cylinder_of(24), Vector3::Zero()}},
+                                      {1.0, standard_gravity}, {true, true});
+  const HullEquations equations(model, {});
+  const double w = 2.0;
+  const auto parts = equations.solve(w, true);
+  const Eigen::MatrixXcd modes = equations.calc_radiation(parts, w);
+  const Eigen::MatrixXcd coarser = equations.calc_coarser_radiation(parts, w);
+  EXPECT_EQ(modes, equations.calc_radiation(equations.solve(w), w));
+  for (const int mode : {surge, heave}) {
+    const double change = std::abs(coarser(mode, mode) / modes(mode, mode) - 1.0);
+    EXPECT_GT(change, 1e-3) << mode;
+    EXPECT_LT(change, 0.1) << mode;
+  }
+}
+
 // A column that stands on the bottom: |F| = 4 rho g tanh(k h)/(k^2 |H1'(k a)|) (MacCamy and Fuchs
 // 1954).
 TEST(HullEquations, StandingCylinder) {
