@@ -99,12 +99,6 @@ void ElasticModel::find_inertia() {
   inertia_loads_ = structure::inertia_loads(matter, mass_);
 }
 
-MassProperties ElasticModel::mass_with(const std::optional<double>& total_mass,
-                                       const std::optional<Vector3>& centre_of_mass_B) const {
-  return find_mass_properties(*space_, total_mass ? &*total_mass : nullptr,
-                              centre_of_mass_B ? &*centre_of_mass_B : nullptr);
-}
-
 std::unique_ptr<ElasticModel> ElasticModel::with_mass(
     std::optional<double> total_mass, std::optional<Vector3> centre_of_mass_B) const {
   std::unique_ptr<ElasticModel> other(new ElasticModel(*this));

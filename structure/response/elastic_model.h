@@ -39,10 +39,6 @@ class ElasticModel {
 
   /// The same block in finer or coarser elements.
   std::unique_ptr<ElasticModel> with(const Resolution& resolution) const;
-  /// Mass properties of the same elements with another mass and centre, as the constructor takes
-  /// them. @throws ModelError as find_mass_properties does.
-  MassProperties mass_with(const std::optional<double>& total_mass,
-                           const std::optional<Vector3>& centre_of_mass_B) const;
   /// The same elements with another mass and centre: the space, and with it the
   /// stiffness, is shared.
   std::unique_ptr<ElasticModel> with_mass(std::optional<double> total_mass,
