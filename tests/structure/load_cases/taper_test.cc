@@ -168,8 +168,11 @@ TEST(Taper, WhatIsNotKnownIsRefused) {
   const auto begin = text.find("*NODAL THICKNESS"), end = text.find("*STEP");
   const std::string missing = test::complaints_of_abaqus(text.substr(0, begin) + text.substr(end));
   EXPECT_THAT(missing, ::testing::HasSubstr("nodes of element 1 have no *NODAL THICKNESS"));
+  // Layers of one material are a plate; of two they are not.
   const std::string even = "MATERIAL=M, NODAL THICKNESS\n0.05\n";
-  text.replace(text.find(even), even.size(), "COMPOSITE, NODAL THICKNESS\n0.05, 3, M, 0.\n");
+  text.replace(text.find(even), even.size(),
+               "COMPOSITE, NODAL THICKNESS\n0.03, 3, M, 0.\n0.02, 3, N, 0.\n");
+  text.insert(text.find("*SHELL SECTION"), "*MATERIAL, NAME=N\n*ELASTIC\n1.e11, 0.3\n");
   EXPECT_THAT(test::complaints_of_abaqus(text),
               ::testing::HasSubstr("layers cannot have the thickness of their nodes"));
 }

@@ -185,7 +185,7 @@ Mesh box_with_lug_on_plating(double largest_element) {
 // What lies within a shell is said by equations, which the reader takes for the same tie.
 TEST(LoadCaseDeck, PlacesWithinShellsAreEquations) {
   for (const auto& [is_on_mesh, degree] : {std::pair(false, 1), {false, 2}, {true, 1}, {true, 2}}) {
-    const ElasticModel model(is_on_mesh ? box_with_lug_on_plating(1) : box_with_solid_lug(1),
+    const ElasticModel model(is_on_mesh ? box_with_lug_on_plating(0.5) : box_with_solid_lug(1),
                              {degree, {}});
     const UnitResponses responses(model, 1);
     const LoadCase load = pull(model);
@@ -220,8 +220,9 @@ TEST(LoadCaseDeck, PlacesWithinShellsAreEquations) {
       difference += (found.col(column) - expected.col(column)).squaredNorm();
       size += expected.col(column).squaredNorm();
     }
-    // Small moments stand as pairs of forces, and a deck's quadratic shells have eight nodes.
-    EXPECT_LT(std::sqrt(difference / size), degree == 1 ? 2e-3 : 0.03);
+    // Small moments stand as pairs of forces. A deck's quadratic shells have eight nodes and the
+    // model's nine: on the plating 3.1 % on elements of 1 m, 1.0 % on these.
+    EXPECT_LT(std::sqrt(difference / size), degree == 1 ? 1e-4 : 0.015);
   }
 }
 
