@@ -87,7 +87,7 @@ class Integrator {
   double evaluated_time_ =
       not_a_number;  ///< of the right-hand side's last evaluation by the method, s
 
-  /// Time of the state of which the events' values are foreseen; a root is sought behind it by states of
+  /// Time of the state whose events' values are foreseen; a root is sought behind it by states of
   /// other times.
   double foreseen_time_ = not_a_number;
 

@@ -58,7 +58,8 @@ inline constexpr const char* wave_channel = "waves.elevation";
 /// it counts from the record's first row then. Cells that say nothing are left out of their channel.
 /// @param results of the lift that was measured, which say what columns may be called.
 /// @throws InputError with all that is wrong with all files: no header, no time, a time that does
-///   not rise, a column with hardly a value, a unit that is unknown or of another kind, a name that is not there or there twice.
+///   not rise, a column with hardly a value, a unit that is unknown
+///   or of another kind, a name that is not there or there twice.
 std::vector<MeasuredRecord> read_records(const std::vector<std::filesystem::path>& paths,
                                          const ResultsReader& results);
 

@@ -42,7 +42,7 @@ struct StudyBlocks::Kept {
   std::vector<structure::LiftingPoint> lugs;
   structure::MassDistribution matter;
   std::unique_ptr<structure::ElasticModel> model;       ///< null: no member asked for it
-  std::unique_ptr<structure::UnitResponses> responses;  ///< likewise
+  std::unique_ptr<structure::UnitResponses> responses;  ///< null: nor for these
   std::optional<structure::StressBasis> basis;
   std::optional<structure::RefinedBlock> refined;  ///< that the basis is of, where it is needed
 };

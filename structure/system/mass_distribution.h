@@ -16,7 +16,7 @@ class MassDistribution {
   explicit MassDistribution(const Matter& matter);
 
   /// See find_mass_properties, which gives the same to the last bit.
-  /// @param stated_mass kg; null: the steel's. @param stated_centre m; null: likewise.
+  /// @param stated_mass kg; null: the steel's. @param stated_centre m; null: the steel's.
   /// @throws ModelError as find_mass_properties does.
   MassProperties with(const double* stated_mass, const Vector3* stated_centre) const;
 

@@ -9,7 +9,7 @@ namespace blocklift::dynamics {
 /// heading of the waves, c and c_g their phase and group velocity and P the power that is taken
 /// out of the motion otherwise than by waves (W/m2),
 ///
-///   F_x = rho g c_g/(2 c) int |H|^2 (cos theta - cos t) dt + cos theta P/c,  F_y by sine in place of cosine,
+///   F_x = rho g c_g/(2 c) int |H|^2 (cos theta - cos t) dt + cos theta P/c,  F_y with sine,
 ///   M_z = - rho g c_g/(2 w) (int i H* H' dt + 2 sqrt(2 pi/k) Re(i H'(theta) exp(-i pi/4))),
 ///
 /// the latter about the vertical axis through the origin. The first is Maruo's (1960), with P for

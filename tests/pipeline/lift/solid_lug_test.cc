@@ -36,9 +36,11 @@ struct SolidLugBlock {
   std::string complaints;  ///< of its file and, without any, of its mesh
 };
 
-SolidLugBlock block_of(const std::string& text) {
+/// @param deck what tee.bdf is, beside the block.
+SolidLugBlock block_of(const std::string& text, const std::string& deck = "") {
   const test::TemporaryFolder folder;
   folder.write("block.yaml", text);
+  folder.write("tee.bdf", deck);
   ModelLibrary library({});
   Diagnostics diagnostics;
   SolidLugBlock result;
@@ -225,20 +227,12 @@ std::string tee_deck() {
 }
 
 SolidLugBlock mesh_block_of(const std::string& lugs, const std::string& deck = tee_deck()) {
-  const test::TemporaryFolder folder;
-  folder.write("tee.bdf", deck);
-  folder.write("block.yaml",
-               "kind: block\nmesh: {file: tee.bdf, units: mm-t-N, yield_stress: 355 MPa}\n"
-               "padeyes: {small: {radius: 120 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm}}\n"
-               "lugs:\n" +
-                   lugs);
-  ModelLibrary library({});
-  Diagnostics diagnostics;
-  SolidLugBlock result;
-  result.block = library.read_block("block.yaml", diagnostics);
-  if (!diagnostics.has_errors()) check_block_model(*result.block, "block", diagnostics);
-  result.complaints = diagnostics.to_text();
-  return result;
+  return block_of(
+      "kind: block\nmesh: {file: tee.bdf, units: mm-t-N, yield_stress: 355 MPa}\n"
+      "padeyes: {small: {radius: 120 mm, thickness: 40 mm, hole: 60 mm, pin: 57 mm}}\n"
+      "lugs:\n" +
+          lugs,
+      deck);
 }
 
 /// A lug of a deck with how its padeye stands, and more of its keys.

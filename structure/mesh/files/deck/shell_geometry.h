@@ -23,7 +23,7 @@ Eigen::Vector2d place_of_middle(std::size_t corners, std::size_t i);
 
 /// Vertices in the order of Shell::vertices from those around a quadrangle or triangle.
 std::array<int, 4> lexicographic(const std::vector<int>& around);
-/// Likewise what they have.
+/// The same of what they have.
 std::array<double, 4> lexicographic(const std::vector<double>& around);
 
 /// Unit normal of a shell in its middle.
