@@ -1,18 +1,13 @@
 #include "structure/nearest_name.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
+
+#include "structure/letter_case.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
 
 /// Optimal string alignment distance: Damerau (1964), each substring edited once.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -37,12 +32,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 100;  // the distance takes the product of both lengths
   if (name.empty() || name.size() > longest) return {};
-  const std::string wrong = lower_case(name);
+  const std::string wrong = lower(std::string(name));
   const std::string* nearest = nullptr;
   std::size_t smallest = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;
-    const std::size_t distance = edit_distance(wrong, lower_case(candidate));
+    const std::size_t distance = edit_distance(wrong, lower(candidate));
     if (distance < smallest) {
       smallest = distance;
       nearest = &candidate;

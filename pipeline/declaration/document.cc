@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -20,6 +19,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/declaration/text_file.h"
+#include "structure/letter_case.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -213,10 +213,7 @@ namespace {
 bool is_mesh_file(const fs::path& path) {
   static constexpr std::array endings = {".bdf",  ".nas", ".dat", ".inp",  ".msh",
                                          ".step", ".stp", ".igs", ".iges", ".brep"};
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+  return std::find(endings.begin(), endings.end(), structure::ending_of(path)) != endings.end();
 }
 
 }  // namespace

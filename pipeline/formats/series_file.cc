@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "pipeline/formats/clock_time.h"
+#include "structure/letter_case.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -54,11 +54,9 @@ std::optional<double> number(std::string cell, char separator) {
 }
 
 /// Does a logger say so that a value lacks?
-bool says_nothing(std::string cell) {
-  std::transform(cell.begin(), cell.end(), cell.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+bool says_nothing(const std::string& cell) {
   constexpr std::array<std::string_view, 6> words{"", "nan", "na", "n/a", "null", "-"};
-  return std::find(words.begin(), words.end(), cell) != words.end();
+  return std::find(words.begin(), words.end(), structure::lower(cell)) != words.end();
 }
 
 /// Puts rows into columns, a line after another.

@@ -1,7 +1,5 @@
 #include "pipeline/formats/hydrodynamics/hull_file.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <unordered_map>
@@ -13,6 +11,7 @@
 #include "dynamics/errors.h"
 #include "structure/child_process.h"
 #include "structure/error.h"
+#include "structure/letter_case.h"
 #include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"
 
@@ -121,9 +120,7 @@ dynamics::Hull read_by_gmsh(const std::filesystem::path& path, bool is_geometry,
 }  // namespace
 
 dynamics::Hull read_hull(const std::filesystem::path& path, const HullReading& reading) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = structure::ending_of(path);
   if (!std::filesystem::is_regular_file(path)) {
     throw HullFileError(path.string() + ": there is no such file");
   }

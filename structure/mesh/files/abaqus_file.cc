@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/mesh/files/capitals.h"
+#include "structure/letter_case.h"
 #include "structure/outside_files.h"
 
 namespace blocklift::structure {

@@ -10,7 +10,7 @@
 
 #include <gmsh.h>
 
-#include "structure/mesh/files/capitals.h"
+#include "structure/letter_case.h"
 
 namespace blocklift::structure {
 

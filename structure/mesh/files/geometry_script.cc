@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/letter_case.h"
 #include "structure/outside_files.h"
 
 namespace blocklift::structure {
@@ -48,12 +48,10 @@ constexpr std::array<std::string_view, 3> printing_words = {"Printf", "Error", "
 
 /// Endings of formats that hold data alone, by which Gmsh tells them.
 bool is_data(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   constexpr std::array<std::string_view, 12> data = {".step", ".stp",  ".iges", ".igs",
                                                      ".brep", ".stl",  ".unv",  ".vtk",
                                                      ".med",  ".mesh", ".cgns", ".ply"};
-  return std::find(data.begin(), data.end(), ending) != data.end();
+  return std::find(data.begin(), data.end(), ending_of(path)) != data.end();
 }
 
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }

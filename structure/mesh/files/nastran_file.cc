@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/mesh/files/capitals.h"
+#include "structure/letter_case.h"
 
 namespace blocklift::structure {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -15,6 +14,7 @@
 
 #include "structure/child_process.h"
 #include "structure/error.h"
+#include "structure/letter_case.h"
 #include "structure/mesh/files/abaqus_model.h"
 #include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"
@@ -77,15 +77,9 @@ std::size_t solid_count() {
   return count;
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
-
 // Abaqus' and Nastran's solids by readers of our own, all else by Gmsh.
 void open_file(const std::string& path, std::map<std::string, std::vector<std::size_t>>& points) {
-  const std::string extension = extension_of(path);
+  const std::string extension = ending_of(path);
   if (extension == ".inp") {
     points = add_to_gmsh(read_abaqus(path));
     return;

@@ -12,7 +12,7 @@
 #include <gmsh.h>
 
 #include "structure/error.h"
-#include "structure/mesh/files/capitals.h"
+#include "structure/letter_case.h"
 
 namespace blocklift::structure {
 
