@@ -12,9 +12,6 @@ namespace blocklift::structure {
 
 namespace {
 
-constexpr double farthest =
-    1;  // m, from a pin to the plates that carry it, unless a radius is given
-
 std::string text_of(const Vector3& place) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", place.x(), place.y(), place.z());
 }
@@ -103,7 +100,7 @@ class LugMaker {
     }
     if (vertex < 0) {
       const auto [found, distance] = nearest();
-      if (distance > farthest)
+      if (distance > lug_.farthest)
         throw ModelError(
             fmt::format("lug {}: the plate nearest to its pin at {} is {:.4g} m away; give a "
                         "radius within which plates carry it, or the nodes that do",

@@ -16,6 +16,7 @@ struct LugOnMesh {
   /// What carries it, by a named set; all empty: found by place.
   std::vector<int> shells = {}, beams = {}, vertices = {};
   double radius = 0;  ///< within which plates carry it, m; 0: those that meet in the nearest vertex
+  double farthest = 1;  ///< from the pin that the nearest vertex may be, m, without a radius
 };
 
 /// Adds a lifting point to a mesh.
@@ -25,7 +26,7 @@ struct LugOnMesh {
 /// a link) takes the force as it is, and a set without shells takes it by its vertices, through a
 /// distributing link of equal weights whose reference is a new vertex at the pin.
 ///
-/// @throws ModelError if the pin is farther than 1 m from all plates and no radius is given, no
+/// @throws ModelError if the pin is too far from all plates and no radius is given, no
 ///   plate lies within the radius, or nothing uses the vertex.
 void add_lug(Mesh& mesh, const LugOnMesh& lug);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <limits>
 
@@ -13,14 +12,14 @@
 #include "pipeline/files/named_file.h"
 #include "pipeline/files/structure/block_model.h"
 #include "pipeline/files/structure/deck_supports.h"
+#include "pipeline/files/structure/lugs_on_mesh.h"
 #include "pipeline/formats/content_hash.h"
 #include "structure/error.h"
+#include "structure/letter_case.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/files/surfaces/cad_file.h"
 #include "structure/mesh/files/surfaces/surface_reader.h"
-#include "structure/mesh/lug_on_mesh.h"
-#include "structure/mesh/plate_finder.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -32,17 +31,6 @@ using structure::Mesh;
 // The heaviest lifts are of some 50,000 t, the longest structures that are lifted of some 500 m.
 constexpr double heaviest = 1e8;                   // kg
 constexpr double longest = 1000, shortest = 0.05;  // m
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-std::string upper_case(std::string text) {
-  for (char& letter : text)
-    letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-  return text;
-}
 
 /// Is a card or keyword one of loads or supports? A lift has its own.
 bool is_of_loads(const std::string& name) {
@@ -120,7 +108,7 @@ class MeshReader {
     mesh_model_.diagnosis =
         std::make_shared<const structure::Diagnosis>(structure::diagnose(deck->mesh));
     check_diagnosis(*deck);
-    for (LugModel& lug : block_.lugs) put(lug, *deck);
+    put_lugs(block_, *deck, diagnostics_);
     mesh_model_.deck = deck;
   }
 
@@ -135,7 +123,7 @@ class MeshReader {
         path_of_named_file(mesh_model_.file, folder_, diagnostics_, homes_);
     if (!found) return false;
     const fs::path& path = *found;
-    const std::string ending = lower_case(named.extension().string());
+    const std::string ending = structure::ending_of(named);
     if (is_bare(mesh_model_) && !mesh_model_.leave_out.empty())
       diagnostics_.error(mesh_model_.leave_out.front().mark,
                          mesh_model_.file.value + " has neither cards nor keywords",
@@ -178,7 +166,7 @@ class MeshReader {
   std::vector<std::string> cards_left_out() const {
     std::vector<std::string> cards;
     for (const Located<std::string>& card : mesh_model_.leave_out)
-      cards.push_back(upper_case(card.value));
+      cards.push_back(structure::upper(card.value));
     return cards;
   }
 
@@ -328,7 +316,7 @@ class MeshReader {
             }))
           continue;
         groups_of_bars.push_back(group.name);
-        if (lower_case(group.name) != lower_case(name.value)) continue;
+        if (structure::lower(group.name) != structure::lower(name.value)) continue;
         is_known = true;
         group.tripping_brackets = spacing.value;
       }
@@ -368,112 +356,6 @@ class MeshReader {
   bool concerns_use(const structure::Finding& finding) const {
     return use_ == MeshUse::lift || finding.kind.starts_with("shells without") ||
            finding.kind == "folded solids";
-  }
-
-  /// @returns false after a complaint.
-  bool find_carriers(const LugModel& lug, const Deck& deck, structure::LugOnMesh& placed) {
-    if (lug.node) {
-      const auto& labels = deck.mesh.vertex_labels;
-      const auto found = std::find(labels.begin(), labels.end(), lug.node->value);
-      if (found == labels.end() ||
-          std::find(found + 1, labels.end(), lug.node->value) != labels.end()) {
-        diagnostics_.error(
-            lug.node->mark,
-            fmt::format("lug {} is at node {}, of which the deck has {}", lug.name.value,
-                        lug.node->value, found == labels.end() ? "none" : "several"),
-            {"give its pin, the place in the block"});
-        return false;
-      }
-      placed.vertex = static_cast<int>(found - labels.begin());
-    }
-    return !lug.set || find_set(lug, deck, placed);
-  }
-
-  bool find_set(const LugModel& lug, const Deck& deck, structure::LugOnMesh& placed) {
-    const std::string wanted = lower_case(lug.set->value);
-    std::vector<std::string> names;
-    for (const structure::NamedSet& set : deck.sets) {
-      names.push_back(set.name);
-      if (lower_case(set.name) != wanted) continue;
-      placed.shells.insert(placed.shells.end(), set.shells.begin(), set.shells.end());
-      placed.beams.insert(placed.beams.end(), set.beams.begin(), set.beams.end());
-      placed.vertices.insert(placed.vertices.end(), set.vertices.begin(), set.vertices.end());
-    }
-    const Mesh& mesh = deck.mesh;
-    for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
-      names.push_back(mesh.groups[g].name);
-      if (lower_case(mesh.groups[g].name) != wanted) continue;
-      const auto belongs = [&](int region) {
-        return mesh.regions[region].group == static_cast<int>(g);
-      };
-      for (std::size_t s = 0; s < mesh.shells.size(); ++s)
-        if (belongs(mesh.shells[s].region)) placed.shells.push_back(static_cast<int>(s));
-      for (std::size_t b = 0; b < mesh.beams.size(); ++b)
-        if (belongs(mesh.beams[b].region)) placed.beams.push_back(static_cast<int>(b));
-    }
-    if (!placed.shells.empty() || !placed.beams.empty() || !placed.vertices.empty()) return true;
-    diagnostics_.error(lug.set->mark,
-                       fmt::format("lug {} names set \"{}\", which the deck does not have",
-                                   lug.name.value, lug.set->value),
-                       {names_hint("its sets and groups are", names, lug.set->value)});
-    return false;
-  }
-
-  void put(LugModel& lug, Deck& deck) {
-    structure::LugOnMesh placed;
-    placed.name = lug.name.value;
-    placed.radius = lug.radius.value_or(0);
-    if (lug.pin.value.allFinite()) placed.pin = lug.pin.value;
-    if (!placed.pin && !lug.node && !lug.set) return;  // complained about elsewhere
-    if (!find_carriers(lug, deck, placed)) return;
-    // What lies below its base carries a solid, however far the pin is from all nodes.
-    if (lug.is_solid.value && placed.pin) placed.vertex = nearest_corner(deck.mesh, *placed.pin);
-    try {
-      structure::add_lug(deck.mesh, placed);
-      lug.pin.value = deck.mesh.lifting_points.back().p_BPin;
-      check_base(lug, deck.mesh);
-    } catch (const structure::ModelError& wrong) {
-      diagnostics_.error(lug.name.mark, wrong.what());
-    }
-  }
-
-  /// Of all shells'; -1 without any.
-  static int nearest_corner(const Mesh& mesh, const Vector3& place) {
-    int nearest = -1;
-    double least = std::numeric_limits<double>::infinity();
-    for (const structure::Shell& shell : mesh.shells)
-      for (const int corner : shell.vertices) {
-        const double distance = (mesh.vertices[corner] - place).norm();
-        if (distance < least) nearest = corner;
-        least = std::min(least, distance);
-      }
-    return nearest;
-  }
-
-  /// A padeye's base lies within plates: what drives its fine mesh.
-  void check_base(const LugModel& lug, const Mesh& mesh) {
-    const PadeyeDesign* design = block_.find_padeye(lug);
-    std::vector<std::string> faults;
-    const auto placed = design ? place_padeye(*design, block_, lug, faults) : std::nullopt;
-    if (!placed || !faults.empty()) return;  // complained about elsewhere
-    const structure::PlateFinder plates(mesh);
-    const structure::PadeyeGeometry& g = placed->geometry;
-    constexpr int steps = 16;
-    // A solid stands by its middle plane on whatever is below.
-    const double half = lug.is_solid.value ? 0 : g.thickness / 2;
-    for (int i = 0; i <= steps; ++i)
-      for (const double z : {-half, half}) {
-        const double x = -g.base_left + (g.base_left + g.base_right) * i / steps;
-        const Vector3 place = placed->p_BP + placed->R_BP * Vector3(x, -g.height, z);
-        if (plates.find(place)) continue;
-        diagnostics_.error(
-            lug.padeye->mark,
-            fmt::format("the base of lug {}'s padeye is at ({:.6g}, {:.6g}, {:.6g}) m, where the "
-                        "block has no plate",
-                        lug.name.value, place.x(), place.y(), place.z()),
-            {"it lies on a deck or along a plate's edge: look at pin, axis, up, height and base"});
-        return;
-      }
   }
 
   BlockModel& block_;
@@ -545,7 +427,7 @@ Format<MeshModel> mesh_model_format() {
 
 bool is_bare(const MeshModel& mesh) {
   const std::string& file = mesh.file.value;
-  return structure::is_cad_file(file) || lower_case(fs::path(file).extension().string()) == ".msh";
+  return structure::is_cad_file(file) || structure::ending_of(file) == ".msh";
 }
 
 void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics,

@@ -2,37 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/structure/copied_parts.h"
+#include "pipeline/files/structure/lug_format.h"
 #include "pipeline/files/structure/profile_format.h"
+#include "pipeline/files/structure/rectangle_keys.h"
 
 namespace blocklift::pipeline {
 namespace {
-
-using Extent = std::optional<Located<std::array<double, 2>>>;
-
-using Axes = std::vector<std::pair<std::string, std::size_t>>;
-const Axes axes = {{"x", 0}, {"y", 1}, {"z", 2}};
-const Axes plate_axes = {{"u", 0}, {"v", 1}, {"n", 2}};  // of a plate by its corners
-
-Format<std::array<double, 2>> extent_format() {
-  const auto pair = array_of<double, 2>(quantity(Dimension::length));
-  return {pair.description,
-          [pair](const YAML::Node& node, Reading& reading, std::array<double, 2>& value) {
-            if (!pair.read(node, reading, value)) return false;
-            if (value[0] < value[1]) return true;
-            reading.error(node,
-                          fmt::format("extent {} ends at {:.6g} m, where it begins at {:.6g} m",
-                                      reading.key(), value[1], value[0]),
-                          {"an extent is [lower end, upper end]"});
-            return false;
-          }};
-}
 
 /// Positions from, from + spacing, ... to.
 struct Stations {
@@ -90,55 +70,6 @@ Format<std::vector<double>> positions_format() {
       length, [](double value) { return std::vector{value}; });
   const auto row = converted<Stations, std::vector<double>>(table.format(), positions_of);
   return by_shape<std::vector<double>>(one, list_of(length, 1), row);
-}
-
-/// The extents as the file writes them, three keys of their own.
-template <class T>
-struct Written : T {
-  Extent x, y, z;
-  T taken() const {
-    T value = *this;
-    value.extent = {x, y, z};
-    return value;
-  }
-};
-
-const char* const extent_meaning = "lower and upper end; left out along the normal";
-
-template <class T>
-Table<Written<T>>& extent_keys(Table<Written<T>>& table) {
-  const std::string meaning = extent_meaning;
-  return table.optional("x", &Written<T>::x, extent_format(), meaning)
-      .optional("y", &Written<T>::y, extent_format(), meaning)
-      .optional("z", &Written<T>::z, extent_format(), meaning);
-}
-
-template <class T>
-Format<T> taken(const Table<Written<T>>& table) {
-  return converted<Written<T>, T>(table.format(), [](const Written<T>& w) { return w.taken(); });
-}
-
-/// The extents across the normal are given, the one along it is not.
-template <class T>
-void check_rectangle(const Written<T>& written, const Axes& names, Reading& reading,
-                     const Mark& mark) {
-  const std::array<Extent, 3> extent = {written.x, written.y, written.z};
-  for (const auto& [name, axis] : names) {
-    if (axis == written.normal && extent[axis]) {
-      reading.error(
-          extent[axis]->mark,
-          fmt::format("{} is normal to {} and so has no extent along it", reading.owner(), name),
-          {"its place along the normal is \"at\""});
-    } else if (axis != written.normal && !extent[axis]) {
-      reading.error(mark, fmt::format("{} lacks the key \"{}\"", reading.owner(), name),
-                    {"it is the extent along " + name + ": [lower end, upper end]"});
-    }
-  }
-}
-
-template <class T>
-void check_in_block(const Written<T>& written, Reading& reading, const Mark& mark) {
-  check_rectangle(written, axes, reading, mark);
 }
 
 Format<MaterialModel> material_format() {
@@ -212,7 +143,9 @@ Format<PlateModel> rectangle_format() {
                                    "Equal flat rectangular plates, one at each position "
                                    "along their normal; the thickness lies half on each "
                                    "side.");
-  table.required("normal", &Rectangle::normal, choice<std::size_t>(axes), "axis across the plate")
+  table
+      .required("normal", &Rectangle::normal, choice<std::size_t>(block_axes),
+                "axis across the plate")
       .required("at", &PlateModel::at, positions_format(), "positions of the mid-planes");
   extent_keys(table)
       .required("thickness", &PlateModel::thickness, quantity(Dimension::length, Range::positive()),
@@ -220,7 +153,7 @@ Format<PlateModel> rectangle_format() {
       .optional("material", &PlateModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
       .optional(
-          "stiffeners", &PlateModel::stiffeners, stiffeners_format(axes, "the block"),
+          "stiffeners", &PlateModel::stiffeners, stiffeners_format(block_axes, "the block"),
           "that the plate carries: beams or plates with a profile, else left out of the model")
       .rule([](const Written<PlateModel>& plate, Reading& reading, const Mark& mark) {
         if (!plate.stiffeners || plate.stiffeners->along != plate.normal) return;
@@ -228,7 +161,9 @@ Format<PlateModel> rectangle_format() {
                       fmt::format("the stiffeners of {} run along its normal", reading.owner()),
                       {"they run along one of its two other axes"});
       })
-      .rule(check_in_block<PlateModel>);
+      .rule([](const Written<PlateModel>& plate, Reading& reading, const Mark& mark) {
+        check_rectangle(plate, block_axes, reading, mark);
+      });
   return taken(table);
 }
 
@@ -277,18 +212,6 @@ Format<PlateModel> free_plate_format() {
                         {"give its corners, or the two edges between which it is ruled"});
       });
   return table.format();
-}
-
-/// One of several tables, told apart by their keys.
-template <class T>
-Format<T> one_of_tables(const std::vector<Format<T>>& formats,
-                        const std::function<std::size_t(const YAML::Node&)>& which) {
-  auto description = std::make_shared<ValueDescription>();
-  description->kind = ValueDescription::Kind::any_of;
-  for (const Format<T>& format : formats) description->alternatives.push_back(format.description);
-  return {description, [formats, which](const YAML::Node& node, Reading& reading, T& value) {
-            return formats[node.IsMap() ? which(node) : 0].read(node, reading, value);
-          }};
 }
 
 /// Rectangles normal to an axis, or one plate of any orientation, told apart by their keys.
@@ -346,19 +269,19 @@ Format<BarModel> bar_format() {
   return table.format();
 }
 
-bool has_plate_axes(const YAML::Node& node) { return node["u"] || node["v"] || node["n"]; }
-
 Format<PadModel> axis_pad_format() {
   Table<Written<PadModel>> table("pad", "A region in which a plate is thicker, around a lug.");
   table.required("plate", &PadModel::plate, reference(), "the plate that it thickens")
-      .required("normal", &Rectangle::normal, choice<std::size_t>(axes), "that of the plate")
+      .required("normal", &Rectangle::normal, choice<std::size_t>(block_axes), "that of the plate")
       .required("at", &PadModel::at, quantity(Dimension::length),
                 "position of the plate's mid-plane");
   extent_keys(table)
       .required("thickness", &PadModel::thickness, quantity(Dimension::length, Range::positive()),
                 "in total, the plate included")
       .optional("material", &PadModel::material, reference(), "that of the plate if left out")
-      .rule(check_in_block<PadModel>);
+      .rule([](const Written<PadModel>& pad, Reading& reading, const Mark& mark) {
+        check_rectangle(pad, block_axes, reading, mark);
+      });
   return taken(table);
 }
 
@@ -384,151 +307,6 @@ Format<PadModel> pad_format() {
   return one_of_tables<PadModel>(
       {axis_pad_format(), free_pad_format()},
       [](const YAML::Node& node) { return has_plate_axes(node) ? 1 : 0; });
-}
-
-Format<PadeyeOnMesh> padeye_on_mesh_format() {
-  const auto length = quantity(Dimension::length, Range::positive());
-  Table<PadeyeOnMesh> table(
-      "padeye on a mesh",
-      "How a padeye stands on the plates of a mesh. It is checked by hand formulae and by a fine "
-      "mesh of its own, which the block drives along the base; its steel is that of the plate "
-      "there. Its base lies within a plate: on a deck, or along the edge of a plate that goes on "
-      "below it.");
-  table
-      .required("design", &PadeyeOnMesh::design, reference(),
-                "one of the block's padeyes: what the lug is made as")
-      .required("axis", &PadeyeOnMesh::axis, direction_format(), "direction of the pin")
-      .required("up", &PadeyeOnMesh::up, direction_format(), "from the base to the pin, across it")
-      .required("height", &PadeyeOnMesh::height, length, "of the pin's centre above the base")
-      .required("base", &PadeyeOnMesh::base, array_of<double, 2>(length),
-                "how far it runs from below the pin, against the direction up x axis and along it")
-      .rule([](const PadeyeOnMesh& padeye, Reading& reading, const Mark& mark) {
-        const double cosine = std::abs(padeye.axis.dot(padeye.up));
-        if (cosine > 1e-3)
-          reading.error(mark,
-                        fmt::format("the pin's axis stands at {:.4g} degrees on the padeye's "
-                                    "upward direction",
-                                    std::acos(std::min(1.0, cosine)) * 180 / std::numbers::pi),
-                        {"give axis and up at a right angle"});
-      });
-  return table.format();
-}
-
-Format<Located<bool>> shells_or_solid() {
-  return located(choice<bool>({{"shells", false}, {"solid", true}}));
-}
-
-/// A solid padeye has a place of its own, and what lies below its base carries it.
-void check_solid_place(const LugModel& lug, Reading& reading) {
-  if (!lug.is_solid.value) return;
-  const std::string user = reading.owner() + ", a solid,";
-  const std::vector<std::string> allowed{
-      "a solid padeye has a pin and a padeye; the plates below its base carry it"};
-  if (lug.pin.mark.line <= 0) reading.error(lug.is_solid.mark, user + " has no pin", allowed);
-  if (lug.node) reading.error(lug.node->mark, user + " names a node", allowed);
-  if (lug.set) reading.error(lug.set->mark, user + " names a set", allowed);
-  if (lug.radius) reading.error(lug.is_solid.mark, user + " has a radius", allowed);
-}
-
-/// A lug on a mesh.
-Format<LugModel> place_format() {
-  Table<LugModel> table(
-      "lug",
-      "On a mesh a lug is a place, by its pin, a node or a set, and what is there "
-      "carries it: the plates of the set, those with a corner within the radius "
-      "of the pin, or those that meet in the node nearest to it; the nodes of a "
-      "set without plates; a node where no plates meet.");
-  table
-      .optional("pin", &LugModel::pin, position_format(),
-                "centre of the pin; left out: the node, or the middle of the set's nodes")
-      .optional("node", &LugModel::node, integer(Range::positive()),
-                "number of the node that it stands at")
-      .optional("set", &LugModel::set, text(),
-                "a set, or group of a property, whose plates, bars or nodes carry it")
-      .optional("radius", &LugModel::radius, quantity(Dimension::length, Range::positive()),
-                "of the sphere about the pin in which plates carry it")
-      .optional("padeye", &LugModel::on_mesh, padeye_on_mesh_format(),
-                "how it stands as one of the block's padeyes; without, what carries it is checked "
-                "alone")
-      .by_default("as", &LugModel::is_solid, shells_or_solid(), "shells",
-                  "what the model has of it: nothing but the mesh as it is, or its padeye as a "
-                  "solid that stands on the plates below its base")
-      .rule([](const LugModel& lug, Reading& reading, const Mark& mark) {
-        check_solid_place(lug, reading);
-        const bool has_place = lug.node || lug.set || lug.pin.mark.line > 0;
-        if (!has_place)
-          reading.error(
-              mark, reading.owner() + " has no place",
-              {"give its pin, a node or a set of the mesh; on plates its pad, normal, at, "
-               "thickness and pin"});
-        if (lug.set && (lug.node || lug.radius))
-          reading.error(lug.set->mark, reading.owner() + " has a set and also a node or a radius",
-                        {"the set alone says what carries it"});
-      });
-  return table.format();
-}
-
-/// Keys of a lug plate beside its extents.
-Table<Written<LugModel>>& lug_keys(Table<Written<LugModel>>& table, const Axes& of_normal,
-                                   const std::string& place_of_pin) {
-  return table.required("pad", &LugModel::pad, reference(), "the pad that it is joined to")
-      .required("normal", &Rectangle::normal, choice<std::size_t>(of_normal),
-                "axis across the lug plate")
-      .required("at", &LugModel::at, quantity(Dimension::length), "position of its mid-plane")
-      .required("thickness", &LugModel::thickness, quantity(Dimension::length, Range::positive()),
-                "of the lug plate")
-      .required("pin", &LugModel::pin, position_format(), place_of_pin)
-      .optional("material", &LugModel::material, reference(), "that of the pad if left out")
-      .optional("padeye", &LugModel::padeye, reference(),
-                "one of the block's padeyes: what the lug is made as, checked by hand formulae and "
-                "by a fine mesh")
-      .by_default("as", &LugModel::is_solid, shells_or_solid(), "shells",
-                  "what the model has of it: its plate as shells, or its padeye as a solid that "
-                  "stands on the pad's edge")
-      .rule([of_normal](const Written<LugModel>& lug, Reading& reading, const Mark& mark) {
-        check_rectangle(lug, of_normal, reading, mark);
-      });
-}
-
-Format<LugModel> plate_lug_format() {
-  Table<Written<LugModel>> table("lug",
-                                 "A plate that stands on a pad. The rope pulls at the pin; "
-                                 "its force is spread over the lug plate.");
-  lug_keys(extent_keys(table), axes, "centre of the pin");
-  return taken(table);
-}
-
-Format<LugModel> free_lug_format() {
-  Table<Written<LugModel>> table("lug",
-                                 "A plate that stands on the pad of a plate by its corners, in "
-                                 "that plate's own frame u, v, n.");
-  table.optional("u", &Written<LugModel>::x, extent_format(), extent_meaning)
-      .optional("v", &Written<LugModel>::y, extent_format(), extent_meaning)
-      .optional("n", &Written<LugModel>::z, extent_format(), extent_meaning);
-  lug_keys(table, plate_axes, "centre of the pin, [u, v, n]");
-  return converted<LugModel, LugModel>(taken(table), [](LugModel lug) {
-    lug.is_in_plate_frame = true;
-    lug.pin_in_plate = lug.pin.value;
-    return lug;
-  });
-}
-
-/// A plate on a pad or a place on a mesh, told apart by their keys.
-Format<LugModel> lug_format() {
-  const auto is_place = [](const YAML::Node& node) {
-    const auto has = [&](const char* key) { return static_cast<bool>(node[key]); };
-    return has("node") || has("set") || has("radius") ||
-           (has("pin") && !has("pad") && !has("normal") && !has("at"));
-  };
-  const auto place = converted<LugModel, LugModel>(place_format(), [](LugModel lug) {
-    lug.is_place = true;
-    if (lug.on_mesh) lug.padeye = lug.on_mesh->design;
-    return lug;
-  });
-  return one_of_tables<LugModel>({plate_lug_format(), free_lug_format(), place},
-                                 [is_place](const YAML::Node& node) {
-                                   return is_place(node) ? 2 : has_plate_axes(node) ? 1 : 0;
-                                 });
 }
 
 }  // namespace
