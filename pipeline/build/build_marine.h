@@ -11,7 +11,7 @@
 #include "dynamics/marine/radiation/hydrodynamic_series.h"
 #include "dynamics/marine/radiation/radiation.h"
 #include "dynamics/simulation/lift_system.h"
-#include "dynamics/simulation/straying.h"
+#include "dynamics/simulation/misplacement.h"
 #include "pipeline/files/lift_case/marine_parts.h"
 
 namespace blocklift::pipeline {

@@ -131,7 +131,7 @@ void print_motion(const LiftRun& lift) {
   const dynamics::IntegrationStatistics& cost = lift.dynamic_result.statistics;
   fmt::print("time integration: {} steps, {} right-hand sides, {} Jacobians\n", cost.steps,
              cost.right_hand_sides, cost.jacobians);
-  fmt::print("{}", straying_notice(record_radiation(lift.model, lift.dynamic_history())));
+  fmt::print("{}", misplacement_notice(record_radiation(lift.model, lift.dynamic_history())));
 }
 
 void print_block(const BlockAssessment& block, const HistoryAssessment* history) {

@@ -70,7 +70,7 @@ void print_mechanism(const MechanismFile& file, const MechanismRun& run) {
   if (!run.natural_modes.empty()) {
     print_wrapped(describe_natural_periods(run.natural_modes.front()));
   }
-  fmt::print("{}", straying_notice(record_radiation(run.mechanism, run.result.history)));
+  fmt::print("{}", misplacement_notice(record_radiation(run.mechanism, run.result.history)));
   print_statistics(run.result.statistics, run.elapsed);
 }
 
@@ -110,7 +110,7 @@ void print_lift(const LiftSimulation& simulation) {
   if (!simulation.run.natural_modes.empty()) {
     print_wrapped(describe_natural_periods(simulation.run.natural_modes.front()));
   }
-  fmt::print("{}", straying_notice(
+  fmt::print("{}", misplacement_notice(
                        record_radiation(simulation.run.model, simulation.run.dynamic_history())));
   print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
 }

@@ -250,8 +250,9 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
           : fmt::format("The memory of the water is fitted by {} states to within {:.1f} % of its "
                         "peak.",
                         system.memory_count(), 100 * system.water()->memory_error())));
-  std::string straying = straying_sentence(record_radiation(lift.model, lift.dynamic_history()));
-  if (!straying.empty()) list.push_back(std::move(straying));
+  std::string misplacement =
+      misplacement_sentence(record_radiation(lift.model, lift.dynamic_history()));
+  if (!misplacement.empty()) list.push_back(std::move(misplacement));
 }
 
 std::string flexibility_sentence(const DynamicsSettings& settings) {

@@ -11,16 +11,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using dynamics::LargestInTime;
-using dynamics::PairStraying;
+using dynamics::PairMisplacement;
 
 constexpr double one_degree = std::numbers::pi / 180.0;
 
-std::string names_of(const RadiationRecord& record, const PairStraying& pair) {
+std::string names_of(const RadiationRecord& record, const PairMisplacement& pair) {
   const auto& bodies = record.arrangement.bodies;
   return fmt::format("{} and {}", bodies[pair.first].name, bodies[pair.second].name);
 }
 
-double share_beyond(const PairStraying& pair) {
+double share_beyond(const PairMisplacement& pair) {
   return pair.samples > 0
              ? static_cast<double>(pair.samples_beyond) / static_cast<double>(pair.samples)
              : 0.0;
@@ -31,7 +31,7 @@ Json largest_json(const LargestInTime& largest, const char* unit) {
           {"time_s", std::isnan(largest.time) ? Json(nullptr) : Json(largest.time)}};
 }
 
-Json pair_json(const RadiationRecord& record, const PairStraying& pair) {
+Json pair_json(const RadiationRecord& record, const PairMisplacement& pair) {
   const auto& bodies = record.arrangement.bodies;
   Json json{{"vessels", {bodies[pair.first].name, bodies[pair.second].name}},
             {"both_in_water", pair.samples > 0}};
@@ -44,7 +44,7 @@ Json pair_json(const RadiationRecord& record, const PairStraying& pair) {
   return json;
 }
 
-std::string pair_words(const RadiationRecord& record, const PairStraying& pair) {
+std::string pair_words(const RadiationRecord& record, const PairMisplacement& pair) {
   if (pair.samples == 0) {
     return fmt::format("{} were never both in the water", names_of(record, pair));
   }
@@ -59,30 +59,31 @@ Json radiation_json(const RadiationRecord& record) {
   if (record.arrangement.bodies.empty()) return nullptr;
   Json vessels = Json::array(), pairs = Json::array();
   for (const auto& body : record.arrangement.bodies) vessels.push_back(body.name);
-  for (const PairStraying& pair : record.straying.pairs) pairs.push_back(pair_json(record, pair));
+  for (const PairMisplacement& pair : record.misplacement.pairs)
+    pairs.push_back(pair_json(record, pair));
   Json json{{"method", record.direct ? "direct" : "database"}, {"vessels", vessels}};
   if (!record.direct) {
     json["memory_states"] = record.memory_states;
     json["memory_error"] = record.memory_error;
   }
-  json["turn_of_all"] = largest_json(record.straying.group_turn, "angle_rad");
-  json["straying"] = pairs;
+  json["turn_of_all"] = largest_json(record.misplacement.group_turn, "angle_rad");
+  json["misplacement"] = pairs;
   return json;
 }
 
 void add_radiation(const RadiationRecord& record, Json& summary) {
   if (record.arrangement.bodies.empty()) return;
   summary["radiation"] = radiation_json(record);
-  for (const std::string& warning : straying_warnings(record)) {
+  for (const std::string& warning : misplacement_warnings(record)) {
     summary["warnings"].push_back(warning);
   }
 }
 
-std::string straying_sentence(const RadiationRecord& record) {
-  const auto& pairs = record.straying.pairs;
+std::string misplacement_sentence(const RadiationRecord& record) {
+  const auto& pairs = record.misplacement.pairs;
   if (pairs.empty()) return {};
   std::string words;
-  for (const PairStraying& pair : pairs) {
+  for (const PairMisplacement& pair : pairs) {
     words += (words.empty() ? "" : "; ") + pair_words(record, pair);
   }
   return fmt::format(
@@ -90,12 +91,12 @@ std::string straying_sentence(const RadiationRecord& record) {
       "water was computed for: {}. All of them together turned by up to {:.2g} degrees, which "
       "their "
       "excitation follows.",
-      words, record.straying.group_turn.value / one_degree);
+      words, record.misplacement.group_turn.value / one_degree);
 }
 
-std::vector<std::string> straying_warnings(const RadiationRecord& record) {
+std::vector<std::string> misplacement_warnings(const RadiationRecord& record) {
   std::vector<std::string> warnings;
-  for (const PairStraying& pair : record.straying.pairs) {
+  for (const PairMisplacement& pair : record.misplacement.pairs) {
     if (!pair.is_beyond()) continue;
     const bool of_wave = pair.limit == record.arrangement.wave_length / 40.0;
     const double share = 100.0 * share_beyond(pair);
@@ -113,9 +114,10 @@ std::vector<std::string> straying_warnings(const RadiationRecord& record) {
   return warnings;
 }
 
-std::string straying_notice(const RadiationRecord& record) {
+std::string misplacement_notice(const RadiationRecord& record) {
   std::string text;
-  for (const std::string& warning : straying_warnings(record)) text += "warning: " + warning + "\n";
+  for (const std::string& warning : misplacement_warnings(record))
+    text += "warning: " + warning + "\n";
   return text;
 }
 

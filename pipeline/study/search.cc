@@ -13,11 +13,13 @@ namespace blocklift::pipeline {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double first_step = 0.25;  // of each variable's range
-constexpr double last_step = 1e-3;   // likewise
-constexpr double apart = 0.25;       // likewise: how far from the first the second search begins
-constexpr double rounding = 1e-9;    // of a limit
-constexpr double near_limit = 0.01;  // likewise
+// Shares of each variable's range.
+constexpr double first_step = 0.25;
+constexpr double last_step = 1e-3;
+constexpr double apart = 0.25;  // how far from the first the second search begins
+// Shares of a limit.
+constexpr double rounding = 1e-9;
+constexpr double near_limit = 0.01;
 
 double limit_of(const FigureBound& bound, const std::vector<Member>& members) {
   return limit_of(bound.at_most ? *bound.at_most : *bound.at_least, bound.figure.value,

@@ -254,8 +254,9 @@ void check_lug_and_edge(const RopeInCase& rope, std::size_t i, Diagnostics& diag
 }
 
 void check_spans(const RopeInCase& rope, Diagnostics& diagnostics) {
-  constexpr int most_in_span = 6;          // as the rope's path takes
-  constexpr std::size_t most_places = 32;  // likewise
+  // As the rope's path takes.
+  constexpr int most_in_span = 6;
+  constexpr std::size_t most_places = 32;
   const int spans = static_cast<int>(rope.path.size()) - 1;
   int previous = 0, in_span = 0;
   for (std::size_t i = 0; i < rope.over.size(); ++i) {

@@ -24,7 +24,7 @@ struct BoxGirder {
 struct BoxFigures {
   double deflection = 0;  ///< of the upper edge of a web at midspan, downwards, m
   double at_web = 0;      ///< stress along the girder at midspan, mean of flange and web, Pa
-  double at_middle = 0;   ///< likewise in the middle of the flange, Pa
+  double at_middle = 0;   ///< the same stress in the middle of the flange, Pa
 };
 
 // Plane stress in flanges and webs that meet along their edges, without bending of the plates

@@ -30,7 +30,7 @@ PartFile find_part(const ModelLibrary& library, const std::string& name) {
   throw std::runtime_error("the models hold no part " + name);
 }
 
-// parts/rotating-bar: rho omega^2 (L^2/4 - x^2) / 2 along and, in y, likewise across.
+// parts/rotating-bar: rho omega^2 (L^2/4 - x^2) / 2 along x, and the same of y across.
 Eigen::Matrix<double, 6, 1> rotating_bar(const Vector3& x) {
   Eigen::Matrix<double, 6, 1> stress = Eigen::Matrix<double, 6, 1>::Zero();
   stress[0] = 8000 * 1e4 * (1 - x.x() * x.x()) / 2;

@@ -409,8 +409,8 @@ TEST(Steering, WhatALawThrowsArrivesUnchanged) {
               ThrowsMessage<SimulationError>(HasSubstr("law \"own\" gave drive \"second\"")));
 }
 
-// A winch between the world and a body on a spring holds the tension that it is asked for, and a
-// share of two ropes likewise.
+// A winch between the world and a body on a spring holds the tension that it is asked for, or the
+// share of two ropes.
 TEST(Steering, HoldsATensionAndAShare) {
   constexpr double spring = 1e6;  // N/m
   for (const bool by_share : {false, true}) {

@@ -149,7 +149,7 @@ TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
   const nlohmann::json first = simulate(boat_lift);
   const auto files = kept();
   EXPECT_EQ(files.size(), 3U + 1);  // and the fit of the memory
-  const nlohmann::json& pair = first["radiation"]["straying"][0];
+  const nlohmann::json& pair = first["radiation"]["misplacement"][0];
   EXPECT_EQ(pair["vessels"], nlohmann::json({"B1", "load"}));
   EXPECT_NEAR(pair["distance"]["size_m"].get<double>(), 4.0, 0.5);
   EXPECT_NEAR(pair["limit_m"].get<double>(), 0.2 * 8, 1e-9);
@@ -168,7 +168,7 @@ TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
 
   const nlohmann::json near = simulate(with(boat_lift, "  afloat: {position: [34 m, 0 m]}\n", ""));
   EXPECT_EQ(kept().size(), 5U + 2);  // the pontoon alone is known
-  EXPECT_LT(near["radiation"]["straying"][0]["distance"]["size_m"].get<double>(), 0.2 * 8);
+  EXPECT_LT(near["radiation"]["misplacement"][0]["distance"]["size_m"].get<double>(), 0.2 * 8);
   EXPECT_FALSE(near.contains("warnings"));
 }
 

@@ -161,7 +161,7 @@ TEST(MassDistribution, GivesAnyStatedMassWithoutTheElements) {
 }
 
 // d'Alembert: the loads' resultant is that of the whole mass as one rigid body,
-// F = -m (a + alpha x c + omega x (omega x c)), and likewise the moment, for a stated mass and
+// F = -m (a + alpha x c + omega x (omega x c)), and so is the moment, for a stated mass and
 // centre too.
 TEST(Matter, InertiaLoadsHaveTheRigidBodysResultant) {
   const Mesh mesh = everything();

@@ -102,7 +102,7 @@ TEST(StiffenerPlates, WeighWhatTheirMiddlePlanesDo) {
     }
 }
 
-TEST(StiffenerPlates, AlongTheOtherAxisTheFlangePointsLikewise) {
+TEST(StiffenerPlates, AlongTheOtherAxisTheFlangePointsTheSameWay) {
   for (const bool is_free : {false, true}) {
     BlockDescription block = deck(2, 4, 0.012);
     block.stiffeners = {row_of(angle_bar(0.3, 0.01, 0.09, 0.016), Axis::y, 1)};

@@ -1,4 +1,4 @@
-#include "dynamics/simulation/straying.h"
+#include "dynamics/simulation/misplacement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ double length_of(const ArrangedBody& a, const ArrangedBody& b) {
 }
 
 void measure(const Arrangement& arrangement, const std::vector<Level>& now, double time,
-             PairStraying& pair) {
+             PairMisplacement& pair) {
   const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
   if (!now[i].in_water || !now[j].in_water) return;
   const ArrangedBody &a = arrangement.bodies[i], &b = arrangement.bodies[j];
@@ -61,21 +61,21 @@ void LargestInTime::take(double another, double when) {
   time = when;
 }
 
-double straying_limit(const ArrangedBody& a, const ArrangedBody& b, double wave_length) {
+double misplacement_limit(const ArrangedBody& a, const ArrangedBody& b, double wave_length) {
   return std::min(0.2 * std::min(a.breadth, b.breadth), wave_length / 40.0);
 }
 
-Straying find_straying(const Arrangement& arrangement, const History& history) {
-  Straying straying;
+Misplacement find_misplacement(const Arrangement& arrangement, const History& history) {
+  Misplacement misplacement;
   const auto count = static_cast<int>(arrangement.bodies.size());
   for (int i = 0; i < count; ++i) {
     for (int j = i + 1; j < count; ++j) {
-      PairStraying pair;
+      PairMisplacement pair;
       pair.first = i;
       pair.second = j;
       pair.limit =
-          straying_limit(arrangement.bodies[i], arrangement.bodies[j], arrangement.wave_length);
-      straying.pairs.push_back(pair);
+          misplacement_limit(arrangement.bodies[i], arrangement.bodies[j], arrangement.wave_length);
+      misplacement.pairs.push_back(pair);
     }
   }
   std::vector<Level> now(arrangement.bodies.size());
@@ -85,10 +85,10 @@ Straying find_straying(const Arrangement& arrangement, const History& history) {
       now[i] = level_of(arrangement, i, history.bodies[body].X_WB(sample));
     }
     const double time = history.time[sample];
-    for (PairStraying& pair : straying.pairs) measure(arrangement, now, time, pair);
-    measure_group(now, time, straying.group_turn);
+    for (PairMisplacement& pair : misplacement.pairs) measure(arrangement, now, time, pair);
+    measure_group(now, time, misplacement.group_turn);
   }
-  return straying;
+  return misplacement;
 }
 
 }  // namespace blocklift::dynamics

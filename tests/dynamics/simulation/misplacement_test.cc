@@ -1,6 +1,6 @@
 // How far vessels that share their water come from the places against each other that it was
 // computed for.
-#include "dynamics/simulation/straying.h"
+#include "dynamics/simulation/misplacement.h"
 
 #include <numbers>
 
@@ -13,9 +13,9 @@ constexpr double degree = std::numbers::pi / 180;
 
 /// Two barges and a ship, free in a world without weight, and a history of three samples 10 s
 /// apart.
-class StrayingTest : public ::testing::Test {
+class MisplacementTest : public ::testing::Test {
  protected:
-  StrayingTest() {
+  MisplacementTest() {
     arrangement_.bodies = {{"B1", {1, Pose::identity()}, {0, -30}, 60, 20},
                            {"B2", {2, Pose::identity()}, {0, 30}, 60, 20},
                            {"ship", {3, turned(-90, {0, 0, 2})}, {80, 0}, 90, 12}};
@@ -62,31 +62,31 @@ class StrayingTest : public ::testing::Test {
     put(sample, 3, degrees + 90, X.apply({80, 0, -2}));
   }
 
-  Straying find() const { return find_straying(arrangement_, history_); }
+  Misplacement find() const { return find_misplacement(arrangement_, history_); }
 
   Arrangement arrangement_;
   History history_{system(), 3, false};
 };
 
-TEST_F(StrayingTest, IsNoneWhereAllMoveAndTurnTogether) {
+TEST_F(MisplacementTest, IsNoneWhereAllMoveAndTurnTogether) {
   turn_all(1, 70, {200, -50, 0});
   turn_all(2, 190, {-20, 500, 0});
-  const Straying straying = find();
-  ASSERT_EQ(straying.pairs.size(), 3u);
-  for (const PairStraying& pair : straying.pairs) {
+  const Misplacement misplacement = find();
+  ASSERT_EQ(misplacement.pairs.size(), 3u);
+  for (const PairMisplacement& pair : misplacement.pairs) {
     EXPECT_EQ(pair.samples, 3);
     EXPECT_LT(pair.at_ends.value, 1e-11);
     EXPECT_FALSE(pair.is_beyond());
   }
-  EXPECT_NEAR(straying.group_turn.value, 170 * degree, 1e-12);  // the short way round
-  EXPECT_EQ(straying.group_turn.time, 20);
+  EXPECT_NEAR(misplacement.group_turn.value, 170 * degree, 1e-12);  // the short way round
+  EXPECT_EQ(misplacement.group_turn.time, 20);
 }
 
-TEST_F(StrayingTest, IsTheChangeOfPlaceAndHeadingBetweenTwo) {
+TEST_F(MisplacementTest, IsTheChangeOfPlaceAndHeadingBetweenTwo) {
   put(1, 2, 0, {0.6, 29.2, 0});
   put(2, 1, -4, {0, -30, 0});
-  const Straying straying = find();
-  const PairStraying& pair = straying.pairs[0];
+  const Misplacement misplacement = find();
+  const PairMisplacement& pair = misplacement.pairs[0];
   EXPECT_NEAR(pair.turn.value, 4 * degree, 1e-12);
   EXPECT_EQ(pair.turn.time, 20);
   // Their line of 60 m is seen from axes that turn by half of it.
@@ -95,27 +95,27 @@ TEST_F(StrayingTest, IsTheChangeOfPlaceAndHeadingBetweenTwo) {
   EXPECT_DOUBLE_EQ(pair.limit, 4.0);
   EXPECT_EQ(pair.samples_beyond, 1);
   EXPECT_TRUE(pair.is_beyond());
-  EXPECT_NEAR(straying.pairs[2].distance.value, 1.0, 1e-12);  // B2 and the ship, at 10 s
-  EXPECT_EQ(straying.pairs[2].distance.time, 10);
-  EXPECT_DOUBLE_EQ(straying.pairs[2].limit, 2.4);
-  EXPECT_FALSE(straying.pairs[2].is_beyond());
+  EXPECT_NEAR(misplacement.pairs[2].distance.value, 1.0, 1e-12);  // B2 and the ship, at 10 s
+  EXPECT_EQ(misplacement.pairs[2].distance.time, 10);
+  EXPECT_DOUBLE_EQ(misplacement.pairs[2].limit, 2.4);
+  EXPECT_FALSE(misplacement.pairs[2].is_beyond());
 }
 
-TEST_F(StrayingTest, OfABodyThatIsLoweredCountsInTheWaterAlone) {
+TEST_F(MisplacementTest, OfABodyThatIsLoweredCountsInTheWaterAlone) {
   put(0, 3, 0, {-60, 100, 0.1});
   put(1, 3, 90, {80, 0.3, -0.1});
-  Straying straying = find();
-  EXPECT_EQ(straying.pairs[0].samples, 3);
-  EXPECT_EQ(straying.pairs[1].samples, 2);
-  EXPECT_NEAR(straying.pairs[1].distance.value, 0.3, 1e-12);
-  EXPECT_FALSE(straying.pairs[1].is_beyond());
+  Misplacement misplacement = find();
+  EXPECT_EQ(misplacement.pairs[0].samples, 3);
+  EXPECT_EQ(misplacement.pairs[1].samples, 2);
+  EXPECT_NEAR(misplacement.pairs[1].distance.value, 0.3, 1e-12);
+  EXPECT_FALSE(misplacement.pairs[1].is_beyond());
   for (int sample = 0; sample < 3; ++sample) put(sample, 3, 10, {0, 100, 4});
-  straying = find();
-  EXPECT_EQ(straying.pairs[1].samples, 0);
-  EXPECT_FALSE(straying.pairs[1].is_beyond());
+  misplacement = find();
+  EXPECT_EQ(misplacement.pairs[1].samples, 0);
+  EXPECT_FALSE(misplacement.pairs[1].is_beyond());
 }
 
-TEST_F(StrayingTest, IsHeldAgainstShortWavesToo) {
+TEST_F(MisplacementTest, IsHeldAgainstShortWavesToo) {
   arrangement_.wave_length = 16;
   EXPECT_DOUBLE_EQ(find().pairs[0].limit, 0.4);
 }

@@ -37,7 +37,7 @@ struct LargestInTime {
 
 /// How far two bodies came from the places against each other that their water was computed for,
 /// while both were in the water.
-struct PairStraying {
+struct PairMisplacement {
   int first = -1, second = -1;  ///< in the arrangement
   long samples = 0;             ///< with both in the water; 0: they never met there
   long samples_beyond = 0;      ///< of them, with `at_ends` above `limit`
@@ -46,14 +46,14 @@ struct PairStraying {
   LargestInTime distance;
   LargestInTime turn;           ///< of one heading against the other, rad
   LargestInTime at_ends;        ///< distance, and turn times half the longer hull's length, m
-  double limit = not_a_number;  ///< straying_limit(), m
+  double limit = not_a_number;  ///< misplacement_limit(), m
 
   bool is_beyond() const { return at_ends.value > limit; }
 };
 
 /// How far the arrangement was kept.
-struct Straying {
-  std::vector<PairStraying> pairs;
+struct Misplacement {
+  std::vector<PairMisplacement> pairs;
   /// Mean turn of all that are in the water against where the water was computed, rad: their
   /// excitation follows it.
   LargestInTime group_turn;
@@ -61,18 +61,16 @@ struct Straying {
 
 /// By how much (m) two hulls may be out of place: the lesser of
 ///  - a fifth of the narrower hull's breadth, since the flow about one body at another changes over
-///    the lesser one's
-///    breadth;
+///    the lesser one's breadth;
 ///  - a fortieth of the sea's waves' length: what one makes comes to the other 2 pi/40 out of
-///    phase, wrong by
-///    2 sin(pi/40) = 16 % of itself.
+///    phase, wrong by 2 sin(pi/40) = 16 % of itself.
 /// Two barges of 60 x 20 m, 17 m apart, moved by 2 m against each other: in waves of 125 m and more
 /// (a sixtieth) added mass, damping and excitation change by 3 to 6 % of a barge's own; in waves of
 /// 60 to 100 m (a thirtieth to a fiftieth), where the water between them swings to and fro, by up
 /// to 40 %.
-double straying_limit(const ArrangedBody& a, const ArrangedBody& b, double wave_length);
+double misplacement_limit(const ArrangedBody& a, const ArrangedBody& b, double wave_length);
 
 /// Measures it at the samples of a history.
-Straying find_straying(const Arrangement& arrangement, const History& history);
+Misplacement find_misplacement(const Arrangement& arrangement, const History& history);
 
 }  // namespace blocklift::dynamics
