@@ -42,10 +42,10 @@ cmake --build build/tidy --target blocklift_kernel_headers blocklift_pipeline_he
   blocklift_quick_pipeline_headers >/dev/null
 # shellcheck disable=SC2046  # the options of LLVM are many words
 clang++ -fPIC -shared -std=c++17 -fno-rtti -O1 $(llvm-config --cppflags) .ci/tidy/own_code.cc -o "$plugin"
-mapfile -t bundles < <(find "$PWD"/build/tidy/{parallel,dynamics,structure,pipeline} -name 'unity_*.cxx' | sort)
+mapfile -t bundles < <(find "$PWD"/build/tidy/{algebra,parallel,dynamics,structure,pipeline} -name 'unity_*.cxx' | sort)
 sed -i -e '/^#include/!d' -e "\\|$PWD/build/tidy/|d" "${bundles[@]}"  # without what the build would generate
 # Sources that CMake leaves alone, for options of their own.
-mapfile -t alone < <(git ls-files 'parallel/*.cc' 'dynamics/*.cc' 'structure/*.cc' 'pipeline/*.cc' | grep -vxFf \
+mapfile -t alone < <(git ls-files 'algebra/*.cc' 'parallel/*.cc' 'dynamics/*.cc' 'structure/*.cc' 'pipeline/*.cc' | grep -vxFf \
   <(sed -e "s|^#include \"$PWD/||" -e 's|"$||' "${bundles[@]}"))
 printf '%s\0' "${bundles[@]}" "${alone[@]}" |
   xargs -0 -r -P "$(nproc)" -n 1 "$PWD/.ci/tidy.sh" --judge

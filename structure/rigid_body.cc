@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
+
 namespace blocklift::structure {
 
 InertiaField InertiaField::at_rest(const Vector3& gravity_B) {
@@ -41,7 +43,7 @@ InertiaField balancing_field(const MassProperties& mass, const Wrench& wrench) {
   const Vector3& c = mass.centre_of_mass_B;
   InertiaField field;
   field.angular_acceleration =
-      mass.inertia_BBcm_B.ldlt().solve(wrench.moment - c.cross(wrench.force));
+      algebra::solve_symmetric<3>(mass.inertia_BBcm_B, wrench.moment - c.cross(wrench.force));
   field.acceleration_less_gravity = wrench.force / mass.mass - field.angular_acceleration.cross(c);
   return field;
 }

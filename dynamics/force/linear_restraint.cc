@@ -2,8 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "algebra/decompositions.h"
 #include "dynamics/errors.h"
 #include "dynamics/spatial/rotation_vector.h"
 
@@ -35,8 +36,7 @@ bool LinearRestraint::adds_energy(const Matrix6& damping) {
   const Vector6 scale =
       symmetric.diagonal().unaryExpr([](double c) { return c > 0.0 ? 1.0 / std::sqrt(c) : 1.0; });
   const Matrix6 scaled = scale.asDiagonal() * symmetric * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(scaled, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().minCoeff() < -1e-9;
+  return algebra::symmetric_eigenvalues(scaled)[0] < -1e-9;
 }
 
 LinearRestraint::LinearRestraint(Definition definition) : definition_(std::move(definition)) {

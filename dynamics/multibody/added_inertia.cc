@@ -2,8 +2,9 @@
 
 #include <string>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "algebra/decompositions.h"
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
@@ -26,8 +27,7 @@ void check(const std::vector<BodyFrame>& frames, const Eigen::MatrixXd& matrix) 
   if ((relative - relative.transpose()).cwiseAbs().maxCoeff() > rounding) {
     throw ModelError("the added inertia is not symmetric: energy would come from nowhere");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(relative, Eigen::EigenvaluesOnly);
-  if (solver.eigenvalues().minCoeff() < -rounding * static_cast<double>(size)) {
+  if (algebra::symmetric_eigenvalues(relative)[0] < -rounding * static_cast<double>(size)) {
     throw ModelError("the added inertia is not positive: some motion would gain energy by moving");
   }
   for (const BodyFrame& frame : frames) {

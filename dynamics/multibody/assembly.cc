@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include "algebra/decompositions.h"
 #include "dynamics/errors.h"
 #include "dynamics/multibody/loop_diagnosis.h"
 #include "dynamics/multibody/loop_projection.h"
@@ -105,7 +106,7 @@ class Assembler {
     Eigen::MatrixXd A = GW * G.transpose();
     const double scale = std::max(A.diagonal().maxCoeff(), 1e-300);
     A.diagonal().array() += mu * scale;
-    return -GW.transpose() * A.ldlt().solve(g);
+    return -GW.transpose() * algebra::solve_symmetric(A, g);
   }
 
   // Levenberg and Marquardt; true when nearly closed. Leaves q in last_.

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "algebra/decompositions.h"
+
 namespace blocklift::dynamics {
 namespace {
 
@@ -134,7 +136,7 @@ void difference_joint(JointKind kind, const double* q_from, const double* q_to, 
   if (kind == JointKind::free) {
     const Vector3 p = Eigen::Map<const Vector3>(q_to) - Eigen::Map<const Vector3>(q_from);
     Eigen::Map<Vector3>(v + 3, 3) =
-        screw_displacement(theta).partialPivLu().solve(R_JB.transpose() * p);
+        algebra::solve_square(screw_displacement(theta), R_JB.transpose() * p);
   }
 }
 

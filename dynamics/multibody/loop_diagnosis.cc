@@ -5,6 +5,7 @@
 #include <random>
 #include <sstream>
 
+#include "algebra/decompositions.h"
 #include "dynamics/multibody/loop_projection.h"
 
 namespace blocklift::dynamics {
@@ -54,7 +55,7 @@ class RowSieve {
     Eigen::VectorXd factors(before.cols());
     Eigen::VectorXd rest = now;
     if (before.cols() > 0) {
-      factors = before.colPivHouseholderQr().solve(now);
+      factors = algebra::least_squares(before, now);
       rest -= before * factors;
     }
     if (rest.norm() > redundancy_threshold) {
@@ -107,10 +108,7 @@ std::vector<LoopDiagnosis::Conflict> find_conflicts(const Mechanism& mechanism,
   for (const int k : driven) G_driven.col(i++) = jacobian.col(k);
   Eigen::MatrixXd left_null = Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.rows());
   if (!free.empty()) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(G_free);
-    qr.setThreshold(redundancy_threshold);
-    const Eigen::MatrixXd Q = qr.householderQ();
-    left_null = Q.rightCols(jacobian.rows() - qr.rank());
+    left_null = algebra::left_null_space(G_free, redundancy_threshold);
   }
   const Eigen::MatrixXd demand = left_null.transpose() * G_driven;
   if (demand.rows() == 0) return {};
@@ -124,9 +122,7 @@ std::vector<LoopDiagnosis::Conflict> find_conflicts(const Mechanism& mechanism,
   }
   if (columns.empty()) return {};
   const Eigen::MatrixXd demanded = demand(Eigen::all, columns);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(demanded);
-  qr.setThreshold(1e-7);
-  conflict.none_can_move = qr.rank() == demanded.cols();
+  conflict.none_can_move = algebra::numerical_rank(demanded, 1e-7) == demanded.cols();
   const Eigen::MatrixXd unsatisfied = left_null * demanded;
   for (int row = 0; row < unsatisfied.rows(); ++row) {
     if (unsatisfied.row(row).norm() > tolerance) conflict.rows.push_back(row);

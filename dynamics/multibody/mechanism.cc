@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "algebra/decompositions.h"
 #include "dynamics/errors.h"
 #include "dynamics/multibody/message_text.h"
 
@@ -36,8 +37,7 @@ void check_inertia(const BodyDefinition& body) {
   }
   // Principal moments are sums of two second moments of the mass each: none may exceed the others'
   // sum.
-  const Eigen::SelfAdjointEigenSolver<Matrix3> solver(body.I_BBcm_B, Eigen::EigenvaluesOnly);
-  const Vector3& moments = solver.eigenvalues();
+  const Vector3 moments = algebra::symmetric_eigenvalues(body.I_BBcm_B);
   const double tolerance = 1e-6 * size;
   if (moments[0] < -tolerance || moments[2] > moments[0] + moments[1] + tolerance) {
     fail(body.name,

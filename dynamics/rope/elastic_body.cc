@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
+#include "algebra/decompositions.h"
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
@@ -31,8 +32,7 @@ void require_compliance(const ElasticBody::Definition& d) {
   const double scale = d.compliance.cwiseAbs().maxCoeff();
   if ((d.compliance - d.compliance.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale)
     refuse(d, "its compliance is not symmetric");
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(d.compliance, Eigen::EigenvaluesOnly);
-  if (solver.eigenvalues()[0] < -1e-9 * scale)
+  if (algebra::symmetric_eigenvalues(d.compliance)[0] < -1e-9 * scale)
     refuse(d, "its compliance is negative along some direction: it would push against the pull");
 }
 

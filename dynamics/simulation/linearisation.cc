@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/decompositions.h"
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
 #include "dynamics/simulation/mode_shape.h"
@@ -310,8 +311,7 @@ double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w
   stiffness.diagonal().array() += holding * stiffness.diagonal().cwiseAbs().maxCoeff();
   const Eigen::Matrix2d compliance = tilts * stiffness.partialPivLu().solve(tilts.transpose());
   const Eigen::Matrix2d symmetric = 0.5 * (compliance + compliance.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(symmetric, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().cwiseInverse().minCoeff() / weight;
+  return algebra::symmetric_eigenvalues(symmetric).cwiseInverse().minCoeff() / weight;
 }
 
 std::vector<Linearisation> linearise_sweep(const LiftSystem& system,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "algebra/decompositions.h"
+
 namespace blocklift::dynamics {
 
 namespace {
@@ -43,10 +45,10 @@ LevelDirection level_direction(const Complex3& motion) {
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) form(i, j) = (motion[i] * std::conj(motion[j])).real();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(form);
-  const Eigen::Vector2d axis = solver.eigenvectors().col(1);
-  const double small = std::max(0.0, solver.eigenvalues()[0]);
-  return {std::atan2(axis.y(), axis.x()), std::sqrt(small / solver.eigenvalues()[1])};
+  const auto [sizes, axes] = algebra::symmetric_eigensystem(form);
+  const Eigen::Vector2d axis = axes.col(1);
+  const double small = std::max(0.0, sizes[0]);
+  return {std::atan2(axis.y(), axis.x()), std::sqrt(small / sizes[1])};
 }
 
 // "x", "y" or "an axis 35 deg from x towards y".

@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
@@ -198,7 +199,7 @@ SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, 
   parallel::in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
     for (int s = first; s < first + many; ++s) {
       const Solid& solid = mesh.solids[s];
-      const Elasticity compliance = elasticity_of(mesh, solid).inverse();
+      const Elasticity compliance = algebra::inverse_of(elasticity_of(mesh, solid));
       const auto energy = [&](const Stress& stress) { return stress.dot(compliance * stress); };
       const Eigen::VectorXd own = solid_stresses(space, s, motion);
       const Resultants smooth =
@@ -248,12 +249,12 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& mo
       for (int i = 0; i < space.nodes_per_shell(); ++i)
         smooth.col(i) = recovered.col(points.of(cell, i));
       const Resultants difference = smooth * values - s_h;
-      Law compliance;
+      Law compliance = Law::Zero();
       double thickness = 0;  // that it is of
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
         if (own.points()[q].thickness != thickness) {
           thickness = own.points()[q].thickness;
-          compliance = law_of(model, cell, thickness).inverse();
+          compliance = algebra::inverse_of<6>(law_of(model, cell, thickness));
         }
         const double area = rule(2, q) * own.points()[q].area;
         norms.error[cell] += area * difference.col(q).dot(compliance * difference.col(q));

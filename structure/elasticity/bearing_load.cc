@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -94,7 +95,7 @@ class Pressure {
         slope += point.area * g * g.transpose();
       }
       if (lacking.norm() <= 1e-15 * force.norm()) return;
-      const Vector4 step = slope.ldlt().solve(lacking);
+      const Vector4 step = algebra::solve_symmetric(slope, lacking);
       if (!step.allFinite() || step.norm() <= 1e-16 * x_.norm()) return;
       x_ += step;
     }
@@ -111,7 +112,7 @@ Eigen::Vector3d unit_axial_traction(const std::vector<HolePoint>& points) {
   for (const HolePoint& point : points)
     matrix += point.area * Eigen::Vector3d(1, point.off.x(), point.off.y()) *
               Eigen::RowVector3d(1, point.outwards.x(), point.outwards.y());
-  return matrix.partialPivLu().solve(Eigen::Vector3d::UnitX());
+  return algebra::solve_square(matrix, Eigen::Vector3d::UnitX());
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus_file.h"
@@ -133,19 +133,18 @@ class Body {
 
   /// @param several there are other bodies.
   void find(bool several, RigidFreedom& freedom) const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(held_);
-    const double largest = solver.eigenvalues()[held_.rows() - 1];
-    const Eigen::Index free =
-        (solver.eigenvalues().array() <= 1e-10 * std::max(1.0, largest)).count();
+    const auto solved = algebra::symmetric_eigensystem(held_);
+    const double largest = solved.values[held_.rows() - 1];
+    const Eigen::Index free = (solved.values.array() <= 1e-10 * std::max(1.0, largest)).count();
     freedom.count += static_cast<int>(free);
     const bool hinged = pieces_.size() > 1 && free > 0;
     constexpr double relevant = 1e-6;
     for (std::size_t p = 0; p < pieces_.size() && free > 0; ++p) {
       const Eigen::MatrixXd own =
-          solver.eigenvectors().block(static_cast<Eigen::Index>(6 * p), 0, 6, free);
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(own, Eigen::ComputeThinU);
-      const Eigen::Index rank = (svd.singularValues().array() > relevant).count();
-      for (const std::string& words : in_words(svd.matrixU().leftCols(rank), centre_, length_)) {
+          solved.vectors.block(static_cast<Eigen::Index>(6 * p), 0, 6, free);
+      const algebra::LeftSingularVectors moves = algebra::left_singular_vectors(own);
+      const Eigen::Index rank = (moves.values.array() > relevant).count();
+      for (const std::string& words : in_words(moves.vectors.leftCols(rank), centre_, length_)) {
         std::string text = words;
         if (hinged)
           text += fmt::format(

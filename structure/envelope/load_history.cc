@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/index.h"
 
@@ -25,8 +26,8 @@ LoadHistory::LoadHistory(const Eigen::MatrixXd& factors, const Eigen::VectorXd& 
   // Orthogonal directions, the largest first. How exact they are does not matter, only that they
   // are orthogonal: the coordinates are products with them, and complete.
   const Eigen::MatrixXd gram = weighed * weighed.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
-  const Eigen::MatrixXd directions = solver.eigenvectors().rowwise().reverse();
+  const Eigen::MatrixXd directions =
+      algebra::symmetric_eigensystem(gram).vectors.rowwise().reverse();
   const Eigen::MatrixXd coordinates = directions.transpose() * weighed;
   const Eigen::VectorXd reach = coordinates.cwiseAbs().rowwise().maxCoeff();
   const double negligible = static_cast<double>(reach.size()) *

@@ -8,6 +8,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/space/joints.h"
 
@@ -109,7 +110,7 @@ void require_held(const Mesh& mesh, const Beam& beam) {
       held.conservativeResize(held.rows() + 1, Eigen::NoChange);
       held.bottomRows<1>() = row;
     }
-  if (held.rows() < 6 || Eigen::FullPivLU<Eigen::MatrixXd>(held).setThreshold(1e-9).rank() < 6)
+  if (held.rows() < 6 || algebra::numerical_rank(held, 1e-9) < 6)
     throw ModelError(fmt::format("beam {}: its releases leave it loose", beam.label));
 }
 
@@ -122,7 +123,7 @@ Eigen::MatrixXd motion_with_releases(const Eigen::MatrixXd& stiffness,
   if (directions.cols() == 0) return motion;
   require_held(mesh, beam);
   const Eigen::MatrixXd forces = directions.transpose() * stiffness;
-  motion -= directions * Eigen::LLT<Eigen::MatrixXd>(forces * directions).solve(forces);
+  motion -= directions * algebra::solve_positive_definite(forces * directions, forces);
   return motion;
 }
 

@@ -9,10 +9,10 @@
 #include <set>
 #include <unordered_map>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -462,10 +462,9 @@ class Doctor {
     for (const int v : order) {
       const Resistance& matrix = resistance.at(v);
       const Eigen::Matrix3d moves = matrix.topLeftCorner<3, 3>();
-      if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moves).eigenvalues()[0] < least)
+      if (algebra::symmetric_eigenvalues(moves)[0] < least)
         add("vertices free to move", Severity::error, label(v), vertex(v));
-      else if (has_beam[v] != 0 &&
-               Eigen::SelfAdjointEigenSolver<Resistance>(matrix).eigenvalues()[0] < least)
+      else if (has_beam[v] != 0 && algebra::symmetric_eigenvalues(matrix)[0] < least)
         add("vertices free to turn", Severity::warning, label(v), vertex(v));
     }
     say("vertices free to move", "{} vertices can move in a direction that nothing there resists",

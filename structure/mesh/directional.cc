@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -21,13 +23,13 @@ Elasticity orthotropic_elasticity(const OrthotropicConstants& constants) {
   compliance.topLeftCorner<3, 3>() << 1 / e[0], -nu[0] / e[0], -nu[1] / e[0], -nu[0] / e[0],
       1 / e[1], -nu[2] / e[1], -nu[1] / e[0], -nu[2] / e[1], 1 / e[2];
   compliance.diagonal().tail<3>() << 1 / g[0], 1 / g[2], 1 / g[1];  // 12, 23, 31
-  return compliance.inverse();
+  return algebra::inverse_of(compliance);
 }
 
 bool is_positive(const Elasticity& elasticity) {
   if (!elasticity.allFinite()) return false;
-  const Eigen::SelfAdjointEigenSolver<Elasticity> solver(elasticity, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] > 1e-9 * solver.eigenvalues()[5];
+  const algebra::ColumnVector<6> values = algebra::symmetric_eigenvalues(elasticity);
+  return values[0] > 1e-9 * values[5];
 }
 
 // Stresses turn as sigma = T sigma_own; since both have one energy, epsilon_own = T' epsilon.

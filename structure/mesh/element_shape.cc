@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -58,7 +59,7 @@ ElementShape::ElementShape(const ElementKind& kind) : corners_(kind.corners) {
   for (int m = 0; m < kind.nodes; ++m) exponents_.col(m) = list[m];
   Eigen::MatrixXd at_nodes(kind.nodes, kind.nodes);  // (monomial, node)
   for (int n = 0; n < kind.nodes; ++n) at_nodes.col(n) = monomials(exponents_, kind.local.col(n));
-  coefficients_ = at_nodes.inverse();
+  coefficients_ = algebra::inverse_of(at_nodes);
 }
 
 Eigen::VectorXd ElementShape::values(const Vector3& xi) const {
@@ -97,7 +98,7 @@ bool ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place, d
   for (int step = 0; step < 20; ++step) {
     const Vector3 miss = place - nodes * values(xi);
     const Eigen::Matrix3d jacobian = nodes * gradients(xi);
-    const Vector3 change = jacobian.partialPivLu().solve(miss);
+    const Vector3 change = algebra::solve_square(jacobian, miss);
     if (!change.allFinite() || xi.norm() > 10) return false;
     xi += change;
     if (change.norm() < 1e-13) break;

@@ -11,6 +11,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "structure/mesh/solid_lugs.h"
 
 namespace blocklift::structure {
@@ -352,10 +353,8 @@ std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPla
     const Shell& shell = mesh_.shells[here.shell];
     for (int newton = 0; newton < 12; ++newton) {
       const Eigen::Matrix<double, 3, 2> g = tangents(mesh_, here.shell, here.xi);
-      const Eigen::Vector2d change =
-          (g.transpose() * g)
-              .ldlt()
-              .solve(g.transpose() * (place - position(mesh_, shell, here.xi)));
+      const Eigen::Vector2d change = algebra::solve_symmetric<2>(
+          g.transpose() * g, g.transpose() * (place - position(mesh_, shell, here.xi)));
       here.xi += change;
       here.xi = here.xi.cwiseMax(-2.0).cwiseMin(3.0);
       if (change.cwiseAbs().maxCoeff() < 1e-10) break;

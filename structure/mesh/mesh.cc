@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -137,8 +138,7 @@ double balance(const Mesh& mesh, MotionEquation& equation) {
   if (count == 0) return resultant.isZero(0) ? 0 : std::numeric_limits<double>::infinity();
   Eigen::MatrixXd effect(6, count);
   for (Eigen::Index i = 0; i < count; ++i) effect.col(i) = columns[i];
-  const Eigen::VectorXd change =
-      effect.completeOrthogonalDecomposition().solve(Eigen::VectorXd(-resultant));
+  const Eigen::VectorXd change = algebra::least_squares(effect, -resultant);
   if ((effect * change + resultant).norm() > 1e-9 * largest)
     return std::numeric_limits<double>::infinity();
   double most = 0;

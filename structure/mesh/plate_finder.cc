@@ -9,6 +9,8 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -47,7 +49,7 @@ std::optional<PlateFoot> find_plate_foot(const Mesh& mesh, const Shell& shell,
     }
     miss = place - position(mesh, shell, foot.xi);
     const Eigen::Vector2d change =
-        (tangents.transpose() * tangents).ldlt().solve(tangents.transpose() * miss);
+        algebra::solve_symmetric<2>(tangents.transpose() * tangents, tangents.transpose() * miss);
     if (!change.allFinite()) break;
     foot.xi = (foot.xi + change).cwiseMax(-1.0).cwiseMin(2.0);
     if (change.cwiseAbs().maxCoeff() < 1e-12) break;

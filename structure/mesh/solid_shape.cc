@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <deal.II/base/quadrature_lib.h>
 
+#include "algebra/decompositions.h"
 #include "structure/index.h"
 
 namespace blocklift::structure {
@@ -96,7 +97,7 @@ SolidTopology make_topology(const char* name, const Eigen::Matrix3Xd& corners,
   topology.linear_kind.local = corners;
   tabulate_rule(kind);
   topology.from_corners = values_at_rule(kind, topology.linear_kind);
-  topology.to_corners = topology.from_corners.completeOrthogonalDecomposition().pseudoInverse();
+  topology.to_corners = algebra::pseudo_inverse(topology.from_corners);
   return topology;
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -106,7 +107,7 @@ Eigen::VectorXd ThinWalls::find_flows(const Eigen::VectorXd& work,
   Eigen::VectorXd right(walls + nodes);
   right << -work, -given;
   // One node's equation follows from the others'.
-  return matrix.completeOrthogonalDecomposition().solve(right).head(walls);
+  return algebra::least_squares(matrix, right).col(0).head(walls);
 }
 
 std::vector<ThinWalls::Flow> ThinWalls::calc_flows(int axis) const {

@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 #include <deal.II/base/quadrature_lib.h>
 
+#include "algebra/decompositions.h"
 #include "structure/index.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/space/joints.h"
@@ -350,7 +351,7 @@ class DeckMaker {
       const Vector3 arm = mesh_.vertices[corner] - centre;
       arms += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
     }
-    const Vector3 factor = arms.ldlt().solve(moment);
+    const Vector3 factor = algebra::solve_symmetric(arms, moment);
     for (const int corner : corners)
       forces.col(corner) += factor.cross(mesh_.vertices[corner] - centre);
   }
@@ -433,7 +434,7 @@ Eigen::Matrix3Xd displacement_against(const std::vector<Support>& supports,
           arm.cross(Vector3::Unit(axis)).transpose();
       held[count++] = result(axis, support.vertex);
     }
-  const Eigen::Matrix<double, 6, 1> rigid = rows.fullPivLu().solve(held);
+  const Eigen::Matrix<double, 6, 1> rigid = algebra::solve_by_full_pivoting(rows, held);
   for (std::size_t v = 0; v < vertices.size(); ++v)
     result.col(v) -= rigid.head<3>() + rigid.tail<3>().cross(vertices[v] - centre);
   return result;

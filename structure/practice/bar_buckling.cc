@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/index.h"
 #include "structure/practice/bar_chains.h"
@@ -71,7 +72,7 @@ Eigen::Matrix2d bending_law(const BeamSection& section) {
 /// Axes of bending of a section: columns (e_2, e_3) along which a curvature is about a principal
 /// axis.
 Eigen::Matrix2d principal_axes(const BeamSection& section) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(bending_law(section)).eigenvectors();
+  return algebra::symmetric_eigensystem<2>(bending_law(section)).vectors;
 }
 
 /// Takes what is smaller of a section into a column's figures.

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
+
+#include "algebra/decompositions.h"
 
 namespace blocklift::structure {
 
@@ -19,14 +21,13 @@ HotSpotStress evaluate_hot_spot(const Stress& structural, const Vector3& directi
   const Stress& s = structural;
   Eigen::Matrix3d tensor;
   tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
-  const int largest =
-      std::abs(solver.eigenvalues()[2]) >= std::abs(solver.eigenvalues()[0]) ? 2 : 0;
+  const algebra::SymmetricEigensystem<3> axes = algebra::symmetric_eigensystem(tensor);
+  const int largest = std::abs(axes.values[2]) >= std::abs(axes.values[0]) ? 2 : 0;
   HotSpotStress result;
   result.normal = normal_component(direction) * s;
-  result.principal = solver.eigenvalues()[largest];
-  result.angle = std::acos(
-      std::min(1.0, std::abs(Vector3(solver.eigenvectors().col(largest)).dot(direction))));
+  result.principal = axes.values[largest];
+  result.angle =
+      std::acos(std::min(1.0, std::abs(Vector3(axes.vectors.col(largest)).dot(direction))));
   result.governing = result.angle <= std::numbers::pi / 3 ? result.principal : result.normal;
   return result;
 }

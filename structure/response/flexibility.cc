@@ -6,8 +6,8 @@
 #include <string>
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/system/matter.h"
 
@@ -93,10 +93,10 @@ class KrylovSpace {
     Eigen::MatrixXd vectors;  // in the basis
   };
   Ritz ritz() const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(operator_);
+    const auto solved = algebra::symmetric_eigensystem(operator_);
     Ritz result;
-    result.value = solver.eigenvalues().reverse();
-    result.vectors = solver.eigenvectors().rowwise().reverse();
+    result.value = solved.values.reverse();
+    result.vectors = solved.vectors.rowwise().reverse();
     const Eigen::Index width = coupling_.cols();
     result.residual = (coupling_ * result.vectors.bottomRows(width)).colwise().norm().transpose();
     result.residual.array() /= result.value.array();
@@ -118,15 +118,14 @@ class KrylovSpace {
     for (int pass = 0; pass < 2; ++pass) {
       if (basis_.cols() > 0) columns -= basis_ * (basis_.transpose() * times_mass(columns)).eval();
       columns = block_.relative(std::move(columns));
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(columns.transpose() *
-                                                                times_mass(columns));
+      const auto gram =
+          algebra::symmetric_eigensystem<Eigen::Dynamic>(columns.transpose() * times_mass(columns));
       Eigen::Index dependent = 0;
-      while (dependent < columns.cols() &&
-             gram.eigenvalues()[dependent] <= (pass == 0 ? negligible : 0.1))
+      while (dependent < columns.cols() && gram.values[dependent] <= (pass == 0 ? negligible : 0.1))
         ++dependent;
       const Eigen::Index kept = columns.cols() - dependent;
-      const Eigen::VectorXd root = gram.eigenvalues().tail(kept).cwiseSqrt();
-      const Eigen::MatrixXd turn = gram.eigenvectors().rightCols(kept);
+      const Eigen::VectorXd root = gram.values.tail(kept).cwiseSqrt();
+      const Eigen::MatrixXd turn = gram.vectors.rightCols(kept);
       factor = (root.asDiagonal() * turn.transpose() * factor).eval();
       columns = (columns * turn * root.cwiseInverse().asDiagonal()).eval();
       if (kept == 0) break;
@@ -178,9 +177,8 @@ FreeModes find_modes(const UnitResponses& responses, const FreeBlock& block, int
 }
 
 Eigen::MatrixXd positive_part(const Eigen::MatrixXd& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
-         solver.eigenvectors().transpose();
+  const auto [values, vectors] = algebra::symmetric_eigensystem(symmetric);
+  return vectors * values.cwiseMax(0).asDiagonal() * vectors.transpose();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/system/matter.h"
 
@@ -52,7 +53,7 @@ Eigen::Vector2d nearest_of(const Mesh& mesh, const Shell& shell, const Vector3& 
       metric(axis, axis) = 1;
       free_pull[axis] = 0;
     }
-    const Eigen::Vector2d step = metric.ldlt().solve(free_pull);
+    const Eigen::Vector2d step = algebra::solve_symmetric(metric, free_pull);
     if (!step.allFinite()) break;
     const Eigen::Vector2d next = (xi + step).cwiseMax(0.0).cwiseMin(1.0);
     const double moved = (next - xi).cwiseAbs().maxCoeff();

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/space/freedom_text.h"
 #include "structure/system/assembly.h"
 
@@ -53,7 +54,7 @@ Motion against_most(const Space& space, Motion motion) {
       matrix += weight * rigid.transpose() * rigid;
       right += weight * rigid.transpose() * moved;
     }
-    const Eigen::Matrix<double, 6, 1> most = matrix.completeOrthogonalDecomposition().solve(right);
+    const Eigen::Matrix<double, 6, 1> most = algebra::least_squares(matrix, right);
     for (Eigen::Index n = 0; n < motion.cols(); ++n) {
       motion.col(n).head<3>() -= most.head<3>() + most.tail<3>().cross(arm(n));
       motion.col(n).tail<3>() -= most.tail<3>() / size;

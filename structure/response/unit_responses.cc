@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/large_pages.h"
@@ -187,8 +188,8 @@ Eigen::VectorXd UnitResponses::without_rigid_motion(const Eigen::VectorXd& displ
   const Eigen::Matrix<double, 6, 1> work =
       -model_.inertia_loads().leftCols<6>().transpose() * displacement;
   const Vector3 mean = work.head<3>() / mass.mass;
-  const Vector3 rotation = mass.inertia_BBcm_B.ldlt().solve(
-      work.tail<3>() - mass.centre_of_mass_B.cross(work.head<3>().eval()));
+  const Vector3 rotation = algebra::solve_symmetric<3>(
+      mass.inertia_BBcm_B, work.tail<3>() - mass.centre_of_mass_B.cross(work.head<3>().eval()));
   Eigen::VectorXd relative = displacement;
   for (Eigen::Index n = 0; n < model_.space().node_count(); ++n) {
     relative.segment<3>(6 * n) -=

@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -53,12 +54,12 @@ bool tie_by_rows(const Eigen::MatrixX3d& rows, int first, const std::vector<Moti
   const auto count = rows.rows();
   if (count == 0) return true;
   if (count > 3) return false;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots{Eigen::MatrixXd(rows)};
-  if (pivots.rank() < count) return false;
-  const auto& order = pivots.colsPermutation().indices();
+  const algebra::PivotedColumns pivots = algebra::pivoted_columns(rows);
+  if (pivots.rank < count) return false;
+  const Eigen::VectorXi& order = pivots.order;
   Eigen::MatrixXd of_held(count, count);
   for (Eigen::Index i = 0; i < count; ++i) of_held.col(i) = rows.col(order[i]);
-  const Eigen::MatrixXd inverse = of_held.inverse();
+  const Eigen::MatrixXd inverse = algebra::inverse_of(of_held);
   const Eigen::MatrixXd shares = inverse * rows;  // of the world's components
   for (Eigen::Index i = 0; i < count; ++i) {
     FreedomTie tie{first + static_cast<int>(order[i]), {}, {}};
@@ -136,13 +137,11 @@ void tie_reference(const DistributingLink& link, const std::vector<int>& node_of
     const Vector3 r = nodes.col(node_of[link.vertices[i]]) - centre;
     inertia += link.weights[i] * (r.squaredNorm() * Matrix3::Identity() - r * r.transpose());
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix3> axes(inertia);
+  const algebra::SymmetricEigensystem<3> axes = algebra::symmetric_eigensystem(inertia);
   Vector3 inverse = Vector3::Zero();
   for (int i = 0; i < 3; ++i)
-    if (axes.eigenvalues()[i] > 1e-10 * axes.eigenvalues()[2])
-      inverse[i] = 1 / axes.eigenvalues()[i];
-  const Matrix3 pseudo_inverse =
-      axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
+    if (axes.values[i] > 1e-10 * axes.values[2]) inverse[i] = 1 / axes.values[i];
+  const Matrix3 pseudo_inverse = axes.vectors * inverse.asDiagonal() * axes.vectors.transpose();
   const Matrix3 left_open = Matrix3::Identity() - pseudo_inverse * inertia;
 
   const int reference = node_of[link.reference];

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/gauss_line.h"
 #include "structure/space/joints.h"
@@ -55,7 +56,7 @@ Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
   const std::vector<double> shares = lagrange_at(points, xi);
   for (std::size_t q = 0; q < points.size(); ++q)
     forces += shares[q] * law_at(points[q]) * own_strains_of(space, cell, points[q], motions);
-  return law_at(xi).completeOrthogonalDecomposition().solve(forces);
+  return algebra::least_squares(law_at(xi), forces);
 }
 
 Vector3 arm_of(const Beam& beam, const BeamCell& cell, double xi) {

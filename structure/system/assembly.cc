@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
@@ -241,11 +242,11 @@ void hold_loose_rotations(const Space& space, SparseLower& stiffness) {
       Eigen::Matrix3d block;
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) block(a, b) = entry(a, b);
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(block);
-      const double largest = axes.eigenvalues()[2];
+      const algebra::SymmetricEigensystem<3> axes = algebra::symmetric_eigensystem(block);
+      const double largest = axes.values[2];
       for (int i = 0; i < 3; ++i) {
-        if (axes.eigenvalues()[i] > 1e-10 * largest) continue;
-        const Vector3 axis = axes.eigenvectors().col(i);
+        if (axes.values[i] > 1e-10 * largest) continue;
+        const Vector3 axis = axes.vectors.col(i);
         for (int a = 0; a < 3; ++a)
           for (int b = 0; b <= a; ++b) entry(a, b) += std::max(largest, 1.0) * axis[a] * axis[b];
       }

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -31,7 +32,8 @@ MassProperties MassDistribution::with(const double* stated_mass,
         fmt::format("the block's mass is stated as {:g} kg; it must be positive", mass));
   result.factor_alpha = mass / steel.mass;
   const Vector3 moved = mass * (centre - result.steel_centre_B);
-  if (!moved.isZero(0)) result.factor_beta = steel.about(result.steel_centre_B).ldlt().solve(moved);
+  if (!moved.isZero(0))
+    result.factor_beta = algebra::solve_symmetric<3>(steel.about(result.steel_centre_B), moved);
   result.smallest_density_factor = std::numeric_limits<double>::infinity();
   result.largest_density_factor = -std::numeric_limits<double>::infinity();
   Vector3 worst = Vector3::Zero();

@@ -7,6 +7,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
@@ -89,12 +90,12 @@ void visit_masses(const Space& space, const VisitMatter& visit) {
     point.node_count = 1;
     point.mass = mass.mass / 6;
     // Second moments int x x' along principal axes; the inertia is their trace less them.
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+    const auto axes = algebra::symmetric_eigensystem<3>(
         0.5 * mass.inertia.trace() * Eigen::Matrix3d::Identity() - mass.inertia);
     for (int i = 0; i < 3; ++i)
       for (const double side : {-1.0, 1.0}) {
-        const double reach = std::sqrt(3 * std::max(0.0, axes.eigenvalues()[i]) / mass.mass);
-        point.arm = mass.offset + side * reach * axes.eigenvectors().col(i);
+        const double reach = std::sqrt(3 * std::max(0.0, axes.values[i]) / mass.mass);
+        point.arm = mass.offset + side * reach * axes.vectors.col(i);
         point.place = space.nodes().col(node) + point.arm;
         visit(point);
       }
@@ -302,9 +303,8 @@ void add_spread_wrenches(const Space& space, const std::vector<int>& cells, cons
         forces.bottomRows<3>();
   }
   // Twice: the second pass removes the rounding of the first.
-  const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> solver(resultants);
-  Eigen::MatrixXd factors = solver.solve(wrenches);
-  factors += solver.solve(wrenches - resultants * factors);
+  Eigen::MatrixXd factors = algebra::solve_by_full_pivoting(resultants, wrenches);
+  factors += algebra::solve_by_full_pivoting(resultants, wrenches - resultants * factors);
   const Eigen::MatrixXd spread = fields * factors;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     loads.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[n])) +=

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/process_group.h"
 #include "structure/system/assembly.h"
@@ -237,15 +237,15 @@ double estimate_first_elastic(const SparseLower& stiffness, const SparseLower& m
   if (!(sizes[0] > 0)) throw ModelError("the body has no mass; give its materials a density");
   for (Eigen::Index k = 0; k < shapes.cols(); ++k)
     if (sizes[k] > 0) shapes.col(k) /= std::sqrt(sizes[k]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(shapes.transpose() *
-                                                            times(mass, shapes));
-  const Eigen::Index independent = (gram.eigenvalues().array() > 1e-10).count();
-  shapes = (shapes * gram.eigenvectors().rightCols(independent) *
-            gram.eigenvalues().tail(independent).cwiseSqrt().cwiseInverse().asDiagonal())
+  const auto gram =
+      algebra::symmetric_eigensystem<Eigen::Dynamic>(shapes.transpose() * times(mass, shapes));
+  const Eigen::Index independent = (gram.values.array() > 1e-10).count();
+  shapes = (shapes * gram.vectors.rightCols(independent) *
+            gram.values.tail(independent).cwiseSqrt().cwiseInverse().asDiagonal())
                .eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
+  const Eigen::VectorXd ritz = algebra::symmetric_eigenvalues<Eigen::Dynamic>(
       shapes.transpose() * (stiffness.selfadjointView<Eigen::Lower>() * shapes));
-  return ritz.eigenvalues()[std::min<Eigen::Index>(6, independent - 1)];
+  return ritz[std::min<Eigen::Index>(6, independent - 1)];
 }
 
 // Rigid motions of the whole body that nothing holds: those of its six along which no stiffness
@@ -254,19 +254,18 @@ NaturalModes find_rigid_motions(const SparseLower& stiffness, const SparseLower&
                                 Eigen::MatrixXd motions, const std::vector<FixedUnknown>& fixed,
                                 double first_elastic) {
   for (const FixedUnknown& unknown : fixed) motions.row(unknown.unknown).setZero();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motions.transpose() *
-                                                            times(mass, motions));
-  const Eigen::Index independent =
-      (gram.eigenvalues().array() > 1e-10 * gram.eigenvalues()[5]).count();
-  motions = (motions * gram.eigenvectors().rightCols(independent) *
-             gram.eigenvalues().tail(independent).cwiseSqrt().cwiseInverse().asDiagonal())
+  const auto gram =
+      algebra::symmetric_eigensystem<Eigen::Dynamic>(motions.transpose() * times(mass, motions));
+  const Eigen::Index independent = (gram.values.array() > 1e-10 * gram.values[5]).count();
+  motions = (motions * gram.vectors.rightCols(independent) *
+             gram.values.tail(independent).cwiseSqrt().cwiseInverse().asDiagonal())
                 .eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(
+  const auto ritz = algebra::symmetric_eigensystem<Eigen::Dynamic>(
       motions.transpose() * (stiffness.selfadjointView<Eigen::Lower>() * motions));
-  const Eigen::Index loose = (ritz.eigenvalues().array() < 1e-6 * first_elastic).count();
+  const Eigen::Index loose = (ritz.values.array() < 1e-6 * first_elastic).count();
   NaturalModes rigid;
-  rigid.squared_frequencies = ritz.eigenvalues().head(loose);
-  rigid.shapes = motions * ritz.eigenvectors().leftCols(loose);
+  rigid.squared_frequencies = ritz.values.head(loose);
+  rigid.shapes = motions * ritz.vectors.leftCols(loose);
   return rigid;
 }
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <Eigen/Dense>
-#include <Eigen/SVD>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/system/held_points.h"
 
@@ -69,8 +69,7 @@ std::vector<HeldComponent> hold_points(const Eigen::Matrix3Xd& points) {
         rows.row(3) = candidate(i);
         rows.row(4) = candidate(j);
         rows.row(5) = candidate(k);
-        const double smallest =
-            Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>>(rows).singularValues()[5];
+        const double smallest = algebra::smallest_singular_value(rows);
         if (smallest <= best) continue;
         best = smallest;
         chosen = {i, j, k};

@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-HOUSES = ("parallel", "dynamics", "structure", "pipeline")
+HOUSES = ("algebra", "parallel", "dynamics", "structure", "pipeline")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 # What opens and closes scopes, once comments and texts are left out.
 SCOPE = re.compile(r"namespace\s*(?P<space>[\w:]*)\s*\{|"

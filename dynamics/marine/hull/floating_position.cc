@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "algebra/decompositions.h"
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
@@ -98,11 +99,11 @@ Eigen::Vector2d calc_turn(const Balance& b, bool about_x, double least_stiffness
     const double k = std::max(std::abs(b.stiffness(1, 1)), least_stiffness);
     return {0.0, std::clamp(b.moment.y() / k, -largest_turn, largest_turn)};
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(b.stiffness);
+  const auto eigen = algebra::symmetric_eigensystem(b.stiffness);
   Eigen::Vector2d turn = Eigen::Vector2d::Zero();
   for (Eigen::Index i = 0; i < 2; ++i) {
-    const Eigen::Vector2d axis = eigen.eigenvectors().col(i);
-    turn += axis * axis.dot(b.moment) / std::max(std::abs(eigen.eigenvalues()[i]), least_stiffness);
+    const Eigen::Vector2d axis = eigen.vectors.col(i);
+    turn += axis * axis.dot(b.moment) / std::max(std::abs(eigen.values[i]), least_stiffness);
   }
   return turn * std::min(1.0, largest_turn / std::max(turn.norm(), 1e-300));
 }
@@ -117,14 +118,12 @@ Balance settle(const HullClusters& hull, const FloatingBody& body, Balance b, bo
   };
   for (int i = 0; i < most_iterations; ++i) {
     const double moment = size_of_moment(b);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(b.stiffness);
-    const bool unstable =
-        about_x ? eigen.eigenvalues()[0] < -1e-9 * scale : b.stiffness(1, 1) < -1e-9 * scale;
+    const auto axes = algebra::symmetric_eigensystem(b.stiffness);
+    const bool unstable = (about_x ? axes.values[0] : b.stiffness(1, 1)) < -1e-9 * scale;
     if (moment < small_moment && !unstable) return b;
     Eigen::Vector2d turn = calc_turn(b, about_x, 1e-4 * scale);
     if (moment < small_moment) {
-      turn = 0.05 *
-             (about_x ? Eigen::Vector2d(eigen.eigenvectors().col(0)) : Eigen::Vector2d(0.0, 1.0));
+      turn = 0.05 * (about_x ? Eigen::Vector2d(axes.vectors.col(0)) : Eigen::Vector2d(0.0, 1.0));
     }
     Balance next = balance(hull, body, turned(b.X_WB.R, turn));
     for (int halving = 0; halving < 40 && next.energy > b.energy; ++halving) {
@@ -151,8 +150,8 @@ FloatingPosition find_floating_position(const HullClusters& hull, const Floating
                                         const Matrix3& R_WB) {
   require_floats(hull, body);
   const Balance b = settle(hull, body, balance(hull, body, R_WB), true);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(b.stiffness);
-  return {b.X_WB, b.hydrostatics, eigen.eigenvalues()[0] * body.water_density / body.mass};
+  const double least = algebra::symmetric_eigenvalues(b.stiffness)[0];
+  return {b.X_WB, b.hydrostatics, least * body.water_density / body.mass};
 }
 
 std::vector<RightingArm> calc_righting_arms(const HullClusters& hull, const FloatingBody& body,

@@ -12,6 +12,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -268,9 +269,8 @@ class Thickening {
         rows.row(i) = own.normals[i].transpose();
         distances[i] = own.distances[i];
       }
-      Eigen::JacobiSVD<Eigen::MatrixXd> solver(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
-      solver.setThreshold(0.1);  // faces that are nearly parallel meet at no corner: their mean
-      const Vector3 place = node(own.origin) + solver.solve(distances);
+      constexpr double parallel = 0.1;  // faces that nearly are meet at no corner: their mean
+      const Vector3 place = node(own.origin) + algebra::least_squares(rows, distances, parallel);
       const std::size_t tag = solid_.nodes.size() + 1;
       solid_.nodes[tag] = {place.x(), place.y(), place.z()};
       tag_of_[number] = tag;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/spread_mass.h"
@@ -84,8 +84,7 @@ class LinkBlocks {
     if (block.has("ORIENTATION")) throw CardError{"ORIENTATION is not known"};
     Eigen::Matrix3d inertia;
     inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
-    if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues()[0] <
-        -1e-6 * inertia.norm())
+    if (algebra::symmetric_eigenvalues(inertia)[0] < -1e-6 * inertia.norm())
       throw CardError{"a moment of inertia is negative"};
     const double length = model_.units.length;
     for (const int e : elements(block, AbaqusKind::inertia)) {

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/plausibility.h"
@@ -138,8 +139,7 @@ class MaterialBlocks {
           -v[5] / v[1], 1 / v[2];
     }
     const Eigen::Vector3d shear(v[6], v[7], v[8]);  // G12, G13, G23
-    if (!c.allFinite() || !(shear.minCoeff() > 0) ||
-        !(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c).eigenvalues().minCoeff() > 0))
+    if (!c.allFinite() || !(shear.minCoeff() > 0) || !(algebra::symmetric_eigenvalues(c)[0] > 0))
       throw CardError{"the elastic constants belong to no material: its energy is not positive"};
     const double modulus = 3 / c.trace();
     const double ratio = -modulus * (c(0, 1) + c(0, 2) + c(1, 2)) / 3;

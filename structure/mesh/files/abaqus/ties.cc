@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/index.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/shell_tree.h"
@@ -42,7 +43,7 @@ Foot find_foot(const Place& place, const Vector3& point) {
       slopes.col(i) = (place(foot.xi + side * Eigen::Vector2d::Unit(i)) - foot.place) / side;
     }
     const Eigen::Vector2d before = foot.xi;
-    foot.xi += slopes.colPivHouseholderQr().solve(point - foot.place);
+    foot.xi += algebra::least_squares(slopes, point - foot.place);
     foot.xi = foot.xi.cwiseMax(0).cwiseMin(1);
     if ((foot.xi - before).norm() < 1e-12) break;
   }

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/mesh/files/deck/log.h"
 
 namespace blocklift::structure {
@@ -60,12 +61,11 @@ void push(Deck& deck, MotionEquation equation) {
 }
 
 /// The inverse of a matrix that must have one. @throws CardError with a text if it has none.
-Matrix6 inverse_of(const Matrix6& matrix, const char* text) {
-  const Eigen::ColPivHouseholderQR<Matrix6> solver(matrix);
+Matrix6 inverse_or_complaint(const Matrix6& matrix, const char* text) {
   constexpr double singular = 1e-8;
-  if (std::abs(solver.matrixR()(5, 5)) < singular * std::abs(solver.matrixR()(0, 0)))
-    throw CardError{text};
-  return solver.inverse();
+  const algebra::PivotedColumns pivots = algebra::pivoted_columns(matrix);
+  if (pivots.last < singular * pivots.first) throw CardError{text};
+  return algebra::inverse_of(matrix);
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ void add_rigid_equations(Deck& deck, const std::vector<DeckFreedom>& independent
       mean_distance(deck, all, origin, [](const DeckFreedom& freedom) { return freedom; });
   Matrix6 rows;
   for (int i = 0; i < 6; ++i) rows.row(i) = rigid_row(deck, independent[i], origin, size);
-  const Matrix6 inverse = inverse_of(rows, undetermined);
+  const Matrix6 inverse = inverse_or_complaint(rows, undetermined);
   for (const DeckFreedom& freedom : dependent) {
     const Row shares = rigid_row(deck, freedom, origin, size) * inverse;
     MotionEquation equation;
@@ -125,7 +125,7 @@ void add_mean_equations(Deck& deck, const std::vector<DeckFreedom>& reference,
     rows.push_back(rigid_row(deck, one.freedom, origin, size));
     sum += one.weight * rows.back().transpose() * rows.back();
   }
-  const Matrix6 inverse = inverse_of(
+  const Matrix6 inverse = inverse_or_complaint(
       sum, "the components that count do not determine the motion of the reference grid");
   for (const DeckFreedom& freedom : reference) {
     const Row of_motion = rigid_row(deck, freedom, origin, size) * inverse;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/mesh/files/nastran/model.h"
 
 namespace blocklift::structure {
@@ -13,8 +14,7 @@ namespace blocklift::structure {
 namespace {
 
 bool is_sound(const Eigen::Matrix3d& inertia) {
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  const Eigen::Vector3d moments = algebra::symmetric_eigenvalues(inertia);
   return moments[0] >= -1e-6 * std::abs(moments[2]);
 }
 
