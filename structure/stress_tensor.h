@@ -14,12 +14,6 @@ using Stress = Eigen::Matrix<double, 6, 1>;
 /// Von Mises stress, Pa: sqrt(((sx-sy)^2 + (sy-sz)^2 + (sz-sx)^2) / 2 + 3 (sxy^2 + syz^2 + szx^2)).
 double von_mises(const Stress& stress);
 
-/// s : C^-1 : s, twice the elastic energy of a stress, J/m^3.
-double complementary_energy(const Material& material, const Stress& stress);
-
-/// Hooke's law on a displacement gradient du_a/dx_b.
-Stress stress_of_gradient(const Material& material, const Eigen::Matrix3d& gradient);
-
 /// Hooke's law in a plane without stress across it, of (e_11, e_22, 2 e_12), Pa.
 Eigen::Matrix3d plane_stress_law(const Material& material);
 

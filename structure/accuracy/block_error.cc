@@ -4,19 +4,18 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 #include <Eigen/Dense>
 
 #include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
-#include "structure/formulation/solid.h"
 #include "structure/index.h"
-#include "structure/mesh/directional.h"
 #include "structure/mesh/fields.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
-#include "structure/stress_tensor.h"
+#include "structure/stress/solid_error.h"
 
 namespace blocklift::structure {
 
@@ -153,66 +152,15 @@ struct SquaredNorms {
   Eigen::VectorXd error, norm;
 };
 
-/// Corner stresses of solids, averaged over those of one material that meet.
-class AveragedCorners {
- public:
-  AveragedCorners(const Space& space, const Eigen::VectorXd& motion) : mesh_(space.mesh()) {
-    for (std::size_t s = 0; s < mesh_.solids.size(); ++s) {
-      const Eigen::VectorXd own = solid_corner_stresses(space, static_cast<int>(s), motion);
-      for (Eigen::Index c = 0; c < own.size() / 6; ++c) {
-        Mean& mean = means_[key(s, c)];
-        mean.sum += own.segment<6>(6 * c);
-        ++mean.count;
-      }
-    }
-  }
-  /// 6 x corners.
-  Resultants of(std::size_t solid) const {
-    const Eigen::Index corners = topology_of(mesh_.solids[solid].shape).corners;
-    Resultants stresses(6, corners);
-    for (Eigen::Index c = 0; c < corners; ++c) {
-      const Mean& mean = means_.at(key(solid, c));
-      stresses.col(c) = mean.sum / mean.count;
-    }
-    return stresses;
-  }
-
- private:
-  struct Mean {
-    Stress sum = Stress::Zero();
-    int count = 0;
-  };
-  std::int64_t key(std::size_t solid, Eigen::Index corner) const {
-    const Solid& of = mesh_.solids[solid];
-    return static_cast<std::int64_t>(mesh_.materials.size()) * of.vertices[corner] + of.material;
-  }
-
-  const Mesh& mesh_;
-  std::unordered_map<std::int64_t, Mean> means_;
-};
-
 SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, int threads) {
-  const Mesh& mesh = space.mesh();
-  const int count = static_cast<int>(mesh.solids.size());
-  SquaredNorms norms(count);
-  const AveragedCorners corners(space, motion);
-  parallel::in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
-    for (int s = first; s < first + many; ++s) {
-      const Solid& solid = mesh.solids[s];
-      const Elasticity compliance = algebra::inverse_of(elasticity_of(mesh, solid));
-      const auto energy = [&](const Stress& stress) { return stress.dot(compliance * stress); };
-      const Eigen::VectorXd own = solid_stresses(space, s, motion);
-      const Resultants smooth =
-          corners.of(at(s)) * topology_of(solid.shape).from_corners.transpose();
-      const std::vector<SolidPoint> points = solid_points(mesh, solid);
-      for (std::size_t q = 0; q < points.size(); ++q) {
-        const auto column = static_cast<Eigen::Index>(q);
-        const Stress s_h = own.segment<6>(6 * column);
-        norms.error[s] += points[q].weight * energy(smooth.col(column) - s_h);
-        norms.norm[s] += points[q].weight * energy(s_h);
-      }
-    }
-  });
+  const SolidSet solids = solids_of(space);
+  SquaredNorms norms(solids.count());
+  if (solids.count() == 0) return norms;
+  const Eigen::VectorXd displacement =
+      motion.reshaped(6, space.node_count()).topRows<3>().reshaped();
+  SolidError error = estimate_solid_error(solids, find_nodal_points(solids), displacement, threads);
+  norms.error = std::move(error.squared_error);
+  norms.norm = std::move(error.squared_norm);
   return norms;
 }
 

@@ -17,9 +17,8 @@ namespace blocklift::structure {
 /// resultants, as smooth as the motion. With e the difference to the elements' own resultants,
 /// |e|^2 = int e : law^-1 : e dA. Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng.
 /// 24, 337-357, with the local smoothing of Hinton and Campbell (1974).
-/// So are stresses of solids: those at their corners are averaged over the solids of one material
-/// and are linear between; |e|^2 = int e : C^-1 : e dV. Bars have none: their elements of degree 3
-/// hold what evenly spread and end loads do.
+/// That of solids is SolidError's. Bars have none: their elements of degree 3 hold what evenly
+/// spread and end loads do.
 struct BlockError {
   double relative = 0;  ///< |e| over the square root of |e|^2 + |s_h|^2, of the whole block
   /// The same of each group of cells, in the order of Mesh::groups.

@@ -14,6 +14,7 @@
 #include "structure/error.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/mesh/directional.h"
 
 namespace blocklift::structure {
 
@@ -152,6 +153,20 @@ void add_body_load(const PartModel& model, const BodyLoad& load, Eigen::VectorXd
 }
 
 }  // namespace
+
+SolidSet solids_of(const PartModel& model) {
+  const PartMesh& mesh = model.mesh;
+  SolidSet solids;
+  solids.nodes = mesh.nodes;
+  for (const Material& material : model.materials)
+    solids.laws.push_back(isotropic_elasticity(material));
+  for (std::size_t s = 0; s < mesh.solids.size(); ++s) {
+    const Element& element = mesh.elements[mesh.solids[s]];
+    solids.add(mesh.kinds[element.kind], &mesh.element_nodes[at(element.first)],
+               model.material_of_solid[s]);
+  }
+  return solids;
+}
 
 Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid) {
   const int element = model.mesh.solids[solid];

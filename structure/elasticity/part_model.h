@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "structure/formulation/solid_set.h"
 #include "structure/material.h"
 #include "structure/mesh/part_mesh.h"
 #include "structure/system/linear_solver.h"
@@ -58,6 +59,9 @@ struct PartModel {
   std::vector<SurfaceLoad> surface_loads;
   std::vector<BodyLoad> body_loads;
 };
+
+/// The solids of a part, each material a law.
+SolidSet solids_of(const PartModel& model);
 
 /// Stiffness of one solid, N/m: unknown 3 i + a of its node i along axis a.
 Eigen::MatrixXd part_element_stiffness(const PartModel& model, int solid);

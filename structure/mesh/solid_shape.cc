@@ -96,8 +96,7 @@ SolidTopology make_topology(const char* name, const Eigen::Matrix3Xd& corners,
   topology.linear_kind.nodes = kind.corners;
   topology.linear_kind.local = corners;
   tabulate_rule(kind);
-  topology.from_corners = values_at_rule(kind, topology.linear_kind);
-  topology.to_corners = algebra::pseudo_inverse(topology.from_corners);
+  topology.to_corners = algebra::pseudo_inverse(values_at_rule(kind, topology.linear_kind));
   return topology;
 }
 

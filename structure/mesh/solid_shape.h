@@ -23,9 +23,8 @@ struct SolidTopology {
   /// parallel faces: 27 points of a hexahedron, 10 of a tetrahedron, 18 of a wedge at least, 36 of
   /// a pyramid.
   ElementKind kind;
-  ElementKind linear_kind;       ///< of the corners alone, without a rule
-  Eigen::MatrixXd from_corners;  ///< points of the rule x corners: the corners' shape functions
-  Eigen::MatrixXd to_corners;    ///< corners x points: their fit to what is known at the points
+  ElementKind linear_kind;     ///< of the corners alone, without a rule
+  Eigen::MatrixXd to_corners;  ///< corners x points of the rule: their fit to what is known there
 
   int nodes() const { return corners + static_cast<int>(edges.size()); }
 };

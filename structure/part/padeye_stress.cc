@@ -33,14 +33,13 @@ struct Mean {
   }
 };
 
-Mean mean_of(const PartModel& part, const std::vector<int>& solids,
+Mean mean_of(const SolidSet& set, const std::vector<int>& solids,
              const Eigen::VectorXd& displacement) {
   Mean mean;
   for (const int solid : solids) {
-    const int element = part.mesh.solids[solid];
-    const ElementKind& kind = part.mesh.kind(element);
-    const auto stress = part_stresses(part, solid, kind.gradients, displacement);
-    const Eigen::Matrix3Xd places = part.mesh.places(element);
+    const ElementKind& kind = set.kind(solid);
+    const StressColumns stress = stresses_of(set, solid, kind.gradients, displacement);
+    const Eigen::Matrix3Xd places = set.places(solid);
     for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
       const double volume =
           kind.weights[q] *
@@ -76,12 +75,13 @@ PadeyeStress find_padeye_stress(const PadeyeGeometry& padeye,
                                 const std::vector<PadeyeMesh::Column>& columns,
                                 const std::vector<std::vector<int>>& solids_of_column,
                                 const PartModel& part, const Eigen::VectorXd& displacement) {
+  const SolidSet set = solids_of(part);
   PadeyeStress result;
   const int count = static_cast<int>(columns.size());
   std::vector<Mean> means;
   result.column_von_mises.resize(count);
   for (int c = 0; c < count; ++c) {
-    means.push_back(mean_of(part, solids_of_column[c], displacement));
+    means.push_back(mean_of(set, solids_of_column[c], displacement));
     result.column_von_mises[c] = means.back().von_mises();
   }
   const double reach = std::min(patch_side / std::sqrt(std::numbers::pi), padeye.hole_diameter / 4);
@@ -104,12 +104,11 @@ PadeyeStress find_padeye_stress(const PadeyeGeometry& padeye,
     const double level = side * (padeye.thickness + padeye.cheek_thickness) / 2;
     take(plate.checked_von_mises, patch.von_mises(), {centre.x(), centre.y(), level}, name);
     for (const int solid : solids_of_column[c]) {
-      const int element = part.mesh.solids[solid];
-      const auto stress =
-          part_stresses(part, solid, part.mesh.kind(element).gradients_at_nodes, displacement);
-      for (int i = 0; i < part.mesh.kind(element).nodes; ++i)
-        take(plate.peak_von_mises, von_mises(stress.col(i)),
-             part.mesh.nodes.col(part.mesh.node(element, i)), name);
+      const StressColumns stress =
+          stresses_of(set, solid, set.kind(solid).gradients_at_nodes, displacement);
+      for (int i = 0; i < stress.cols(); ++i)
+        take(plate.peak_von_mises, von_mises(stress.col(i)), set.nodes.col(set.node(solid, i)),
+             name);
     }
   }
   return result;

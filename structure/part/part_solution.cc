@@ -14,7 +14,6 @@
 #include "structure/elasticity/rigid_freedom.h"
 #include "structure/error.h"
 #include "structure/mesh/element_shape.h"
-#include "structure/part/part_error.h"
 #include "structure/stopwatch.h"
 #include "structure/stress_tensor.h"
 #include "structure/system/iteration.h"
@@ -24,8 +23,6 @@
 namespace blocklift::structure {
 
 namespace {
-
-using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 void require_supported(const PartModel& model, const std::vector<FixedUnknown>& fixed) {
   const std::vector<std::string> motions = find_rigid_freedom(model, fixed).motions;
@@ -54,35 +51,20 @@ void require_straining(const Eigen::VectorXd& load, const std::vector<FixedUnkno
 }
 
 // The averages as recover_part_stress; of_solids: what each solid says at its nodes.
-PartStress recover(const PartModel& model, const Eigen::VectorXd& displacement,
+PartStress recover(const SolidSet& solids, const Eigen::VectorXd& displacement,
                    std::vector<StressColumns>& of_solids) {
-  PartStress stress;
-  std::map<std::pair<int, int>, int> known;  // (node, material)
-  std::vector<int> shares;
-  const int solids = static_cast<int>(model.mesh.solids.size());
-  for (int solid = 0; solid < solids; ++solid) {
-    const int element = model.mesh.solids[solid];
-    const ElementKind& kind = model.mesh.kind(element);
-    of_solids.push_back(part_stresses(model, solid, kind.gradients_at_nodes, displacement));
-    stress.first_of.push_back(static_cast<int>(stress.point_of.size()));
-    for (int i = 0; i < kind.nodes; ++i) {
-      const int node = model.mesh.node(element, i);
-      const auto [entry, is_new] = known.try_emplace({node, model.material_of_solid[solid]},
-                                                     static_cast<int>(stress.node.size()));
-      if (is_new) {
-        stress.node.push_back(node);
-        shares.push_back(0);
-      }
-      stress.point_of.push_back(entry->second);
-      ++shares[entry->second];
-    }
-  }
-  stress.averaged.setZero(6, stress.node.size());
-  for (int solid = 0; solid < solids; ++solid)
+  PartStress stress{find_nodal_points(solids), {}};
+  std::vector<int> shares(stress.node.size(), 0);
+  for (const int point : stress.point_of) ++shares[point];
+  stress.averaged.setZero(6, static_cast<Eigen::Index>(stress.node.size()));
+  for (int solid = 0; solid < solids.count(); ++solid) {
+    of_solids.push_back(
+        stresses_of(solids, solid, solids.kind(solid).gradients_at_nodes, displacement));
     for (Eigen::Index i = 0; i < of_solids[solid].cols(); ++i) {
       const int point = stress.point_of[stress.first_of[solid] + static_cast<int>(i)];
       stress.averaged.col(point) += of_solids[solid].col(i) / shares[point];
     }
+  }
   return stress;
 }
 
@@ -96,7 +78,7 @@ StressColumns at_nodes_of(int solid, int nodes, const PartStress& stress,
 }
 
 PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
-                           const std::vector<StressColumns>& of_solids, const PartError& error,
+                           const std::vector<StressColumns>& of_solids, const SolidError& error,
                            std::string name, const std::vector<int>& solids) {
   PartGroupResult result;
   result.group = std::move(name);
@@ -131,9 +113,9 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
   return result;
 }
 
-void find_maxima(const PartModel& model, const std::vector<StressColumns>& of_solids,
-                 PartSolution& solution) {
-  PartError error = estimate_part_error(model, solution.stress, solution.displacement);
+void find_maxima(const PartModel& model, const SolidSet& set,
+                 const std::vector<StressColumns>& of_solids, PartSolution& solution) {
+  SolidError error = estimate_solid_error(set, solution.stress, solution.displacement);
   solution.strain_energy = error.squared_norm.sum() / 2;
   std::map<int, int> solid_of_element;
   std::vector<int> all;
@@ -227,26 +209,9 @@ PartDisplacement iterate(const PartModel& model, const PartUnknowns& unknowns,
 
 }  // namespace
 
-StressColumns part_stresses(const PartModel& model, int solid, const Eigen::MatrixXd& gradients,
-                            const Eigen::VectorXd& displacement) {
-  const int element = model.mesh.solids[solid];
-  const Material& material = model.materials[model.material_of_solid[solid]];
-  const Eigen::Matrix3Xd places = model.mesh.places(element);
-  Eigen::Matrix3Xd moved(3, places.cols());
-  for (int i = 0; i < places.cols(); ++i)
-    moved.col(i) = displacement.segment<3>(3 * model.mesh.node(element, i));
-  StressColumns result(6, gradients.rows() / 3);
-  for (Eigen::Index q = 0; q < result.cols(); ++q) {
-    const auto by_unit = gradients.middleRows<3>(3 * q);
-    const Eigen::Matrix3d inverse = (places * by_unit.transpose()).inverse();
-    result.col(q) = stress_of_gradient(material, (moved * by_unit.transpose()) * inverse);
-  }
-  return result;
-}
-
 PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement) {
   std::vector<StressColumns> of_solids;
-  return recover(model, displacement, of_solids);
+  return recover(solids_of(model), displacement, of_solids);
 }
 
 PartDisplacement find_part_displacement(const PartModel& model,
@@ -297,8 +262,9 @@ PartSolution solve_part(const PartModel& model, const SolverChoice& choice) {
   find_balance(model, load, fixed, support_of, solved.reactions, solution);
   Stopwatch watch;
   std::vector<StressColumns> of_solids;
-  solution.stress = recover(model, solution.displacement, of_solids);
-  find_maxima(model, of_solids, solution);
+  const SolidSet set = solids_of(model);
+  solution.stress = recover(set, solution.displacement, of_solids);
+  find_maxima(model, set, of_solids, solution);
   solution.recovery_s = watch.lap();
   return solution;
 }

@@ -8,16 +8,13 @@
 #include "structure/elasticity/part_model.h"
 #include "structure/rigid_body.h"
 #include "structure/solver_choice.h"
+#include "structure/stress/solid_error.h"
 
 namespace blocklift::structure {
 
-/// Stresses of a part at its nodes: a point for each node and material that meets it, since stress
-/// jumps between materials.
-struct PartStress {
-  std::vector<int> node;      ///< of each point
-  std::vector<int> point_of;  ///< point of each node of each solid, solids after one another
-  std::vector<int> first_of;  ///< place in point_of of each solid's first node
-  Eigen::Matrix<double, 6, Eigen::Dynamic> averaged;  ///< over the solids at each point, Pa
+/// Stresses of a part at its nodes.
+struct PartStress : NodalPoints {
+  StressColumns averaged;  ///< over the solids at each point, Pa
 };
 
 /// Largest values of a group of solids.
@@ -28,7 +25,7 @@ struct PartGroupResult {
   double raw_von_mises = 0;  ///< largest of any solid at any of its nodes, nothing averaged, Pa
   Vector3 raw_point = Vector3::Zero();
   double displacement = 0;  ///< m
-  /// By superconvergent patch recovery, in the energy norm, as a share of the norm (see PartError).
+  /// By superconvergent patch recovery, in the energy norm, as a share of the norm (see SolidError).
   double estimated_error = 0;
   /// Of the largest averaged stress: by how much (as a von Mises stress) the stresses of the solids
   /// that meet there differ from the recovered one, Pa. It falls as the mesh gets finer, unless the
@@ -77,8 +74,8 @@ struct PartSolution {
   double strain_energy = 0;               ///< J
   double estimated_error = 0;             ///< of the whole part, as for a group
   Vector3 worst_point = Vector3::Zero();  ///< centre of the solid with the largest error, m
-  Eigen::VectorXd squared_error;          ///< of each solid in the energy norm, J (see PartError)
-  Eigen::Matrix<double, 6, Eigen::Dynamic> recovered;  ///< PartError::recovered, Pa
+  Eigen::VectorXd squared_error;          ///< of each solid in the energy norm, J (see SolidError)
+  StressColumns recovered;                ///< SolidError::recovered, Pa
   SolverAccount solver;
   double recovery_s = 0;  ///< wall-clock time of the stresses
 };
@@ -100,12 +97,6 @@ PartSolution solve_part(const PartModel& model, const SolverChoice& choice = {})
 
 /// Stresses at the nodes from the displacement, averaged over the solids of one material.
 PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement);
-
-/// Stresses of one solid (6 x points, Pa) at points whose gradients by the local coordinates are
-/// given: row 3 q + a holds d/dxi_a of the shape functions at point q.
-Eigen::Matrix<double, 6, Eigen::Dynamic> part_stresses(const PartModel& model, int solid,
-                                                       const Eigen::MatrixXd& gradients,
-                                                       const Eigen::VectorXd& displacement);
 
 /// Displacement and averaged stress at a place, interpolated in the solid that holds it (to 1e-6 of
 /// its size).

@@ -11,7 +11,7 @@
 
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/verification/structure/structure_cases.h"
-#include "structure/part/part_error.h"
+#include "structure/stress/solid_error.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -60,7 +60,9 @@ Run evaluate(const PartAssessment& assessment, const ExactStress& exact) {
   std::iota(all.begin(), all.end(), 0);
   const structure::PartSolution& solution = assessment.solution;
   return {solution.estimated_error,
-          structure::true_part_error(assessment.model, solution.displacement, exact).relative(all),
+          structure::true_solid_error(structure::solids_of(assessment.model), solution.displacement,
+                                      exact)
+              .relative(all),
           all.size()};
 }
 

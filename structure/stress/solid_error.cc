@@ -1,23 +1,22 @@
-#include "structure/part/part_error.h"
+#include "structure/stress/solid_error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
 
+#include "parallel/threads.h"
 #include "structure/mesh/element_shape.h"
-#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 
 namespace {
 
-using StressColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
-using Stress6 = Eigen::Matrix<double, 6, 1>;
-
-// Points of an element kind at which its stresses are most accurate. Source: Barlow (1976).
+// Points of an element kind at which its stresses are most accurate. Source: Barlow (1976). Of a
+// pyramid the four of a quadrangle on each of the two levels of Gauss' and Jacobi's rule.
 Eigen::Matrix3Xd accurate_points(const ElementKind& kind) {
   const double g = kind.order > 1 ? 1 / std::sqrt(3.0) : 0;
   std::vector<Vector3> points;
@@ -40,6 +39,12 @@ Eigen::Matrix3Xd accurate_points(const ElementKind& kind) {
       points.emplace_back(2 / 3.0, 1 / 6.0, z);
       points.emplace_back(1 / 6.0, 2 / 3.0, z);
     });
+  } else if (kind.corners == 5) {
+    for (const double z :
+         kind.order == 1 ? std::vector{0.25} : std::vector{0.12251482265544, 0.54415184401123})
+      along([&](double y) {
+        along([&](double x) { points.emplace_back((1 - z) * x, (1 - z) * y, z); });
+      });
   } else if (kind.order == 1) {
     points.emplace_back(0.25, 0.25, 0.25);
   } else {
@@ -86,13 +91,13 @@ Eigen::RowVectorXd monomials(const Vector3& x, int order) {
 /// Fits patches and evaluates them at the points of stress.
 class Recovery {
  public:
-  Recovery(const PartModel& model, const PartStress& stress, const Eigen::VectorXd& displacement)
-      : model_(model),
-        stress_(stress),
-        solids_of_(stress.node.size()),
-        is_corner_(stress.node.size(), 0),
-        recovered_(StressColumns::Zero(6, stress.node.size())),
-        shares_(stress.node.size(), 0) {
+  Recovery(const SolidSet& solids, const NodalPoints& points, const Eigen::VectorXd& displacement)
+      : set_(solids),
+        points_(points),
+        solids_of_(points.node.size()),
+        is_corner_(points.node.size(), 0),
+        recovered_(StressColumns::Zero(6, static_cast<Eigen::Index>(points.node.size()))),
+        shares_(points.node.size(), 0) {
     sample(displacement);
     for (std::size_t point = 0; point < solids_of_.size(); ++point)
       if (is_corner_[point]) fit(static_cast<int>(point));
@@ -104,21 +109,18 @@ class Recovery {
 
  private:
   int point(int solid, int local) const {
-    return stress_.point_of[stress_.first_of[solid] + local];
+    return points_.point_of[points_.first_of[solid] + local];
   }
-  const ElementKind& kind(int solid) const { return model_.mesh.kind(model_.mesh.solids[solid]); }
-  Vector3 place(int point) const { return model_.mesh.nodes.col(stress_.node[point]); }
+  const ElementKind& kind(int solid) const { return set_.kind(solid); }
+  Vector3 place(int point) const { return set_.nodes.col(points_.node[point]); }
 
   void sample(const Eigen::VectorXd& displacement) {
-    std::map<int, Sampling> tables;
-    for (int solid = 0; solid < static_cast<int>(model_.mesh.solids.size()); ++solid) {
-      const int element = model_.mesh.solids[solid];
-      const int number = model_.mesh.elements[element].kind;
-      auto table = tables.find(number);
-      if (table == tables.end()) table = tables.emplace(number, tabulate(kind(solid))).first;
-      sample_places_.push_back(model_.mesh.places(element) * table->second.values.transpose());
-      sample_stresses_.push_back(
-          part_stresses(model_, solid, table->second.gradients, displacement));
+    std::map<const ElementKind*, Sampling> tables;
+    for (int solid = 0; solid < set_.count(); ++solid) {
+      auto table = tables.find(&kind(solid));
+      if (table == tables.end()) table = tables.emplace(&kind(solid), tabulate(kind(solid))).first;
+      sample_places_.push_back(set_.places(solid) * table->second.values.transpose());
+      sample_stresses_.push_back(stresses_of(set_, solid, table->second.gradients, displacement));
       for (int i = 0; i < kind(solid).corners; ++i) {
         is_corner_[point(solid, i)] = 1;
         solids_of_[point(solid, i)].push_back(solid);
@@ -179,8 +181,8 @@ class Recovery {
       for (int i = kind(solid).corners; i < kind(solid).nodes; ++i) add(point(solid, i));
   }
 
-  const PartModel& model_;
-  const PartStress& stress_;
+  const SolidSet& set_;
+  const NodalPoints& points_;
   std::vector<Eigen::Matrix3Xd> sample_places_;  ///< of each solid
   std::vector<StressColumns> sample_stresses_;
   std::vector<std::vector<int>> solids_of_;  ///< about each point that is a corner
@@ -190,32 +192,51 @@ class Recovery {
 };
 
 /// @param better a better stress at the rule's points of a solid: 6 x points.
-PartError compare_stresses(const PartModel& model, const Eigen::VectorXd& displacement,
-                           const std::function<StressColumns(int)>& better) {
-  const auto solids = static_cast<Eigen::Index>(model.mesh.solids.size());
-  PartError error{Eigen::VectorXd::Zero(solids), Eigen::VectorXd::Zero(solids), {}};
-  for (int solid = 0; solid < solids; ++solid) {
-    const int element = model.mesh.solids[solid];
-    const ElementKind& kind = model.mesh.kind(element);
-    const Material& material = model.materials[model.material_of_solid[solid]];
-    const StressColumns own = part_stresses(model, solid, kind.gradients, displacement);
-    const StressColumns other = better(solid);
-    const Eigen::Matrix3Xd places = model.mesh.places(element);
-    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
-      const double volume =
-          kind.weights[q] *
-          (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
-      error.squared_error[solid] +=
-          volume * complementary_energy(material, other.col(q) - own.col(q));
-      error.squared_norm[solid] += volume * complementary_energy(material, own.col(q));
+SolidError compare_stresses(const SolidSet& solids, const Eigen::VectorXd& displacement,
+                            int threads, const std::function<StressColumns(int)>& better) {
+  const int count = solids.count();
+  SolidError error{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count), {}};
+  std::vector<Elasticity> compliances;
+  for (const Elasticity& law : solids.laws) compliances.push_back(law.inverse());
+  parallel::in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
+    for (int solid = first; solid < first + many; ++solid) {
+      const ElementKind& kind = solids.kind(solid);
+      const Elasticity& compliance = compliances[solids.law[solid]];
+      const StressColumns own = stresses_of(solids, solid, kind.gradients, displacement);
+      const StressColumns difference = better(solid) - own;
+      const Eigen::Matrix3Xd places = solids.places(solid);
+      for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+        const double volume =
+            kind.weights[q] *
+            (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
+        const auto e = difference.col(q), s = own.col(q);
+        error.squared_error[solid] += volume * e.dot(compliance * e);
+        error.squared_norm[solid] += volume * s.dot(compliance * s);
+      }
     }
-  }
+  });
   return error;
 }
 
 }  // namespace
 
-double PartError::relative(const std::vector<int>& solids) const {
+NodalPoints find_nodal_points(const SolidSet& solids) {
+  NodalPoints points;
+  std::map<std::pair<int, int>, int> known;  // (node, law)
+  for (int solid = 0; solid < solids.count(); ++solid) {
+    points.first_of.push_back(static_cast<int>(points.point_of.size()));
+    for (int i = 0; i < solids.kind(solid).nodes; ++i) {
+      const int node = solids.node(solid, i);
+      const auto [entry, is_new] =
+          known.try_emplace({node, solids.law[solid]}, static_cast<int>(points.node.size()));
+      if (is_new) points.node.push_back(node);
+      points.point_of.push_back(entry->second);
+    }
+  }
+  return points;
+}
+
+double SolidError::relative(const std::vector<int>& solids) const {
   double error = 0, norm = 0;
   for (const int solid : solids) {
     error += squared_error[solid];
@@ -224,26 +245,25 @@ double PartError::relative(const std::vector<int>& solids) const {
   return norm > 0 ? std::sqrt(error / (norm + error)) : 0;
 }
 
-PartError estimate_part_error(const PartModel& model, const PartStress& stress,
-                              const Eigen::VectorXd& displacement) {
-  const Recovery recovery(model, stress, displacement);
-  PartError error = compare_stresses(model, displacement, [&](int solid) -> StressColumns {
-    const ElementKind& kind = model.mesh.kind(model.mesh.solids[solid]);
-    StressColumns nodal(6, kind.nodes);
-    for (int i = 0; i < kind.nodes; ++i)
-      nodal.col(i) = recovery.at_points().col(stress.point_of[stress.first_of[solid] + i]);
-    return nodal * kind.values.transpose();
-  });
+SolidError estimate_solid_error(const SolidSet& solids, const NodalPoints& points,
+                                const Eigen::VectorXd& displacement, int threads) {
+  const Recovery recovery(solids, points, displacement);
+  SolidError error =
+      compare_stresses(solids, displacement, threads, [&](int solid) -> StressColumns {
+        const ElementKind& kind = solids.kind(solid);
+        StressColumns nodal(6, kind.nodes);
+        for (int i = 0; i < kind.nodes; ++i)
+          nodal.col(i) = recovery.at_points().col(points.point_of[points.first_of[solid] + i]);
+        return nodal * kind.values.transpose();
+      });
   error.recovered = recovery.at_points();
   return error;
 }
 
-PartError true_part_error(const PartModel& model, const Eigen::VectorXd& displacement,
-                          const std::function<Eigen::Matrix<double, 6, 1>(const Vector3&)>& exact) {
-  return compare_stresses(model, displacement, [&](int solid) -> StressColumns {
-    const int element = model.mesh.solids[solid];
-    const Eigen::Matrix3Xd places =
-        model.mesh.places(element) * model.mesh.kind(element).values.transpose();
+SolidError true_solid_error(const SolidSet& solids, const Eigen::VectorXd& displacement,
+                            const std::function<Stress(const Vector3&)>& exact) {
+  return compare_stresses(solids, displacement, 1, [&](int solid) -> StressColumns {
+    const Eigen::Matrix3Xd places = solids.places(solid) * solids.kind(solid).values.transpose();
     StressColumns stresses(6, places.cols());
     for (Eigen::Index q = 0; q < places.cols(); ++q) stresses.col(q) = exact(places.col(q));
     return stresses;
