@@ -79,11 +79,11 @@ class Lift {
 
   VtkGrid cranes(std::size_t instant) const {
     VtkGrid grid;
-    structure::VtkField object{"object", {}}, tension{"tension", {}};
+    std::vector<float> object, tension;
     VtkGrid::Texts names{"object_names", {}};
     const auto end_cell = [&](double newton) {
-      object.values.push_back(static_cast<float>(names.values.size()));
-      tension.values.push_back(static_cast<float>(newton));
+      object.push_back(static_cast<float>(names.values.size()));
+      tension.push_back(static_cast<float>(newton));
     };
     for (const Body& body : bodies_) {
       if (surface_ && body.name == surface_->body) continue;
@@ -104,7 +104,7 @@ class Lift {
       end_cell(line.tension ? (*line.tension)(instant) : 0);
       names.values.push_back(line.name);
     }
-    grid.cell_data = {std::move(object), std::move(tension)};
+    grid.cell_data = {{"object", std::move(object)}, {"tension", std::move(tension)}};
     grid.texts = {std::move(names)};
     return grid;
   }
@@ -120,8 +120,8 @@ class Lift {
       grid.offsets.push_back(static_cast<std::int32_t>(4 * (q + 1)));
       grid.types.push_back(static_cast<std::uint8_t>(VtkCell::quadrangle));
     }
-    grid.point_data = {
-        {"von_mises", {surface_->von_mises.values.begin(), surface_->von_mises.values.end()}}};
+    grid.point_data = {{"von_mises", std::vector<float>(surface_->von_mises.values.begin(),
+                                                        surface_->von_mises.values.end())}};
     return grid;
   }
 

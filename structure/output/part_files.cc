@@ -6,13 +6,13 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
 #include "structure/error.h"
-#include "structure/output/vtk_array.h"
 #include "structure/output/vtk_grid.h"
 #include "structure/stress_tensor.h"
 
@@ -26,11 +26,11 @@ std::vector<int> shared_order(const ElementKind& kind) {
   return order;
 }
 
-std::uint8_t vtk_type(const ElementKind& kind) {
+VtkCell vtk_type(const ElementKind& kind) {
   const bool quadratic = kind.order > 1;
-  if (kind.corners == 4) return quadratic ? 24 : 10;  // tetrahedron
-  if (kind.corners == 6) return quadratic ? 26 : 13;  // wedge
-  return quadratic ? 25 : 12;                         // hexahedron
+  if (kind.corners == 4) return quadratic ? VtkCell::quadratic_tetrahedron : VtkCell::tetrahedron;
+  if (kind.corners == 6) return quadratic ? VtkCell::quadratic_wedge : VtkCell::wedge;
+  return quadratic ? VtkCell::quadratic_hexahedron : VtkCell::hexahedron;
 }
 
 const char* calculix_type(const ElementKind& kind) {
@@ -58,115 +58,81 @@ std::string name_of(std::string text) {
   return text;
 }
 
-/// The solids of a part on points of which each is at a node.
-struct Grid {
-  std::vector<int> node;  ///< of each point
-  std::vector<std::int32_t> connectivity, offsets;
-};
-
-// Points for each node and material, as the stress has them.
-Grid grid_of_stress(const PartModel& model, const PartStress& stress) {
-  Grid grid{stress.node, {}, {}};
-  for (std::size_t solid = 0; solid < model.mesh.solids.size(); ++solid) {
-    for (const int i : shared_order(model.mesh.kind(model.mesh.solids[solid])))
-      grid.connectivity.push_back(stress.point_of[stress.first_of[solid] + i]);
-    grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
-  }
-  return grid;
-}
-
-// A point for each node that an element's drawing needs.
-Grid grid_of_nodes(const PartMesh& mesh) {
-  Grid grid;
-  std::vector<int> point_of(static_cast<std::size_t>(mesh.nodes.cols()), -1);
-  for (const int element : mesh.solids) {
-    for (const int i : shared_order(mesh.kind(element))) {
-      int& point = point_of[mesh.node(element, i)];
-      if (point < 0) {
-        point = static_cast<int>(grid.node.size());
-        grid.node.push_back(mesh.node(element, i));
-      }
-      grid.connectivity.push_back(point);
-    }
-    grid.offsets.push_back(static_cast<std::int32_t>(grid.connectivity.size()));
-  }
-  return grid;
-}
-
-// Values of a displacement (3 a node) at the points.
-std::vector<float> at_points(const Grid& grid, const Eigen::Ref<const Eigen::VectorXd>& values) {
-  std::vector<float> result;
-  for (const int node : grid.node)
-    for (int a = 0; a < 3; ++a) result.push_back(static_cast<float>(values[3 * node + a]));
-  return result;
-}
-
-// Everything up to the point data.
-void write_grid(std::ofstream& file, const PartModel& model, const Grid& grid) {
-  std::vector<std::uint8_t> types;
-  std::vector<std::string> materials;
-  for (const int element : model.mesh.solids) types.push_back(vtk_type(model.mesh.kind(element)));
-  for (const Material& one : model.materials) materials.push_back(one.name);
-  const Eigen::Map<const Eigen::VectorXd> places(model.mesh.nodes.data(), model.mesh.nodes.size());
-  file << vtk_head("UnstructuredGrid");
-  file << "<UnstructuredGrid>\n<FieldData>\n";
-  write_names(file, "material_names", materials);
-  file << "</FieldData>\n<Piece NumberOfPoints=\"" << grid.node.size() << "\" NumberOfCells=\""
-       << types.size() << "\">\n<Points>\n";
-  write_array(file, "Float32", "points", 3, at_points(grid, places));
-  file << "</Points>\n<Cells>\n";
-  write_array(file, "Int32", "connectivity", 1, grid.connectivity);
-  write_array(file, "Int32", "offsets", 1, grid.offsets);
-  write_array(file, "UInt8", "types", 1, types);
-  file << "</Cells>\n";
-}
-
-// The data of the solids and the end of the file.
-void write_cells(std::ofstream& file, const PartModel& model, const std::string& path) {
+// The solids of a part with their data, on points of which each is at a node.
+// @param point_of the point of a node of a solid.
+template <typename PointOf>
+VtkGrid grid_of(const PartModel& model, const std::vector<int>& node_of_point,
+                const PointOf& point_of) {
+  const PartMesh& mesh = model.mesh;
+  VtkGrid grid;
+  VtkGrid::Texts materials{"material_names", {}};
   std::vector<std::int64_t> tags;
-  for (const int element : model.mesh.solids)
-    tags.push_back(static_cast<std::int64_t>(model.mesh.elements[element].tag));
-  file << "<CellData>\n";
-  write_array(
-      file, "Int32", "material", 1,
-      std::vector<std::int32_t>(model.material_of_solid.begin(), model.material_of_solid.end()));
-  write_array(file, "Int64", "element", 1, tags);
-  file << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
-  file.flush();
-  if (!file) throw ModelError("cannot write \"" + path + "\"");
+  for (const Material& one : model.materials) materials.values.push_back(one.name);
+  for (const int node : node_of_point) grid.add_point(mesh.nodes.col(node));
+  for (std::size_t solid = 0; solid < mesh.solids.size(); ++solid) {
+    const int element = mesh.solids[solid];
+    for (const int i : shared_order(mesh.kind(element)))
+      grid.connectivity.push_back(point_of(solid, i));
+    grid.end_cell(vtk_type(mesh.kind(element)));
+    tags.push_back(static_cast<std::int64_t>(mesh.elements[element].tag));
+  }
+  grid.texts = {std::move(materials)};
+  grid.cell_data = {{"material", std::vector<std::int32_t>(model.material_of_solid.begin(),
+                                                           model.material_of_solid.end())},
+                    {"element", std::move(tags)}};
+  return grid;
+}
+
+// Values of a displacement (3 a node) at points.
+VtkField field_of(std::string name, const std::vector<int>& node_of_point,
+                  const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::vector<float> at_points;
+  for (const int node : node_of_point)
+    for (int a = 0; a < 3; ++a) at_points.push_back(static_cast<float>(values[3 * node + a]));
+  return {std::move(name), std::move(at_points), 3};
 }
 
 }  // namespace
 
 void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution) {
   const PartStress& stress = solution.stress;
-  const Grid grid = grid_of_stress(model, stress);
+  // Points for each node and material, as the stress has them.
+  VtkGrid grid = grid_of(model, stress.node, [&](std::size_t solid, int i) {
+    return stress.point_of[stress.first_of[solid] + i];
+  });
   std::vector<float> components, equivalent;
   for (const auto& s : stress.averaged.colwise()) {
     for (int c = 0; c < 6; ++c) components.push_back(static_cast<float>(s[c]));
     equivalent.push_back(static_cast<float>(von_mises(s)));
   }
-  std::ofstream file(path, std::ios::binary);
-  write_grid(file, model, grid);
-  file << "<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n";
-  write_array(file, "Float32", "displacement", 3, at_points(grid, solution.displacement));
-  write_array(file, "Float32", "von_mises", 1, equivalent);
-  write_array(file, "Float32", "stress", 6, components);
-  file << "</PointData>\n";
-  write_cells(file, model, path);
+  grid.scalars = "von_mises";
+  grid.vectors = "displacement";
+  grid.point_data = {field_of("displacement", stress.node, solution.displacement),
+                     {"von_mises", std::move(equivalent)},
+                     {"stress", std::move(components), 6}};
+  write_vtk_grid(path, grid);
 }
 
 void write_part_modes_vtu(const std::string& path, const PartModel& model,
                           const NaturalModes& modes) {
-  const Grid grid = grid_of_nodes(model.mesh);
-  std::ofstream file(path, std::ios::binary);
-  write_grid(file, model, grid);
-  file << "<PointData Vectors=\"mode_1\">\n";
+  const PartMesh& mesh = model.mesh;
+  // A point for each node that an element's drawing needs.
+  std::vector<int> node_of_point, point_of(static_cast<std::size_t>(mesh.nodes.cols()), -1);
+  for (const int element : mesh.solids)
+    for (const int i : shared_order(mesh.kind(element))) {
+      int& point = point_of[mesh.node(element, i)];
+      if (point >= 0) continue;
+      point = static_cast<int>(node_of_point.size());
+      node_of_point.push_back(mesh.node(element, i));
+    }
+  VtkGrid grid = grid_of(model, node_of_point, [&](std::size_t solid, int i) {
+    return point_of[mesh.node(mesh.solids[solid], i)];
+  });
+  grid.vectors = "mode_1";
   for (Eigen::Index m = 0; m < modes.shapes.cols(); ++m)
-    write_array(file, "Float32", fmt::format("mode_{}", m + 1), 3,
-                at_points(grid, modes.shapes.col(m)));
-  file << "</PointData>\n";
-  write_cells(file, model, path);
+    grid.point_data.push_back(
+        field_of(fmt::format("mode_{}", m + 1), node_of_point, modes.shapes.col(m)));
+  write_vtk_grid(path, grid);
 }
 
 void write_calculix(const std::string& path, const PartModel& model) {

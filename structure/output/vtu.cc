@@ -3,18 +3,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
 
-#include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/solid.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/output/divided_cell.h"
-#include "structure/output/vtk_array.h"
 #include "structure/output/vtk_grid.h"
 #include "structure/stress/beam_stress.h"
 #include "structure/stress/shell_stress.h"
@@ -24,14 +22,10 @@ namespace blocklift::structure {
 
 namespace {
 
-/// VTK's numbers of cells' shapes.
-constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5, vtk_quad = 9, vtk_tetra = 10,
-                       vtk_hexahedron = 12, vtk_wedge = 13, vtk_pyramid = 14;
-
 struct Content {
-  std::vector<float> points, displacement, von_mises, top, bottom, membrane, thickness;
-  std::vector<std::int32_t> connectivity, offsets, group, material, plate;
-  std::vector<std::uint8_t> types;
+  VtkGrid grid;
+  std::vector<float> displacement, von_mises, top, bottom, membrane, thickness;
+  std::vector<std::int32_t> group, material, plate;
 };
 
 class Collector {
@@ -57,7 +51,7 @@ class Collector {
     const auto cells = static_cast<int>(space_.shells().size());
     const Eigen::MatrixXd stress = stresses_of_cells(space_, unit, 0, cells, motion_);
     for (int cell = 0; cell < cells; ++cell) {
-      const auto first = static_cast<std::int32_t>(content_.von_mises.size());
+      const auto first = content_.grid.point_count();
       const Eigen::MatrixXd local = motions_of_cell(space_, cell, motion_);
       const Eigen::MatrixXd moved =
           shapes * local.reshaped(6, local.size() / 6).topRows<3>().transpose();
@@ -91,9 +85,8 @@ class Collector {
           beam_motion_at(space_, cell, xi, motion_).displacement,
           {std::abs(beam_stress_at_centroid(space_, cell, xi, motion_)[0]), largest, largest});
       if (i == 0) continue;
-      const auto last = static_cast<std::int32_t>(content_.von_mises.size()) - 1;
-      content_.connectivity.insert(content_.connectivity.end(), {last - 1, last});
-      content_.types.push_back(vtk_line);
+      const auto last = content_.grid.point_count() - 1;
+      content_.grid.add_cell(VtkCell::line, last - 1, 2);
       add_cell(beam.region, space_.mesh().section_of(beam).material, 0);
     }
   }
@@ -101,7 +94,7 @@ class Collector {
   void add_solid(int number) {
     const Solid& solid = space_.mesh().solids[number];
     const Eigen::VectorXd stress = solid_corner_stresses(space_, number, motion_);
-    const auto first = static_cast<std::int32_t>(content_.von_mises.size());
+    const auto first = content_.grid.point_count();
     const int corners = topology_of(solid.shape).corners;
     for (int corner = 0; corner < corners; ++corner) {
       const Eigen::Index node = space_.solid_nodes(number)[corner];
@@ -111,19 +104,18 @@ class Collector {
     // VTK's wedges begin with the triangle whose normal points out.
     static constexpr std::array<std::int32_t, 6> wedge{0, 2, 1, 3, 5, 4};
     for (int corner = 0; corner < corners; ++corner)
-      content_.connectivity.push_back(first + (corners == 6 ? wedge[corner] : corner));
-    content_.types.push_back(corners == 4   ? vtk_tetra
-                             : corners == 5 ? vtk_pyramid
-                             : corners == 6 ? vtk_wedge
-                                            : vtk_hexahedron);
+      content_.grid.connectivity.push_back(first + (corners == 6 ? wedge[corner] : corner));
+    content_.grid.end_cell(corners == 4   ? VtkCell::tetrahedron
+                           : corners == 5 ? VtkCell::pyramid
+                           : corners == 6 ? VtkCell::wedge
+                                          : VtkCell::hexahedron);
     add_cell(solid.region, solid.material, 0);
   }
 
   void add_point(const Vector3& place, const Vector3& moved, const PlateVonMises& stress) {
-    for (int axis = 0; axis < 3; ++axis) {
-      content_.points.push_back(static_cast<float>(place[axis]));
-      content_.displacement.push_back(static_cast<float>(moved[axis]));
-    }
+    content_.grid.add_point(place);
+    for (const double component : moved)
+      content_.displacement.push_back(static_cast<float>(component));
     content_.von_mises.push_back(static_cast<float>(stress.largest()));
     content_.top.push_back(static_cast<float>(stress.top));
     content_.bottom.push_back(static_cast<float>(stress.bottom));
@@ -133,17 +125,16 @@ class Collector {
   // Where a triangle's edge is a point, two corners lie there: the cell has three.
   void add_corners(std::int32_t first, const std::array<int, 4>& corners) {
     const auto place = [&](int corner) {
-      const auto start = content_.points.begin() + 3 * (first + corner);
+      const auto start = content_.grid.points.begin() + 3 * (first + corner);
       return std::array<float, 3>{start[0], start[1], start[2]};
     };
     const bool is_triangle = place(corners[2]) == place(corners[3]);
     for (std::size_t i = 0; i < (is_triangle ? 3 : 4); ++i)
-      content_.connectivity.push_back(first + corners[i]);
-    content_.types.push_back(is_triangle ? vtk_triangle : vtk_quad);
+      content_.grid.connectivity.push_back(first + corners[i]);
+    content_.grid.end_cell(is_triangle ? VtkCell::triangle : VtkCell::quadrangle);
   }
 
   void add_cell(int region, int material, double thickness) {
-    content_.offsets.push_back(static_cast<std::int32_t>(content_.connectivity.size()));
     content_.group.push_back(space_.mesh().regions[region].group);
     content_.material.push_back(material);
     content_.plate.push_back(region);
@@ -154,28 +145,6 @@ class Collector {
   const Eigen::VectorXd& motion_;
   Content content_;
 };
-
-void write_arrays(std::ofstream& file, const Content& content) {
-  file << "<Piece NumberOfPoints=\"" << content.von_mises.size() << "\" NumberOfCells=\""
-       << content.types.size() << "\">\n<Points>\n";
-  write_array(file, "Float32", "points", 3, content.points);
-  file << "</Points>\n<Cells>\n";
-  write_array(file, "Int32", "connectivity", 1, content.connectivity);
-  write_array(file, "Int32", "offsets", 1, content.offsets);
-  write_array(file, "UInt8", "types", 1, content.types);
-  file << "</Cells>\n<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n";
-  write_array(file, "Float32", "displacement", 3, content.displacement);
-  write_array(file, "Float32", "von_mises", 1, content.von_mises);
-  write_array(file, "Float32", "von_mises_top", 1, content.top);
-  write_array(file, "Float32", "von_mises_bottom", 1, content.bottom);
-  write_array(file, "Float32", "von_mises_membrane", 1, content.membrane);
-  file << "</PointData>\n<CellData>\n";
-  write_array(file, "Int32", "group", 1, content.group);
-  write_array(file, "Int32", "material", 1, content.material);
-  write_array(file, "Int32", "plate", 1, content.plate);
-  write_array(file, "Float32", "thickness", 1, content.thickness);
-  file << "</CellData>\n</Piece>\n";
-}
 
 template <typename List>
 std::vector<std::string> names_of(const List& list) {
@@ -190,18 +159,24 @@ std::vector<std::string> names_of(const List& list) {
 void write_vtu(const std::string& path, const ElasticModel& model, const std::string& name,
                const Eigen::VectorXd& motion) {
   const Mesh& mesh = model.mesh();
-  const Content content = Collector(model.space(), motion).collect();
-  std::ofstream file(path, std::ios::binary);
-  file << vtk_head("UnstructuredGrid") << "<UnstructuredGrid>\n<FieldData>\n";
-  write_names(file, "load_case", {name});
-  write_names(file, "group_names", names_of(mesh.groups));
-  write_names(file, "material_names", names_of(mesh.materials));
-  write_names(file, "plate_names", names_of(mesh.regions));
-  file << "</FieldData>\n";
-  write_arrays(file, content);
-  file << "</UnstructuredGrid>\n</VTKFile>\n";
-  file.close();
-  if (!file) throw ModelError("cannot write \"" + path + "\"");
+  Content content = Collector(model.space(), motion).collect();
+  VtkGrid& grid = content.grid;
+  grid.texts = {{"load_case", {name}},
+                {"group_names", names_of(mesh.groups)},
+                {"material_names", names_of(mesh.materials)},
+                {"plate_names", names_of(mesh.regions)}};
+  grid.scalars = "von_mises";
+  grid.vectors = "displacement";
+  grid.point_data = {{"displacement", std::move(content.displacement), 3},
+                     {"von_mises", std::move(content.von_mises)},
+                     {"von_mises_top", std::move(content.top)},
+                     {"von_mises_bottom", std::move(content.bottom)},
+                     {"von_mises_membrane", std::move(content.membrane)}};
+  grid.cell_data = {{"group", std::move(content.group)},
+                    {"material", std::move(content.material)},
+                    {"plate", std::move(content.plate)},
+                    {"thickness", std::move(content.thickness)}};
+  write_vtk_grid(path, grid);
 }
 
 void write_vtu(const std::string& path, const UnitResponses& responses, const LoadCase& load_case) {
