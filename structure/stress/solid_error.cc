@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/mesh/element_shape.h"
 
@@ -197,7 +198,7 @@ SolidError compare_stresses(const SolidSet& solids, const Eigen::VectorXd& displ
   const int count = solids.count();
   SolidError error{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count), {}};
   std::vector<Elasticity> compliances;
-  for (const Elasticity& law : solids.laws) compliances.push_back(law.inverse());
+  for (const Elasticity& law : solids.laws) compliances.push_back(algebra::inverse_of(law));
   parallel::in_batches(count, std::max(32, count / 64), threads, [&](int first, int many) {
     for (int solid = first; solid < first + many; ++solid) {
       const ElementKind& kind = solids.kind(solid);
