@@ -308,6 +308,31 @@ class SiteMarker {
   std::vector<Square>& squares_;
 };
 
+/// What a cell brings to the integrals over a square's outline: those of its shape functions times
+/// the outward normal along e_1 and e_2, m.
+struct CellShare {
+  int cell = 0;
+  Eigen::Matrix2Xd weights;  ///< a column a node
+};
+
+void find_shares(const Space& space, const FieldWalker& walker, const CellFinder& cells,
+                 const Square& square, std::vector<CellShare>& shares) {
+  shares.clear();
+  const ShellPlace start{square.shell, {0.5, 0.5}};
+  for (const ContourPoint& point : contour(square)) {
+    const auto found = walker.find(point.place, start);
+    if (!found) continue;  // place_squares has seen that all are there
+    const CellPlace place = cells.find(*found);
+    auto share = std::find_if(shares.begin(), shares.end(), [&](const CellShare& candidate) {
+      return candidate.cell == place.cell;
+    });
+    if (share == shares.end())
+      share =
+          shares.insert(share, {place.cell, Eigen::Matrix2Xd::Zero(2, space.nodes_per_shell())});
+    share->weights += point.normal * space.shell_values(place.xi).transpose();
+  }
+}
+
 /// Where the thickness varies a square has that of its middle, m.
 double thickness_of(const Mesh& mesh, const FieldWalker& walker, const Square& square) {
   const Shell& shell = mesh.shells[square.shell];
@@ -363,7 +388,8 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
   components_.setZero(3 * static_cast<Eigen::Index>(squares_.size()), columns);
   bending_ = components_;
   parallel::in_batches(static_cast<int>(squares_.size()), 64, threads, [&](int first, int count) {
-    Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> moved(6, columns);
+    std::vector<CellShare> shares;
+    std::array<Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>, 2> across;
     Eigen::MatrixXd strain(3, columns), curvature(3, columns);
     for (int s = first; s < first + count; ++s) {
       const Square& square = squares_[s];
@@ -373,31 +399,26 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
       // The section's offset is along the shell's own normal.
       const double side =
           normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
-      strain.setZero();
-      curvature.setZero();
-      ShellPlace start{square.shell, {0.5, 0.5}};
-      for (const ContourPoint& point : contour(square)) {
-        const auto found = walker.find(point.place, start);
-        if (!found) continue;  // place_squares has seen that all are there
-        const CellPlace cell = cells.find(*found);
-        const Eigen::VectorXd values = space.shell_values(cell.xi);
-        const int* nodes = space.shell_nodes(cell.cell);
-        moved.setZero();
-        for (int i = 0; i < space.nodes_per_shell(); ++i)
-          moved += values[i] * by_rows.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
-        const Eigen::RowVectorXd u_1 = square.e_1.transpose() * moved.topRows<3>(),
-                                 u_2 = square.e_2.transpose() * moved.topRows<3>();
-        // e . (theta x n) = theta . (n x e)
-        const Eigen::RowVectorXd t_1 = normal.cross(square.e_1).transpose() * moved.bottomRows<3>(),
-                                 t_2 = normal.cross(square.e_2).transpose() * moved.bottomRows<3>();
-        const auto add = [&](Eigen::MatrixXd& sum, const auto& a, const auto& b) {
-          sum.row(0) += point.normal[0] * a;
-          sum.row(1) += point.normal[1] * b;
-          sum.row(2) += point.normal[1] * a + point.normal[0] * b;
-        };
-        add(strain, u_1, u_2);
-        add(curvature, t_1, t_2);
+      find_shares(space, walker, cells, square, shares);
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        across[k].setZero(6, columns);
+        for (const CellShare& share : shares) {
+          const int* nodes = space.shell_nodes(share.cell);
+          for (int i = 0; i < space.nodes_per_shell(); ++i)
+            across[k] += share.weights(k, i) *
+                         by_rows.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
+        }
       }
+      const auto sum = [&](Eigen::MatrixXd& sums, const Vector3& along_1, const Vector3& along_2,
+                           Eigen::Index row) {
+        sums.row(0) = along_1.transpose() * across[0].middleRows<3>(row);
+        sums.row(1) = along_2.transpose() * across[1].middleRows<3>(row);
+        sums.row(2) = along_1.transpose() * across[1].middleRows<3>(row) +
+                      along_2.transpose() * across[0].middleRows<3>(row);
+      };
+      sum(strain, square.e_1, square.e_2, 0);
+      // e . (theta x n) = theta . (n x e)
+      sum(curvature, normal.cross(square.e_1), normal.cross(square.e_2), 3);
       const double area = square.size * square.size;
       const double t = thickness_of(model.mesh(), walker, square);
       const auto law = shell_stiffness_law(model.mesh(), shell, square.e_1, square.e_2, t);
