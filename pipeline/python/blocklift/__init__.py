@@ -18,7 +18,7 @@ from .hydrodynamics import Hydrodynamics, hydro
 from .keys import describe
 from .kernel import Law
 from .measurements import Measured, measured
-from .program import executable, schema, version
+from .program import executable, new, schema, version
 from .results import Result
 from .study import Study, sweep
 
@@ -36,6 +36,7 @@ __all__ = [
     "executable",
     "hydro",
     "measured",
+    "new",
     "schema",
     "sweep",
     "version",

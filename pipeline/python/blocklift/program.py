@@ -74,6 +74,17 @@ def version() -> str:
     return run(["--version"]).split()[-1]
 
 
+def new(kind: str, folder: str | os.PathLike[str]) -> Path:
+    """Writes a commented case that runs into a new folder, to begin with: "two-hoists", "turn-over",
+    "study", ..., as `blocklift new` does. Returns the folder.
+
+    Raises InputError if the folder is there already, ValueError, with all kinds, if there is no such
+    kind.
+    """
+    run(["new", kind, folder])
+    return Path(folder)
+
+
 def schema(kind: str | None = None) -> dict[str, Any]:
     """JSON schema of the input files, or of one kind: "case", "crane", "block", ..."""
     loaded: dict[str, Any] = json.loads(run(["schema", *(["--kind", kind] if kind else [])]))

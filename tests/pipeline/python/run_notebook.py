@@ -1,11 +1,9 @@
-"""Runs a notebook from its first cell to its last in a temporary folder that holds the small lift
-as `my-lift`; fails with the cell that fails."""
+"""Runs a notebook from its first cell to its last in a temporary folder; fails with the cell that
+fails."""
 
 import os
-import shutil
 import sys
 import tempfile
-from pathlib import Path
 
 import nbformat
 from nbconvert.preprocessors import ExecutePreprocessor
@@ -14,7 +12,6 @@ notebook = nbformat.read(sys.argv[1], as_version=4)
 nbformat.validate(notebook)
 assert not any(cell.get("outputs") for cell in notebook.cells), "a notebook is kept without outputs"
 with tempfile.TemporaryDirectory() as folder:
-    shutil.copytree(os.environ["BLOCKLIFT_SMALL_LIFT"], Path(folder) / "my-lift")
     for name in ("HOME", "IPYTHONDIR", "JUPYTER_RUNTIME_DIR", "MPLCONFIGDIR"):
         os.environ[name] = folder
     ExecutePreprocessor(timeout=300, kernel_name="python3").preprocess(

@@ -1,9 +1,8 @@
 """Runs the Python examples of a page of the documentation, one after another, in a temporary
-folder that holds the small lift as `my-lift`."""
+folder."""
 
 import os
 import re
-import shutil
 import sys
 import tempfile
 from pathlib import Path
@@ -12,7 +11,6 @@ examples = re.findall(r"^```python\n(.*?)^```", Path(sys.argv[1]).read_text(enco
                       re.DOTALL | re.MULTILINE)
 assert examples, "the page has no examples"
 with tempfile.TemporaryDirectory() as folder:
-    shutil.copytree(os.environ["BLOCKLIFT_SMALL_LIFT"], Path(folder) / "my-lift")
     os.chdir(folder)
     names = {}
     for number, example in enumerate(examples, 1):

@@ -310,6 +310,19 @@ class MeasuredTest(InATemporaryFolder):
             blocklift.measured("out", "missing.csv")
 
 
+class NewCaseTest(InATemporaryFolder):
+    def test_writes_a_case_to_begin_with(self):
+        self.assertEqual(blocklift.new("two-hoists", "box"), Path("box"))
+        case = blocklift.Case("box")
+        case.validate()
+        self.assertEqual(case.name, "box")
+        with self.assertRaisesRegex(blocklift.InputError, "is there already"):
+            blocklift.new("two-hoists", "box")
+        with self.assertRaisesRegex(ValueError, "two-hoists"):
+            blocklift.new("two-hoist", "other")
+        self.assertFalse(Path("other").exists())
+
+
 class ProgramTest(unittest.TestCase):
     def test_knows_its_version_and_the_schema(self):
         self.assertRegex(blocklift.version(), r"^\d+\.\d+")
