@@ -236,7 +236,7 @@ StudyCrew crew_of(const SweepOptions& options, const fs::path& folder, int most)
 int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
            Eigen::MatrixXd sample) {
   const MemberStore store(folder, identity_of_study(study));
-  const int most = study.members;
+  const int most = study.members.value();
   const StudyResults results =
       run_study(std::move(study), std::move(sample), folder, store, crew_of(options, folder, most));
   {

@@ -111,24 +111,34 @@ class Trials {
   int left() const { return most_ - static_cast<int>(results_.members.size()); }
 
   const Member& at(const OT::Point& point) {
+    const int number = number_at(point);
+    visited_.push_back(number);
+    return results_.members[number];
+  }
+
+  /// Those that were asked for since the last call of this.
+  std::vector<int> take_visited() { return std::exchange(visited_, {}); }
+
+ private:
+  int number_at(const OT::Point& point) {
     Eigen::VectorXd shares(problem_.variables());
     for (Eigen::Index v = 0; v < shares.size(); ++v)
       shares[v] = point[static_cast<OT::UnsignedInteger>(v)];
     const Eigen::VectorXd values = problem_.values_of(shares);
-    for (std::size_t m = 0; m < results_.members.size(); ++m)
-      if (results_.design.row(m).transpose() == values) return results_.members[m];
     const auto number = static_cast<int>(results_.members.size());
+    for (int m = 0; m < number; ++m)
+      if (results_.design.row(m).transpose() == values) return m;
     results_.members.push_back(evaluate_(values, number));
     results_.design.conservativeResize(number + 1, Eigen::NoChange);
     results_.design.row(number) = values.transpose();
-    return results_.members.back();
+    return number;
   }
 
- private:
   const Problem& problem_;
   const EvaluateMember& evaluate_;
   SearchResults& results_;
   int most_;
+  std::vector<int> visited_;
 };
 
 /// The goal in shares of what it spreads over the sample; a member that failed is as bad as can be.
@@ -237,7 +247,7 @@ SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& samp
   results.members = std::move(members);
   results.first_sample = static_cast<int>(results.members.size());
   const GoalScale scale(problem, results.members);
-  Trials trials(problem, evaluate, results, study.members);
+  Trials trials(problem, evaluate, results, study.members.value());
   const auto count = [&] { return static_cast<int>(results.members.size()); };
 
   const int start = best_of(problem, results.members, numbers(0, count()));
@@ -252,9 +262,11 @@ SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& samp
       far.push_back(m);
   const int least = 4 * (static_cast<int>(problem.variables()) + 1);
   if (!far.empty() && trials.left() >= least) {
-    const int second = best_of(problem, results.members, far), from = count();
+    const int second = best_of(problem, results.members, far);
+    trials.take_visited();
     descend(problem, scale, trials, results.design.row(second), trials.left());
-    std::vector<int> of_second = numbers(from, count());
+    // It may pass by members of the sample and of the first search.
+    std::vector<int> of_second = trials.take_visited();
     of_second.push_back(second);
     const Member& best = results.members[best_of(problem, results.members, of_second)];
     if (problem.excess(best) == 0) results.elsewhere = problem.shown(problem.goal(best));

@@ -87,12 +87,12 @@ Eigen::MatrixXd grid_of(const StudyFile& study) {
 
 /// A search begins with a sample over the whole range, of half its members at most.
 int sample_of_search(const StudyFile& study) {
-  return std::min(study.members / 2, 4 * (static_cast<int>(study.variables.size()) + 1));
+  return std::min(study.members.value() / 2, 4 * (static_cast<int>(study.variables.size()) + 1));
 }
 
 OT::Sample sample_of(const StudyFile& study, const OT::Distribution& joint) {
   const auto size = static_cast<OT::UnsignedInteger>(
-      study.design == StudyDesign::search ? sample_of_search(study) : study.members);
+      study.design == StudyDesign::search ? sample_of_search(study) : study.members.value());
   switch (study.design) {
     case StudyDesign::latin_hypercube:
       return OT::LHSExperiment(joint, size).generate();

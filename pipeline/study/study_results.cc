@@ -306,7 +306,7 @@ StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector
           find_sensitivity(results.design,
                            Eigen::Map<const Eigen::VectorXd>(
                                values.data(), static_cast<Eigen::Index>(values.size())),
-                           results.study.members));
+                           results.study.members.value()));
     }
   }
   return results;

@@ -239,7 +239,8 @@ void check_search(const StudyFile& study, Reading& reading, const Mark& mark) {
       reading.error(variable.place, "between goes with design: search");
   }
   const std::size_t least = 4 * (study.variables.size() + 1);
-  if (is_search && study.members > 0 && static_cast<std::size_t>(study.members) < least)
+  if (is_search && study.members && *study.members > 0 &&
+      static_cast<std::size_t>(*study.members) < least)
     reading.error(mark, fmt::format("a search over {} values needs {} members at least",
                                     study.variables.size(), least));
 }
@@ -346,9 +347,9 @@ void check_correlations(const StudyFile& study, Reading& reading) {
 
 void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   const bool is_grid = study.design == StudyDesign::grid;
-  if (is_grid && study.members > 0)
+  if (is_grid && study.members)
     reading.error(mark, "a grid has as many members as its values give; members goes with samples");
-  if (!is_grid && study.members <= 0) reading.error(mark, "the number of members is missing");
+  if (!is_grid && !study.members) reading.error(mark, "the number of members is missing");
   if (study.variables.empty()) reading.error(mark, "nothing varies");
   check_keys(study, reading);
   check_limits(study, reading);

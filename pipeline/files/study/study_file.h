@@ -81,7 +81,7 @@ struct StudyFile {
   Located<std::string> case_name;
   StudyRun run = StudyRun::simulate;
   StudyDesign design = StudyDesign::latin_hypercube;
-  int members = 0;
+  std::optional<int> members;  ///< none of a grid: as many as its values give
   int seed = 1;
   std::vector<StudyVariable> variables;
   std::vector<StudyCorrelation> correlations;

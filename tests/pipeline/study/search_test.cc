@@ -119,6 +119,19 @@ TEST(Search, FailedMembersAndFewOfThem) {
   EXPECT_LE(short_one.members.size(), 16U);
 }
 
+// Along one value both searches halve the same steps: the second ends at the bottom by members that
+// the first has left there.
+TEST(Search, ASecondSearchOverKnownGroundEndsWhereItArrives) {
+  StudyFile study = bowl_study(40);
+  study.variables = {variable_between("x", 4.9, 5.1)};
+  const SearchResults found = search(study, [](const Eigen::VectorXd& values, int number) {
+    return Member{number, {}, {{"cost", std::abs(values[0] - 4.9996)}}, {}};
+  });
+  EXPECT_NEAR(found.value, 0, 2e-4);  // the last steps are a thousandth of 0.2 m
+  ASSERT_TRUE(found.elsewhere.has_value());
+  EXPECT_NEAR(*found.elsewhere, 0, 2e-4);
+}
+
 TEST(Search, RefusesABoundOfAnotherDimension) {
   StudyFile study = bowl_study(100);
   study.subject_to = {at_least("sum", 0.5, metres)};

@@ -143,7 +143,7 @@ TEST(StudyDesign, SobolIndicesOfIshigami) {
   for (Eigen::Index i = 0; i < design.rows(); ++i)
     figure[i] = std::sin(design(i, 0)) + 7 * std::pow(std::sin(design(i, 1)), 2) +
                 0.1 * std::pow(design(i, 2), 4) * std::sin(design(i, 0));
-  const Sensitivity found = find_sensitivity(design, figure, study.members);
+  const Sensitivity found = find_sensitivity(design, figure, *study.members);
   const double first[] = {0.3139, 0.4424, 0}, total[] = {0.5576, 0.4424, 0.2437};
   for (Eigen::Index v = 0; v < 3; ++v) {
     EXPECT_NEAR(found.first[v], first[v], 0.03) << v;

@@ -12,6 +12,7 @@ namespace blocklift::pipeline {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// What is said of a study with these lines behind the first two.
 std::string complaints(const std::string& lines) {
@@ -55,6 +56,9 @@ TEST(StudyFile, RefusesLawsThatMakeNoSense) {
 TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
   EXPECT_THAT(complaints("vary: {a: {keys: [x], values: [1]}}\n"),
               HasSubstr("the number of members is missing"));
+  const std::string none = complaints("members: 0\nvary: {a: {keys: [x], values: [1]}}\n");
+  EXPECT_THAT(none, HasSubstr("members \"0\" must be"));
+  EXPECT_THAT(none, Not(HasSubstr("missing")));
   EXPECT_THAT(complaints("design: grid\n"
                          "vary: {a: {keys: [x], spread: {law: uniform, lowest: 3, highest: 4}}}\n"),
               HasSubstr("a grid takes values and no spread"));
