@@ -11,7 +11,7 @@ namespace blocklift::pipeline {
 namespace {
 
 constexpr double width = 420, height = 250;
-constexpr double left = 66, right = 12, top = 26, bottom = 40;
+constexpr double left = 66, top = 26, bottom = 40, room_for_legend = 48;
 constexpr std::array<const char*, 8> colours = {"#1f5fa8", "#c8501e", "#2d8a4e", "#8b3fa0",
                                                 "#b8860b", "#2a8c94", "#b03060", "#555555"};
 
@@ -47,6 +47,7 @@ struct Extent {
 /// Value to place on the page.
 struct Scales {
   Extent x, y;
+  double right = 12;  ///< margin
   double across(double value) const { return left + (width - left - right) * x.fraction(value); }
   double down(double value) const {
     return height - bottom - (height - top - bottom) * y.fraction(value);
@@ -66,12 +67,12 @@ std::string axes(const LineChart& chart, const Scales& scales, const std::vector
     const double at = scales.down(value);
     svg += fmt::format(
         R"(<line class="grid" x1="{1}" x2="{2}" y1="{0:.1f}" y2="{0:.1f}"/><text x="{3}" y="{4:.1f}" text-anchor="end">{5:.4g}</text>)",
-        at, left, width - right, left - 5, at + 4, value);
+        at, left, width - scales.right, left - 5, at + 4, value);
   }
   svg += fmt::format(
       R"svg(<text class="title" x="{}" y="14">{}</text><text x="{}" y="{}" text-anchor="middle">{}</text><text transform="translate(11 {}) rotate(-90)" text-anchor="middle">{}</text>)svg",
-      left, escaped(chart.title), (left + width - right) / 2, height - 8, escaped(chart.x_label),
-      (top + height - bottom) / 2, escaped(chart.y_label));
+      left, escaped(chart.title), (left + width - scales.right) / 2, height - 8,
+      escaped(chart.x_label), (top + height - bottom) / 2, escaped(chart.y_label));
   return svg;
 }
 
@@ -122,7 +123,9 @@ std::string to_svg(const LineChart& chart) {
     for (const double value : curve.y) scales.y.take(value);
   }
   const auto x = round_figures(scales.x.lowest, scales.x.highest, 6);
-  const auto y = round_figures(scales.y.lowest, scales.y.highest, 5);
+  const auto y = chart.y_figures.empty() ? round_figures(scales.y.lowest, scales.y.highest, 5)
+                                         : chart.y_figures;
+  if (chart.legend_outside) scales.right += room_for_legend;
   scales.x.widen_to(x);
   scales.y.widen_to(y);
   std::string svg = fmt::format(R"(<svg viewBox="0 0 {} {}" role="img">)", width, height) +
@@ -135,7 +138,8 @@ std::string to_svg(const LineChart& chart) {
     if (curve.name.empty()) continue;
     svg +=
         fmt::format(R"(<text class="legend" x="{}" y="{}" text-anchor="end" fill="{}">{}</text>)",
-                    width - right - 4, legend += 12, colour, escaped(curve.name));
+                    (chart.legend_outside ? width : width - scales.right) - 4, legend += 12, colour,
+                    escaped(curve.name));
   }
   return svg + "</svg>\n";
 }

@@ -16,9 +16,11 @@ struct LineChart {
   std::string title;
   std::string x_label, y_label;
   std::vector<Curve> curves;
+  std::vector<double> y_figures = {};  ///< that mark the y axis, ascending; empty: round ones
+  bool legend_outside = false;         ///< right of the frame, for curves that fill it
 };
 
-/// The chart as SVG for a page: axes with round figures, one colour a curve, a legend beside it.
+/// The chart as SVG for a page: axes with round figures, one colour a curve, a legend.
 /// Numbers that are not finite leave a gap.
 std::string to_svg(const LineChart& chart);
 

@@ -122,18 +122,27 @@ std::optional<Between> find_between(const std::vector<double>& figures, double v
   return Between{below, above, width > 0 ? (value - figures[below]) / width : 0};
 }
 
+/// From the last heading on to the first.
+double closing_gap(const std::vector<double>& headings) {
+  return headings.front() + whole_turn - headings.back();
+}
+
+/// Do headings go round, with no gap larger than those between them?
+bool closes(const std::vector<double>& headings) {
+  double largest_gap = 0;
+  for (std::size_t i = 1; i < headings.size(); ++i)
+    largest_gap = std::max(largest_gap, headings[i] - headings[i - 1]);
+  return closing_gap(headings) <= 1.01 * largest_gap;
+}
+
 /// The same of a heading: round the turn where the grid's largest gap closes it.
 std::optional<Between> find_heading(const std::vector<double>& headings, double heading) {
   if (headings.size() == 1) return Between{};
   const double turns = std::floor((heading - headings.front()) / whole_turn + 1e-12);
   const double within = heading - turns * whole_turn;
   if (auto inside = find_between(headings, within)) return inside;
-  double largest_gap = 0;
-  for (std::size_t i = 1; i < headings.size(); ++i)
-    largest_gap = std::max(largest_gap, headings[i] - headings[i - 1]);
-  const double closing = headings.front() + whole_turn - headings.back();
-  if (closing > 1.01 * largest_gap) return std::nullopt;
-  return Between{headings.size() - 1, 0, (within - headings.back()) / closing};
+  if (!closes(headings)) return std::nullopt;
+  return Between{headings.size() - 1, 0, (within - headings.back()) / closing_gap(headings)};
 }
 
 }  // namespace
@@ -167,6 +176,8 @@ LimitingHeight find_limiting_height(const std::vector<double>& heights,
   }
   return {heights.back(), LimitKind::above_grid};
 }
+
+bool LimitingSeas::go_round() const { return closes(headings); }
 
 double LimitingSeas::height_at(double period, double heading) const {
   const auto p = find_between(periods, period);

@@ -47,6 +47,8 @@ struct LimitingSeas {
   const LimitingHeight& at(std::size_t period, std::size_t heading) const {
     return heights[period * headings.size() + heading];
   }
+  /// Do the headings go all the way round?
+  bool go_round() const;
   /// Between the grid's periods and headings, linear; zero beyond the periods, where nothing is
   /// known. Headings go round where the grid does, and are zero beyond them elsewhere.
   double height_at(double period, double heading) const;

@@ -116,6 +116,14 @@ std::string extremes_table(const StudyResults& results) {
          rows + "</table></div>\n";
 }
 
+/// What a sample says of all such lifts.
+std::string spreads(const StudyResults& results) {
+  std::string text =
+      "<h2>Leading figures</h2>\n" + leading_table(results) + "<div class=\"charts\">\n";
+  for (const std::size_t i : results.leading) text += exceedance(results, results.spreads[i]);
+  return text + "</div>\n" + extremes_table(results);
+}
+
 /// From the middle to the right for what is positive, to the left for what is negative.
 std::string bar(double share) {
   const double percent = 50 * std::min(1.0, std::abs(share));
@@ -216,16 +224,20 @@ std::string limiting_seas(const StudyResults& results) {
   return fmt::format(
              "<h2>Limiting sea states</h2>\n<p>Significant height, m, at which the first of these "
              "reaches its limit: {}. Linear between heights that were run; of several seeds the "
-             "worst counts; ≥: the next height failed or was not run.</p>\n",
-             quantities) +
+             "worst counts; ≥: the next height failed or was not run (open dots); below the "
+             "lowest: that is too much already (drawn as 0).{}</p>\n",
+             quantities,
+             seas.headings.size() > 1 ? " Headings are where waves travel to, from +x towards +y."
+                                      : "") +
          limiting_table(seas) + "<div class=\"charts\">\n" + limiting_contours(seas) +
          limiting_polar(seas) + "</div>\n" + operability_text(results);
 }
 
-/// Of a study beside its case, the folder's name.
+/// Of a folder with a case its name, whether the study names it or the file in it.
 std::string name_of_case(const StudyFile& study) {
   std::error_code ignored;
-  const std::filesystem::path path = std::filesystem::weakly_canonical(study.case_path(), ignored);
+  std::filesystem::path path = std::filesystem::weakly_canonical(study.case_path(), ignored);
+  if (path.filename() == "case.yaml") path = path.parent_path();
   return path.empty() ? study.case_name.value : path.filename().string();
 }
 
@@ -257,11 +269,9 @@ std::string study_page(const StudyResults& results) {
   if (results.search)
     return page + search_section(results) + all_figures(results) + "</body></html>\n";
   page += limiting_seas(results);
-  page += "<h2>Leading figures</h2>\n" + leading_table(results);
-  page += "<div class=\"charts\">\n";
-  for (const std::size_t i : results.leading) page += exceedance(results, results.spreads[i]);
-  page += "</div>\n";
-  page += extremes_table(results) + sensitivities(results);
+  // Nor are seas that were laid out on a grid: each is run as often as the others.
+  if (!results.limits) page += spreads(results);
+  page += sensitivities(results);
   page +=
       "<h2>What they depend on</h2>\n<p class=\"note\">Rank correlation (Spearman) of each "
       "figure with each variable.</p>\n";

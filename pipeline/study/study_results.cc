@@ -337,7 +337,35 @@ Json study_json(const StudyResults& results) {
   return json;
 }
 
+namespace {
+
+/// Limiting heights by period and heading, for a terminal.
+std::string limiting_text(const LimitingSeas& seas) {
+  constexpr double degree = std::numbers::pi / 180;
+  std::vector<TableColumn> columns{{"peak period, s", 0}};
+  for (const double heading : seas.headings)
+    columns.push_back(
+        {seas.headings.size() > 1 ? fmt::format("{:.4g}°", heading / degree) : "height, m", 3});
+  TextTable table(std::move(columns));
+  for (std::size_t p = 0; p < seas.periods.size(); ++p) {
+    std::vector<TextTable::Cell> row{format_figure(seas.periods[p])};
+    for (std::size_t h = 0; h < seas.headings.size(); ++h) {
+      const LimitingHeight& limit = seas.at(p, h);
+      const std::string height = fmt::format("{:.2f}", limit.height);
+      row.emplace_back(limit.kind == LimitKind::found        ? height
+                       : limit.kind == LimitKind::below_grid ? "below"
+                                                             : "≥ " + height);
+    }
+    table.add_row(std::move(row));
+  }
+  return "Limiting significant height, m, by heading; below: the lowest is too much\n" +
+         table.text();
+}
+
+}  // namespace
+
 std::string study_text(const StudyResults& results) {
+  if (results.limits) return limiting_text(*results.limits);
   TextTable table({{"figure"},
                    {"", 0},
                    {"mean", 1},

@@ -144,7 +144,26 @@ TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
 TEST_F(LinearLift, IsDrawn) {
   const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
   EXPECT_THAT(limiting_contours(seas), ::testing::HasSubstr("<path d=\"M"));
-  EXPECT_THAT(limiting_polar(seas), ::testing::HasSubstr("Tp 8 s"));
+  const std::string round = limiting_polar(seas);
+  EXPECT_THAT(round, ::testing::HasSubstr("Tp 8 s"));
+  // A curve a period, each closed.
+  EXPECT_THAT(round, ::testing::ContainsRegex("<path d=\"M[^\"]*Z\" stroke"));
+  EXPECT_THAT(round, ::testing::Not(::testing::HasSubstr("fill=\"#fff\"")));
+  // From 0 to 180 degrees there is a way round that was not run, and limits that are not known.
+  LimitingSeas half = seas;
+  half.headings = {0, 60 * degree, 120 * degree, 180 * degree};
+  half.heights[0].kind = LimitKind::above_grid;
+  const std::string open = limiting_polar(half);
+  EXPECT_THAT(open, ::testing::Not(::testing::ContainsRegex("<path d=\"M[^\"]*Z\" stroke")));
+  EXPECT_THAT(open, ::testing::HasSubstr("fill=\"#fff\""));
+}
+
+// Where the lowest sea is too much everywhere nothing is left to draw but the rose.
+TEST_F(LinearLift, IsDrawnWhereNothingIsAllowed) {
+  study_.limits->quantities = {limit("load_N", 101)};
+  const std::string polar = limiting_polar(find_limiting_seas(study_, design_, members_));
+  EXPECT_THAT(polar, ::testing::Not(::testing::HasSubstr("nan")));
+  EXPECT_THAT(polar, ::testing::Not(::testing::HasSubstr("r=\"-")));
 }
 
 TEST(SeaStates, AreReadWithTheirHeads) {
