@@ -85,7 +85,7 @@ std::optional<std::string> complaint_about(const ExpectedFigure& figure, const J
   if (figure.magnitude_at_most && !(std::abs(number) <= *figure.magnitude_at_most))
     return differs(fmt::format("at most {} either way", *figure.magnitude_at_most));
   if (figure.value && !(std::abs(number - *figure.value) <= allowed_difference(figure)))
-    return differs(fmt::format("{} to {:.4g}", *figure.value, allowed_difference(figure)));
+    return differs(fmt::format("{} within {:.4g}", *figure.value, allowed_difference(figure)));
   return std::nullopt;
 }
 

@@ -53,10 +53,10 @@ TEST(ExpectedFigures, AreHeldUpToTheirToleranceAndNoFurther) {
   const std::string tension = R"("figure": "ropes.R1.max_static_tension_N", )";
   EXPECT_EQ(outcome_of(tension + R"("value": 101e3, "tolerance": 0.01)"), "held");
   EXPECT_EQ(outcome_of(tension + R"("value": 101.1e3, "tolerance": 0.01)"),
-            "is 100000 instead of 101100 to 1011");
+            "is 100000 instead of 101100 within 1011");
   EXPECT_EQ(outcome_of(tension + R"("value": 98e3, "absolute_tolerance": 2000)"), "held");
   EXPECT_EQ(outcome_of(tension + R"("value": 98e3, "absolute_tolerance": 1999)"),
-            "is 100000 instead of 98000 to 1999");
+            "is 100000 instead of 98000 within 1999");
   EXPECT_EQ(outcome_of(tension + R"("at_least": 100e3)"), "held");
   EXPECT_EQ(outcome_of(tension + R"("at_least": 100001)"), "is 100000 instead of at least 100001");
   EXPECT_EQ(outcome_of(tension + R"("at_most": 99999)"), "is 100000 instead of at most 99999");
