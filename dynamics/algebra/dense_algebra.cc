@@ -16,6 +16,15 @@ void dgetrs_(const char* transposed, const int* n, const int* right_sides, const
              const int* lda, const int* pivots, double* b, const int* ldb, int* info);
 void sgetrs_(const char* transposed, const int* n, const int* right_sides, const float* a,
              const int* lda, const int* pivots, float* b, const int* ldb, int* info);
+void cgetrf_(const int* rows, const int* columns, std::complex<float>* a, const int* lda,
+             int* pivots, int* info);
+void cgetrs_(const char* transposed, const int* n, const int* right_sides,
+             const std::complex<float>* a, const int* lda, const int* pivots,
+             std::complex<float>* b, const int* ldb, int* info);
+void zgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
+            const int* k, const std::complex<double>* alpha, const std::complex<double>* a,
+            const int* lda, const std::complex<double>* b, const int* ldb,
+            const std::complex<double>* beta, std::complex<double>* c, const int* ldc);
 void zgesv_(const int* n, const int* right_sides, std::complex<double>* a, const int* lda,
             int* pivots, std::complex<double>* b, const int* ldb, int* info);
 void dsyevd_(const char* vectors, const char* half, const int* n, double* a, const int* lda,
@@ -99,9 +108,50 @@ void DenseLu<Real>::solve_in_place(Eigen::Ref<Matrix> right_sides) const {
 template class DenseLu<double>;
 template class DenseLu<float>;
 
+namespace {
+
+/// Solves by factors in single precision, which take half the time, and improves the solution until
+/// what is left of each right-hand side is a billionth of it: most often once.
+/// @returns whether that was reached; if not, both matrices are as they were.
+bool solve_by_single_factors(const Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides) {
+  constexpr int most_rounds = 5;
+  constexpr double enough = 1e-9;
+  const int n = to_int(matrix.rows()), columns = to_int(right_sides.cols());
+  Eigen::MatrixXcf factors = matrix.cast<std::complex<float>>();
+  std::vector<int> pivots(static_cast<std::size_t>(n));
+  int info = 0;
+  cgetrf_(&n, &n, factors.data(), &n, pivots.data(), &info);
+  if (info != 0) return false;
+  Eigen::RowVectorXd sizes = right_sides.colwise().norm();
+  for (double& size : sizes) {
+    if (size == 0.0) size = 1.0;
+  }
+  Eigen::MatrixXcd solution = Eigen::MatrixXcd::Zero(n, columns), left = right_sides;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Eigen::RowVectorXd scales = left.colwise().norm().cwiseMax(1e-30 * sizes);
+    Eigen::MatrixXcf step =
+        (left * scales.cwiseInverse().asDiagonal()).eval().cast<std::complex<float>>();
+    cgetrs_("N", &n, &columns, factors.data(), &n, pivots.data(), step.data(), &n, &info);
+    solution += step.cast<std::complex<double>>() * scales.asDiagonal();
+    left = right_sides;
+    const std::complex<double> minus(-1.0), plus(1.0);
+    zgemm_("N", "N", &n, &columns, &n, &minus, matrix.data(), &n, solution.data(), &n, &plus,
+           left.data(), &n);
+    if ((left.colwise().norm().array() <= enough * sizes.array()).all()) {
+      right_sides = std::move(solution);
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, const char* what) {
   const int n = to_int(matrix.rows()), columns = to_int(right_sides.cols());
   if (n == 0 || columns == 0) return;
+  constexpr int small = 200;
+  if (n >= small && solve_by_single_factors(matrix, right_sides)) return;
   std::vector<int> pivots(static_cast<std::size_t>(n));
   int info = 0;
   zgesv_(&n, &columns, matrix.data(), &n, pivots.data(), right_sides.data(), &n, &info);
