@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/algebra/gauss_legendre.h"
 #include "dynamics/errors.h"
-#include "dynamics/marine/green/wave_green_function.h"
 #include "dynamics/marine/panels/rankine_problem.h"
 #include "parallel/threads.h"
 
@@ -21,6 +22,7 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 constexpr double pi = std::numbers::pi;
+constexpr int block_size = 64;  ///< of what a processor's cache holds of both halves at once
 
 /// A point of a panel with its share of the area, m2.
 struct PanelPoint {
@@ -56,9 +58,10 @@ double level_share(const Vector3& field, const Vector3& source, const Vector3& n
 
 double hull_equations_bytes(int unknowns, int parts) {
   const double n = unknowns;
-  // Four real matrices of each part, two complex ones, and one with its factors.
+  // Four real matrices of each part and two complex ones, one more, and its factors in single
+  // precision.
   constexpr double real = sizeof(double), complex = sizeof(Complex);
-  return n * n * (parts * (4.0 * real + 2.0 * complex) + 2.0 * complex);
+  return n * n * (parts * (4.0 * real + 2.0 * complex) + 1.5 * complex);
 }
 
 HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
@@ -67,22 +70,7 @@ HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
       hull_count_(model.body_mesh().size()),
       parities_(model.parities()),
       clusters_(cluster_panels(model.body_mesh())) {
-  const std::vector<Panel>& hull = model.body_mesh().panels;
-  double size = settings.cell_size;
-  if (!(size > 0.0)) size = std::sqrt(model.body_areas().mean());
-  std::vector<WaterPlaneRegion> regions;
-  for (const DampingLid& lid : settings.lids) regions.push_back({lid.low, lid.high});
-  cells_ =
-      make_water_plane_cells(find_water_lines(model.bodies()), regions, model.symmetry(), size);
-  if (!settings.cover_water_planes) {
-    WaterPlaneCells open;
-    for (int k = 0; k < cells_.size(); ++k) {
-      if (cells_.region[k] < 0) continue;
-      open.panels.push_back(cells_.panels[k]);
-      open.region.push_back(cells_.region[k]);
-    }
-    cells_ = std::move(open);
-  }
+  make_cells();
   const int count = hull_count_ + cells_.size();
   const double limit = settings.memory_limit > 0.0 ? settings.memory_limit : usable_memory();
   const double needed = hull_equations_bytes(count, static_cast<int>(parities_.size()));
@@ -94,7 +82,7 @@ HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
                   hull_count_, cells_.size(), needed / 1e9, limit / 1e9);
     throw SimulationError(text.data());
   }
-  Eigen::Vector2d low = hull[0].centroid.head<2>(), high = low;
+  Eigen::Vector2d low = panel(0).centroid.head<2>(), high = low;
   for (int j = 0; j < count; ++j) {
     points_.push_back(panel(j).centroid);
     diameters_.push_back(panel(j).diameter());
@@ -110,6 +98,25 @@ HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
   reach_ = (high - low).norm();
   deepest_ = std::min(deepest_, model.water().depth);
   integrate_images();
+}
+
+void HullEquations::make_cells() {
+  const std::vector<WaterLine> lines = find_water_lines(model_.bodies());
+  const double mean = std::sqrt(model_.body_areas().mean());
+  const double open = settings_.cell_size > 0.0 ? settings_.cell_size : mean;
+  const double cover = settings_.cover_size > 0.0 ? settings_.cover_size : 2.0 * open;
+  if (settings_.cover_water_planes) {
+    cells_ = make_water_plane_cells(lines, {}, model_.symmetry(), cover);
+  }
+  if (settings_.lids.empty()) return;
+  std::vector<WaterPlaneRegion> regions;
+  for (const DampingLid& lid : settings_.lids) regions.push_back({lid.low, lid.high});
+  const WaterPlaneCells all = make_water_plane_cells(lines, regions, model_.symmetry(), open);
+  for (int k = 0; k < all.size(); ++k) {
+    if (all.region[k] < 0) continue;
+    cells_.panels.push_back(all.panels[k]);
+    cells_.region.push_back(all.region[k]);
+  }
 }
 
 void HullEquations::integrate_images() {
@@ -160,55 +167,78 @@ void HullEquations::integrate_images() {
   });
 }
 
-/// What a panel's waves are computed with.
-struct HullEquations::WaveColumn {
+/// What a block of panels' waves at a block of centroids are computed with.
+struct HullEquations::WaveBlock {
   const WaveGreenFunction& green;
   const std::vector<WaveGreenFunction::Level>& levels;  ///< of the centroids
-  std::vector<double> distances = std::vector<double>(levels.size());
-  std::vector<WaveGreenFunction::Value> values =
-      std::vector<WaveGreenFunction::Value>(levels.size());
+  std::vector<Influence<Complex>>& waves;
+  int image = 0;
+  std::vector<double> signs = {};  ///< of the parts in this image
+  std::vector<double> distances = std::vector<double>(block_size);
+  std::vector<WaveGreenFunction::Value> values = std::vector<WaveGreenFunction::Value>(block_size);
   std::vector<PanelPoint> points = {};
 };
 
-void HullEquations::add_wave_column(int j, WaveColumn& column,
-                                    std::vector<Influence<Complex>>& waves) const {
-  constexpr double near = 4.0, very_near = 1.5;  // diameters, from the image in z = 0
+// At near places from the image in z = 0 the panel is divided.
+void HullEquations::add_wave(int i, int j, const Vector3& field, double R,
+                             const WaveGreenFunction::Value& value, WaveBlock& block) const {
+  constexpr double near = 4.0, very_near = 1.5;  // diameters
   static const QuadratureRule two = make_gauss_legendre(2), four = make_gauss_legendre(4);
   const Panel& source = panel(j);
   const Vector3& n = source.normal;
-  const bool on_hull = j < hull_count_;
-  for (int g = 0; g < model_.symmetry().image_count(); ++g) {
-    std::vector<Vector3> fields(points_.size());
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      fields[i] = model_.symmetry().reflect(g, points_[i]);
-      column.distances[i] = (fields[i] - source.centroid).head<2>().norm();
+  const double s = field.z() + source.centroid.z();
+  const double apart = std::sqrt(R * R + s * s) / diameters_[j];
+  Complex potential, dipole;
+  if (apart > near) {
+    potential = source.area * value.g;
+    dipole = source.area *
+             (value.along_R * level_share(field, source.centroid, n, R) + value.along_zeta * n.z());
+  } else {
+    divide(source, apart > very_near ? two : four, block.points);
+    for (const PanelPoint& point : block.points) {
+      const double distance = (field - point.position).head<2>().norm();
+      const WaveGreenFunction::Value of_point =
+          block.green.at(distance, block.levels[i], block.green.level(point.position.z()));
+      potential += point.area * of_point.g;
+      dipole += point.area * (of_point.along_R * level_share(field, point.position, n, distance) +
+                              of_point.along_zeta * n.z());
     }
-    column.green.at(column.distances, column.levels, column.levels[j], column.values);
-    for (int i = 0; i < size(); ++i) {
-      const Vector3& field = fields[i];
-      const double R = column.distances[i], s = field.z() + source.centroid.z();
-      Complex potential, dipole;
-      const double apart = std::sqrt(R * R + s * s) / diameters_[j];
-      if (apart > near) {
-        const WaveGreenFunction::Value& value = column.values[i];
-        potential = source.area * value.g;
-        dipole = source.area * (value.along_R * level_share(field, source.centroid, n, R) +
-                                value.along_zeta * n.z());
-      } else {
-        divide(source, apart > very_near ? two : four, column.points);
-        for (const PanelPoint& point : column.points) {
-          const double distance = (field - point.position).head<2>().norm();
-          const WaveGreenFunction::Value value =
-              column.green.at(distance, column.levels[i], column.green.level(point.position.z()));
-          potential += point.area * value.g;
-          dipole += point.area * (value.along_R * level_share(field, point.position, n, distance) +
-                                  value.along_zeta * n.z());
-        }
+  }
+  for (std::size_t p = 0; p < block.signs.size(); ++p) {
+    block.waves[p].source(i, j) += block.signs[p] * potential;
+    if (j < hull_count_) block.waves[p].dipole(i, j) += block.signs[p] * dipole;
+  }
+}
+
+// Field and source may change places: g is found once for both.
+void HullEquations::add_wave_block(int row, int column, WaveBlock& block) const {
+  const int rows_end = std::min(row + block_size, size());
+  const int columns_end = std::min(column + block_size, size());
+  for (block.image = 0; block.image < model_.symmetry().image_count(); ++block.image) {
+    block.signs.clear();
+    for (const Parity& parity : parities_) {
+      block.signs.push_back(model_.sign(parity, block.image));
+    }
+    std::vector<Vector3> fields;
+    for (int i = row; i < rows_end; ++i) {
+      fields.push_back(model_.symmetry().reflect(block.image, points_[i]));
+    }
+    for (int j = column; j < columns_end; ++j) {
+      const int count = std::min(rows_end, j + 1) - row;
+      const Vector3 other = model_.symmetry().reflect(block.image, points_[j]);
+      const std::span distances(block.distances.data(), static_cast<std::size_t>(count));
+      const std::span values(block.values.data(), static_cast<std::size_t>(count));
+      for (int k = 0; k < count; ++k) {
+        distances[k] = (fields[k] - points_[j]).head<2>().norm();
       }
-      for (std::size_t p = 0; p < parities_.size(); ++p) {
-        const double sign = model_.sign(parities_[p], g);
-        waves[p].source(i, j) += sign * potential;
-        if (on_hull) waves[p].dipole(i, j) += sign * dipole;
+      block.green.at(distances, std::span(block.levels).subspan(row, count), block.levels[j],
+                     values);
+      for (int k = 0; k < count; ++k) {
+        WaveGreenFunction::Value value = values[k];
+        add_wave(row + k, j, fields[k], distances[k], value, block);
+        if (row + k == j) continue;
+        std::swap(value.along_z, value.along_zeta);
+        add_wave(j, row + k, other, distances[k], value, block);
       }
     }
   }
@@ -233,9 +263,13 @@ std::vector<HullEquations::Influence<Complex>> HullEquations::integrate_waves(
     }
   }
   if (std::isinf(frequency) && is_deep(model_.water())) return waves;
-  parallel::for_each(size(), settings_.threads, [&](int j) {
-    WaveColumn column{green, levels};
-    add_wave_column(j, column, waves);
+  std::vector<std::array<int, 2>> blocks;
+  for (int column = 0; column < size(); column += block_size) {
+    for (int row = 0; row <= column; row += block_size) blocks.push_back({row, column});
+  }
+  parallel::for_each(static_cast<int>(blocks.size()), settings_.threads, [&](int k) {
+    WaveBlock block{green, levels, waves};
+    add_wave_block(blocks[k][0], blocks[k][1], block);
   });
   return waves;
 }
@@ -256,9 +290,10 @@ MatrixXcd HullEquations::make_matrix(const Influence<Complex>& waves, double fre
   return matrix;
 }
 
-std::vector<HullEquations::Part> HullEquations::solve(double frequency, bool with_coarser) const {
+std::vector<HullEquations::Part> HullEquations::solve(double frequency,
+                                                      const Extent& extent) const {
   if (!(frequency > 0.0)) throw ModelError("the frequency of waves must be positive");
-  const std::vector<Influence<Complex>> waves = integrate_waves(frequency);
+  std::vector<Influence<Complex>> waves = integrate_waves(frequency);
   // Without waves the potential is nothing on the surface, and needs no cells.
   const int count = std::isinf(frequency) ? hull_count_ : size();
   std::vector<Part> parts;
@@ -270,11 +305,18 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency, bool wit
       if (!velocities.col(mode).isZero(0.0)) part.modes.push_back(mode);
     }
     part.normal_velocities = velocities(Eigen::all, part.modes);
+    const MatrixXcd scattered =
+        calc_opposed_velocities(model_, part.parity, frequency, extent.headings);
+    const Eigen::Index modes = part.normal_velocities.cols();
+    MatrixXcd all(hull_count_, modes + scattered.cols());
+    all << part.normal_velocities.cast<Complex>(), scattered;
     MatrixXcd matrix = make_matrix(waves[p], frequency, count);
-    MatrixXcd right = -(waves[p].source.topLeftCorner(count, hull_count_) * part.normal_velocities);
-    if (with_coarser) part.coarser_potentials = solve_coarser(matrix, right);
+    MatrixXcd right = -(waves[p].source.topLeftCorner(count, hull_count_) * all);
+    waves[p] = {};
+    if (extent.coarser) part.coarser_potentials = solve_coarser(matrix, right.leftCols(modes));
     solve_in_place(matrix, right, "the matrix of the hulls' panels");
-    part.potentials = right.topRows(hull_count_);
+    part.potentials = right.topLeftCorner(hull_count_, modes);
+    part.scattered = right.topRows(hull_count_).rightCols(scattered.cols());
   }
   return parts;
 }

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "dynamics/marine/green/water_plane_cells.h"
+#include "dynamics/marine/green/wave_green_function.h"
 #include "dynamics/marine/panels/panel_clusters.h"
 #include "dynamics/marine/radiation/database_parts.h"
 #include "dynamics/marine/radiation/free_surface.h"
 
 namespace blocklift::dynamics {
 
-/// Memory (bytes) that HullEquations take at their peak, while one frequency is solved; coarser
-/// panels not counted, which take less than a twentieth of it.
+/// Memory (bytes) that HullEquations take at their peak, while one frequency is solved.
 /// @param unknowns panels and cells that are computed with. @param parts even and odd ones.
 double hull_equations_bytes(int unknowns, int parts);
 
@@ -32,14 +32,16 @@ double hull_equations_bytes(int unknowns, int parts);
 ///   4 pi psi = int (phi dG/dn - G dphi/dn) dS + sum over cells of b int psi G dS.
 ///
 /// What of G is 1/r and its images is integrated exactly over the panels, once for all frequencies;
-/// the rest by the value at the centroid, and over near panels at 4 or 16 points. Sources: Kleinman
+/// the rest by the value at the centroid, and over near panels at 4 or 16 points. Cells within the
+/// bodies are twice as coarse as the panels: psi is next to nothing on them. Sources: Kleinman
 /// (1982) for the extended equations; Lee, Newman and Zhu (1996), Int. J. Numerical Methods in
 /// Fluids 23; Chen (2005) for the lid.
 class HullEquations {
  public:
   struct Settings {
     std::vector<DampingLid> lids = {};
-    double cell_size = 0.0;  ///< of the water planes' cells, m; 0: the panels' mean size
+    double cell_size = 0.0;   ///< of the lids' cells, m; 0: the panels' mean size
+    double cover_size = 0.0;  ///< of the cells within the bodies, m; 0: twice that of the lids
     /// Cover the bodies' water planes: without them there are irregular frequencies.
     bool cover_water_planes = true;
     int threads = 0;            ///< 0: one a core
@@ -57,10 +59,15 @@ class HullEquations {
     /// phi of the modes on clusters of the hulls' panels, where they were asked for.
     Eigen::MatrixXcd coarser_potentials = {};
   };
+  /// What is solved besides the modes' flow.
+  struct Extent {
+    std::vector<double> headings = {};  ///< of waves whose scattering is sought, rad
+    bool coarser = false;               ///< the modes' flow with panels of twice the size, too
+  };
   /// @param frequency rad/s; infinite: the flow of an impulse, phi = 0 on the surface.
-  /// @param with_coarser find the flow with panels of twice the size, too (cluster_panels).
   /// @throws ModelError unless it is positive; SimulationError if a matrix is singular.
-  std::vector<Part> solve(double frequency, bool with_coarser = false) const;
+  std::vector<Part> solve(double frequency, const Extent& extent) const;
+  std::vector<Part> solve(double frequency) const { return solve(frequency, Extent{}); }
 
   /// B + i w A of unit velocities, 6N x 6N; the added mass itself of the infinite frequency.
   Eigen::MatrixXcd calc_radiation(const std::vector<Part>& parts, double frequency) const;
@@ -77,16 +84,22 @@ class HullEquations {
   struct Influence {
     Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> source, dipole;
   };
+  void make_cells();
   void integrate_images();
   std::vector<Influence<std::complex<double>>> integrate_waves(double frequency) const;
   Eigen::MatrixXcd make_matrix(const Influence<std::complex<double>>& waves, double frequency,
                                int count) const;
   Eigen::MatrixXcd solve_coarser(const Eigen::MatrixXcd& matrix,
                                  const Eigen::MatrixXcd& right) const;
-  /// Adds what the waves of panel or cell j are at all centroids.
-  struct WaveColumn;
-  void add_wave_column(int j, WaveColumn& column,
-                       std::vector<Influence<std::complex<double>>>& waves) const;
+  struct WaveBlock;
+  /// Adds what the waves of panels or cells from `column` on are at the centroids from `row` on,
+  /// and the other way round.
+  void add_wave_block(int row, int column, WaveBlock& block) const;
+  /// Adds what the waves of panel or cell j are at centroid i.
+  /// @param field where the centroid is in the block's image, R its level distance (m).
+  /// @param value between the centroids.
+  void add_wave(int i, int j, const Vector3& field, double R, const WaveGreenFunction::Value& value,
+                WaveBlock& block) const;
   const Panel& panel(int j) const {
     return j < hull_count_ ? model_.body_mesh().panels[j] : cells_.panels[j - hull_count_];
   }

@@ -63,7 +63,7 @@ struct HullAlone {
   explicit HullAlone(const PanelModel& model) {
     const HullEquations equations(model, {});
     for (const CylinderRow& row : exact) {
-      const auto parts = equations.solve(row.frequency, true);
+      const auto parts = equations.solve(row.frequency, {.coarser = true});
       forces.push_back(equations.calc_radiation(parts, row.frequency));
       coarser.push_back(equations.calc_coarser_radiation(parts, row.frequency));
     }
