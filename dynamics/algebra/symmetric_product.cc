@@ -1,6 +1,6 @@
-// Y = A X for a large symmetric A and a few columns X. A general product of BLAS first copies A, once
-// for every product, which costs as much as the product itself where X has few columns. Here what a
-// column of A and one of X have in common is summed as both lie in memory.
+// Y = A X for a large symmetric A and a few columns X. A general product of BLAS first copies A,
+// once for every product, which costs as much as the product itself where X has few columns. Here
+// what a column of A and one of X have in common is summed as both lie in memory.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -7,8 +7,8 @@ namespace blocklift::dynamics {
 /// Dry friction at one degree of freedom of a joint whose v is dq/dt:
 ///   tau = -F tanh(v / v0),   N m where the joint turns, N where it slides.
 ///
-/// A regularised Coulomb law: from a few v0 on it is the full friction F, and below a force P < F it
-/// does not hold but creeps at v0 artanh(P / F). At rest it does nothing, so that equilibria are
+/// A regularised Coulomb law: from a few v0 on it is the full friction F, and below a force P < F
+/// it does not hold but creeps at v0 artanh(P / F). At rest it does nothing, so that equilibria are
 /// those without friction; natural modes have it as a damper F / v0, which holds the joint.
 class JointFriction {
  public:

@@ -28,11 +28,11 @@ struct BodyDefinition {
   std::vector<bool> driven = {};
 };
 
-/// A natural mode of a body that gives way: a coordinate eta of its own, which moves no body's frame
-/// and so has neither weight nor momentum. With f the generalised force on it (N),
+/// A natural mode of a body that gives way: a coordinate eta of its own, which moves no body's
+/// frame and so has neither weight nor momentum. With f the generalised force on it (N),
 ///   m (eta'' + 2 zeta omega eta') = f:
-/// inertia and damping are the mechanism's, the spring m omega^2 is of whoever knows the shape.
-/// A shape phi that is normalised to phi^T M phi = m, m being the body's mass, makes eta the root of
+/// inertia and damping are the mechanism's, the spring m omega^2 is of whoever knows the shape. A
+/// shape phi that is normalised to phi^T M phi = m, m being the body's mass, makes eta the root of
 /// the mean square displacement over the mass, in m.
 struct ElasticModeDefinition {
   std::string name;

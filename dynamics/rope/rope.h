@@ -186,14 +186,14 @@ struct RopeLoad {
 class Rope {
  public:
   /// @throws ModelError if there are fewer than two points, two neighbouring points are the same
-  /// point of one body, segments are left out at an end or all or not told for each, twin falls have
-  /// not four points or do not leave out what lies between them, a stiffness or length is not
-  /// positive, a damping, the weight or the friction is negative, a rope with weight
-  /// has more than two points, one with friction at sheaves has none or leaves segments out, or one
-  /// with a tension law has a stiffness, a weight or friction besides; or if an
-  /// edge is not one of a body of the mechanism, has no length, no side outside, a negative radius
-  /// or friction, if the edges are not in order or too many between two points, or if a rope with
-  /// edges has weight or leaves segments out.
+  /// point of one body, segments are left out at an end or all or not told for each, twin falls
+  /// have not four points or do not leave out what lies between them, a stiffness or length is not
+  /// positive, a damping, the weight or the friction is negative, a rope with weight has more than
+  /// two points, one with friction at sheaves has none or leaves segments out, or one with a
+  /// tension law has a stiffness, a weight or friction besides; or if an edge is not one of a body
+  /// of the mechanism, has no length, no side outside, a negative radius or friction, if the edges
+  /// are not in order or too many between two points, or if a rope with edges has weight or leaves
+  /// segments out.
   Rope(const Mechanism& mechanism, RopeDefinition definition);
 
   const std::string& name() const { return definition_.name; }

@@ -17,8 +17,8 @@ enum class BendMotion : signed char {
 /// touch, in the order of its path. Each length i between two of them, L_i long, has an unstretched
 /// length l_i and a tension of its own:
 ///   X_i = (L_i - l_i) / C_i,   C_i = l_i / EA, for the first one + 1/k_crane,   sum l_i = L0.
-/// At the bend between the lengths a and b, with the wrap theta of that instant and the friction mu,
-/// the rope sticks (nothing passes) while
+/// At the bend between the lengths a and b, with the wrap theta of that instant and the friction
+/// mu, the rope sticks (nothing passes) while
 ///   exp(-mu theta) < X_a / X_b < exp(mu theta),
 /// and slips towards the greater tension at that ratio (Euler 1769, Eytelwein 1808). What it does
 /// is fixed between two events, as it is for ropes that are taut or slack: where it slips, the

@@ -11,12 +11,12 @@ namespace blocklift::dynamics {
 /// as one.
 inline constexpr double beside = 2e-6;
 
-/// What changes at instants that the motion brings about: ropes that go slack or taut, pads that are
-/// loaded or lift off, bends at which a rope with friction begins to slip or to stick, and the
+/// What changes at instants that the motion brings about: ropes that go slack or taut, pads that
+/// are loaded or lift off, bends at which a rope with friction begins to slip or to stick, and the
 /// condition that a run waits for.
 ///
-/// Each is a source of events with a value, continuous in time, whose sign says how it stands. It is
-/// held to that during a step; where the sign contradicts it, it is switched over, and the
+/// Each is a source of events with a value, continuous in time, whose sign says how it stands. It
+/// is held to that during a step; where the sign contradicts it, it is switched over, and the
 /// integration starts anew behind that instant. In kN, of a bend that slips kN/s:
 ///
 /// | source | value | positive while |

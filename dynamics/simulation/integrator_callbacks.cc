@@ -10,14 +10,14 @@ namespace blocklift::dynamics {
 
 namespace {
 
-// By how many tolerances a point may be elsewhere than where a step that is accepted has it: Newton's
-// correction is the local error times up to 7 by the order, and a turn has an arm of tens of metres.
-// Were it more, a change would be found at the beginning of the next step.
+// By how many tolerances a point may be elsewhere than where a step that is accepted has it:
+// Newton's correction is the local error times up to 7 by the order, and a turn has an arm of tens
+// of metres. Were it more, a change would be found at the beginning of the next step.
 constexpr double reach_of_errors = 100;
 
 // Loads swing with little damping, where order 5 is unstable and takes shorter steps. With 1e-6 a
-// turn-over takes 33,740 steps to order 4 and 42,852 to order 5; tensions are off those with 1e-9 by
-// 5.2e-5 and 4.5e-5 of the largest (root mean square), accelerations by 2.0e-3 and 2.4e-3. With
+// turn-over takes 33,740 steps to order 4 and 42,852 to order 5; tensions are off those with 1e-9
+// by 5.2e-5 and 4.5e-5 of the largest (root mean square), accelerations by 2.0e-3 and 2.4e-3. With
 // smaller tolerances order 5 is the better one: with 1e-9 a free top takes half the steps.
 constexpr double least_tolerance_of_order_4 = 1e-6;
 

@@ -42,8 +42,8 @@ struct Mode {
   ModeKind kind = ModeKind::neutral;
   std::complex<double> eigenvalue;  ///< lambda, 1/s; of a pair the one with positive imaginary part
   /// Tangent increments, nv; driven entries zero. Scaled so that the largest displacement of a
-  /// centre of mass, or turn by the mechanism's radius of gyration of that body, or coordinate of an
-  /// elastic mode, is 1 m, and is real there.
+  /// centre of mass, or turn by the mechanism's radius of gyration of that body, or coordinate of
+  /// an elastic mode, is 1 m, and is real there.
   Eigen::VectorXcd shape;
   std::vector<BodyModeMotion> bodies;            ///< one a moving body that has mass
   std::vector<ElasticModeMotion> elastic_modes;  ///< in the order of the mechanism

@@ -89,9 +89,9 @@ using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare, OwnLaw>
 /// At even instants he sees the travel e by which the drive alone would fulfil the wish. A reaction
 /// time later he asks for the speed
 ///   u = (e - tolerance sign e) / correction_time where |e| > tolerance, else 0,   |u| <= speed,
-/// and the drive goes over to it within its acceleration and jerk. So in the long run it lags behind
-/// a wish that moves at the speed V by V correction_time + tolerance, and corrects what it sees
-/// without overshooting while the correction time is longer than e (2.72) times the reaction.
+/// and the drive goes over to it within its acceleration and jerk. So in the long run it lags
+/// behind a wish that moves at the speed V by V correction_time + tolerance, and corrects what it
+/// sees without overshooting while the correction time is longer than e (2.72) times the reaction.
 /// At the end, or where the drive's range would be left, it brakes.
 ///
 /// Travel of the wishes, for winches positive where rope is let out:

@@ -23,8 +23,8 @@ struct AwaitedCondition {
   double from = 0.0;            ///< s, a breakpoint of the operation: not before
   double until = not_a_number;  ///< s: nor after
 
-  /// Positive where it is met, negative where it is not, continuous between, kN; of the instant that
-  /// calc_contact_loads has just evaluated.
+  /// Positive where it is met, negative where it is not, continuous between, kN; of the instant
+  /// that calc_contact_loads has just evaluated.
   double indicator(const LiftSystem& system, const LiftWorkspace& w) const;
 };
 
@@ -60,8 +60,8 @@ struct IntegrationSettings {
   /// The run, and its samples, begin there in place of time 0; null: they do not. No surface is
   /// marched then, and no drive steered.
   const Departure* departure = nullptr;
-  /// The run, and its samples, end here, at a breakpoint of the operation, s, or with the first step
-  /// beyond; none: with the operation.
+  /// The run, and its samples, end here, at a breakpoint of the operation, s, or with the first
+  /// step beyond; none: with the operation.
   std::optional<double> end = {};
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};

@@ -153,8 +153,8 @@ RadiationProblem radiation_problem(const LiftCase& lift_case);
 /// hook block is a body on a translational joint to the world, its tackle a rope from the sheave to
 /// its centre; of those that turn hook_bodies and hang_twin_falls tell. Tackles of equalised hoists
 /// are one rope, from hook block to hook block, which leaves out what lies between the sheaves. The
-/// load and spreaders are free; its start and that of the hook blocks (plumb below their sheaves, by
-/// the unstretched length) are guesses from which the equilibrium is found.
+/// load and spreaders are free; its start and that of the hook blocks (plumb below their sheaves,
+/// by the unstretched length) are guesses from which the equilibrium is found.
 ///
 /// A load with a vessel floats by the vessel's hull where it reaches the water: buoyancy, wave
 /// pressure and damping, and with draughts the water that it sets in motion.

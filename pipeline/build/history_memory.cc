@@ -20,8 +20,8 @@ double bytes_of_sample(const dynamics::LiftSystem& system, bool with_works) {
   const dynamics::Mechanism& mechanism = system.mechanism();
   const auto bodies = static_cast<std::size_t>(mechanism.body_count() - 1);  // all but the world
   // Times, kept twice; pose, velocity, acceleration, load; four values and two forces of a rope;
-  // position, velocity, force of a drive; the force of a pad. Of an edge its force and seven values.
-  // Three values of an elastic mode.
+  // position, velocity, force of a drive; the force of a pad. Of an edge its force and seven
+  // values. Three values of an elastic mode.
   std::size_t values = 2 + 25 * bodies + 3 * mechanism.elastic_modes().size() +
                        10 * system.ropes().size() + 3 * mechanism.driven_velocities().size() +
                        system.supports().size();

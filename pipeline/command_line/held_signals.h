@@ -7,9 +7,9 @@
 namespace blocklift::pipeline {
 
 /// Holds back the signals that would end the program (Ctrl-C, hang-up, termination) while it lives,
-/// so that a set of files is written whole, and the limit of time with them; at its end the one that
-/// came takes its usual effect.
-/// Signals that the program ignores stay ignored. One object at a time.
+/// so that a set of files is written whole, and the limit of time with them; at its end the one
+/// that came takes its usual effect. Signals that the program ignores stay ignored. One object at a
+/// time.
 class HeldSignals {
  public:
   HeldSignals();

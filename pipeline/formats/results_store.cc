@@ -118,8 +118,8 @@ bool is_no_group(hid_t file, const std::string& path) {
 }
 
 /// Whether every link of an absolute path exists (H5Lexists alone fails on a missing middle); none
-/// where a group on the way is damaged, so that it cannot be told. HDF5 1.10 says so once, and takes
-/// what it has read of the group for sound from then on.
+/// where a group on the way is damaged, so that it cannot be told. HDF5 1.10 says so once, and
+/// takes what it has read of the group for sound from then on.
 std::optional<bool> look_up(hid_t file, const std::string& path) {
   if (path == "/") return true;
   std::string above = "/";

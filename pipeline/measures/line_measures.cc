@@ -26,8 +26,8 @@ double tension_of(const MooringLine& line, const MotionState& state) {
   return line.calc_shape(state).tension;
 }
 
-/// Tensions of the lines of one kind over a history, a column a line. By the law of the line itself,
-/// at the bodies' places and velocities.
+/// Tensions of the lines of one kind over a history, a column a line. By the law of the line
+/// itself, at the bodies' places and velocities.
 template <class Line>
 Eigen::MatrixXd tensions(const LiftSystem& system, const History& history) {
   const auto& lines = std::get<std::vector<Line>>(system.elements());

@@ -14,8 +14,8 @@ namespace blocklift::pipeline {
 enum class Extreme { largest, smallest, largest_magnitude };
 
 /// A figure of the lift that follows from where its parts are and what pulls at them: a hook's
-/// radius, a sling's angle, the load on a crane's wheel. One value for each sample of a history; not
-/// a number where it has none, a slack rope's angle.
+/// radius, a sling's angle, the load on a crane's wheel. One value for each sample of a history;
+/// not a number where it has none, a slack rope's angle.
 struct LiftMeasure {
   std::string subject;  ///< what it is of: "C1.main", "load", "R3"
   std::string kind;     ///< "radius", "tilt": of one kind and unit for all subjects

@@ -29,8 +29,8 @@ std::string why_none(const structure::Deck& deck, const structure::DeckSolution&
   return text;
 }
 
-/// The deck's mesh; one without mass, to which no weight belongs, is given some, since a model has a
-/// centre of mass.
+/// The deck's mesh; one without mass, to which no weight belongs, is given some, since a model has
+/// a centre of mass.
 structure::Mesh mesh_of(const structure::Deck& deck, bool is_massless, const Mark& mark) {
   structure::Mesh mesh = deck.mesh;
   if (!is_massless) return mesh;

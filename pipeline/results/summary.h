@@ -6,8 +6,8 @@
 
 namespace blocklift::pipeline {
 
-/// summary.json: what pipeline/formats/results/results_layout.h says about it. Figures that are not known
-/// are null, so that the file is always valid JSON.
+/// summary.json: what pipeline/formats/results/results_layout.h says about it. Figures that are not
+/// known are null, so that the file is always valid JSON.
 nlohmann::ordered_json make_summary(const Assessment& assessment);
 
 /// summary.json of a lift that is simulated without its structure: neither checks nor a verdict.

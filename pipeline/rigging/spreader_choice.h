@@ -26,8 +26,8 @@ bool has_spreaders_of_size(const Stock& stock, const SpreaderInCase& in_case);
 
 /// The lightest spreader of the stock, of the size that the case's has, that passes: by its
 /// strength under the forces of its ropes at every instant, at rest and in motion, by the case's
-/// factor; by the case's rules, where it names some; by its working load against what hangs below it
-/// at rest. Where none passes, the one that comes nearest.
+/// factor; by the case's rules, where it names some; by its working load against what hangs below
+/// it at rest. Where none passes, the one that comes nearest.
 /// @param facts of the lift; none where the case names no rules.
 /// @pre has_spreaders_of_size for that spreader.
 ChosenSpreader choose_spreader(const Stock& stock, const LiftCase& lift_case, const LiftRun& lift,

@@ -36,8 +36,8 @@ dynamics::IntegrationSettings settings_of(const MechanismFile& file,
   return settings;
 }
 
-/// How steered drives went until a move that leads on from there to a place of its own, whose way is
-/// not known before.
+/// How steered drives went until a move that leads on from there to a place of its own, whose way
+/// is not known before.
 std::vector<dynamics::Course> find_courses(const MechanismFile& file,
                                            const BuiltMechanism& mechanism) {
   const Schedule& schedule = mechanism.schedule;

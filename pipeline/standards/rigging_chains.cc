@@ -106,8 +106,8 @@ SideLoad side_load_at(const std::vector<SideLoadRow>& rows, double share) {
   return {angle, row->factor, row->clause};
 }
 
-/// Side load of the shackle at a lug, at rest and at the worst instant; none where no rule has it or
-/// nothing says how the shackle's pin lies.
+/// Side load of the shackle at a lug, at rest and at the worst instant; none where no rule has it
+/// or nothing says how the shackle's pin lies.
 struct ShackleSideLoad {
   SideLoad standard, simulated;
 };

@@ -28,8 +28,8 @@ std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCas
 std::vector<Chain> master_link_chains(const LoadFactors& factors, const MasterLinkInCase& link,
                                       const HookFacts& hook);
 
-/// A sheave over which a sling is led, at rest and in motion. Its pin bears both parts of the sling,
-/// twice its load where they are parallel, less where they are not.
+/// A sheave over which a sling is led, at rest and in motion. Its pin bears both parts of the
+/// sling, twice its load where they are parallel, less where they are not.
 std::vector<Chain> sheave_chains(const LoadFactors& factors, const SheaveInCase& sheave,
                                  const SlingFacts& sling);
 

@@ -34,9 +34,9 @@ namespace blocklift::pipeline {
 
 double LargestChecked::increase_percent() const { return percent_above(in_motion, at_rest); }
 
-/// A block that serves several members: its lugs, where its mass is, and, where they were asked for,
-/// its unit stresses. Its elements with their load vectors take most of the memory; they stay where
-/// members move by the block's stiffness.
+/// A block that serves several members: its lugs, where its mass is, and, where they were asked
+/// for, its unit stresses. Its elements with their load vectors take most of the memory; they stay
+/// where members move by the block's stiffness.
 struct StudyBlocks::Kept {
   std::string key;
   std::vector<structure::LiftingPoint> lugs;

@@ -49,8 +49,8 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int threads = 0);
 
-/// The largest von Mises stress over runs of points: run r has the points begin[r] .. begin[r + 1] - 1.
-/// Points that do not reach what is known of their run cost little.
+/// The largest von Mises stress over runs of points: run r has the points begin[r] .. begin[r + 1]
+/// - 1. Points that do not reach what is known of their run cost little.
 /// @param largest of each run what is known already (zero: nothing), Pa; it is raised.
 void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
                      const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads = 0);

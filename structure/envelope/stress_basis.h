@@ -24,8 +24,8 @@ class StressBasis {
   /// those of x, y and z times it; then loads that were added.
   /// @throws ModelError if there are not three rows a square.
   StressBasis(std::vector<Square> squares, Eigen::MatrixXd components);
-  /// Looks into memory that is kept elsewhere, a file's for example: a hundred megabytes that several
-  /// processes may share.
+  /// Looks into memory that is kept elsewhere, a file's for example: a hundred megabytes that
+  /// several processes may share.
   /// @param keeper what keeps it, for as long as this or a copy of it lives.
   StressBasis(std::vector<Square> squares, const Eigen::Map<const Eigen::MatrixXd>& components,
               std::shared_ptr<const void> keeper);
@@ -52,8 +52,8 @@ class StressBasis {
 StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square> squares,
                               int threads = 0);
 
-/// Adds loads to a basis of the responses' block (a column each, freedoms), behind those that it has:
-/// forces of ropes on its edges, which other motions have in other places.
+/// Adds loads to a basis of the responses' block (a column each, freedoms), behind those that it
+/// has: forces of ropes on its edges, which other motions have in other places.
 void add_loads(const UnitResponses& responses, Eigen::MatrixXd loads, StressBasis& basis,
                int threads = 0);
 

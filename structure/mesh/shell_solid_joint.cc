@@ -30,8 +30,8 @@ Eigen::Matrix3d shape_coefficients() {
 /// Integrals of the shape functions over [0, 1].
 const Vector3 shape_integrals(1.0 / 6, 4.0 / 6, 1.0 / 6);
 
-/// Monomials' coefficients of the functions whose products with another's shape function have the integral zero,
-/// and with its own that of the shape function.
+/// Monomials' coefficients of the functions whose products with another's shape function have the
+/// integral zero, and with its own that of the shape function.
 Eigen::Matrix3d dual_coefficients() {
   Eigen::Matrix3d products;
   products << 4, 2, -1, 2, 16, 2, -1, 2, 4;

@@ -59,9 +59,9 @@ class RectangularFrame {
   RectangularFrame(const FrameMember& along, const FrameMember& across,
                    const std::vector<Eigen::Vector3d>& points);
 
-  /// The largest forces within the sides 1 to 4 under those forces, one for each of the points. Weight
-  /// and inertia are those of sides that are as heavy as their section is large: a load along them
-  /// that balances forces and moments exactly, as of a body that accelerates, so that no
+  /// The largest forces within the sides 1 to 4 under those forces, one for each of the points.
+  /// Weight and inertia are those of sides that are as heavy as their section is large: a load
+  /// along them that balances forces and moments exactly, as of a body that accelerates, so that no
   /// acceleration is asked for. What turning fast does (centrifugal forces) is left out.
   std::array<MemberForces, 4> largest_forces(const std::vector<PointForce>& forces) const;
 

@@ -6,9 +6,9 @@
 
 namespace blocklift::pipeline::test {
 
-// A box of 10 t on one hook by two slings that run over its round deck edges to lugs below them. The
-// part of each sling between edge and lug is plumb, since the pin stands as far off the round's axis
-// as its radius.
+// A box of 10 t on one hook by two slings that run over its round deck edges to lugs below them.
+// The part of each sling between edge and lug is plumb, since the pin stands as far off the round's
+// axis as its radius.
 
 inline const std::string sling_over_edge_block = R"(kind: block
 materials:

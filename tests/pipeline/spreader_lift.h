@@ -41,8 +41,8 @@ dynamics: {relative_tolerance: 1e-8}
   return lift;
 }
 
-/// The sample's plate below a frame of 4 x 2 m: four slings of 3 m from the hook to its corners, and
-/// four of 2 m from there to the plate's two lugs.
+/// The sample's plate below a frame of 4 x 2 m: four slings of 3 m from the hook to its corners,
+/// and four of 2 m from there to the plate's two lugs.
 inline SampleLift frame_lift() {
   SampleLift lift = spreader_lift();
   lift.lift_case =

@@ -142,8 +142,8 @@ TEST(DirectRadiation, AgreesWithTheDatabaseOnAFreeDecay) {
 
 // Pushed off in still water she drifts by 15 and by 10 m on both ways: neither the fitted memory
 // nor the surface brakes a steady motion. With a memory that did, by 0.4 kN s/m, they came 0.13 m
-// apart. What is left is the fit, with the fewest states that come within 0.5 % of its peak: 0.028 m;
-// to 0.2 % it is 0.009 m. The surface's step, halved twice, moves its end by less than 1 mm.
+// apart. What is left is the fit, with the fewest states that come within 0.5 % of its peak: 0.028
+// m; to 0.2 % it is 0.009 m. The surface's step, halved twice, moves its end by less than 1 mm.
 TEST(DirectRadiation, AgreesWithTheDatabaseOnAFreeDrift) {
   TwoWays barge("", 0.0);
   barge.let_go(0.3);

@@ -29,8 +29,8 @@ struct CommonPoles {
 /// Poles by the set-valued AAA algorithm (Nakatsukasa, Sete and Trefethen 2018, SIAM J. Sci.
 /// Comput. 40; for sets Lietaert, Meerbergen, Perez and Vandereycken 2022, IMA J. Numer. Anal. 42)
 /// with conjugate support points and weights and a sample of nothing at infinity; a pole that grows
-/// is reflected. Residues by least squares over all samples. Poles that make less than a hundredth of
-/// the tolerance are left out.
+/// is reflected. Residues by least squares over all samples. Poles that make less than a hundredth
+/// of the tolerance are left out.
 /// @param frequencies rad/s, positive, each once. @param values a column for each frequency.
 /// @param scales positive, what errors of each value are measured by.
 /// @param error largest error at a sample over its scale, if asked for.

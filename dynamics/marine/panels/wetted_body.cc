@@ -105,9 +105,9 @@ bool are_opposite(const Face& a, const Face& b, double tolerance) {
   return (a.mean - b.mean).norm() < tolerance && (a.area + b.area).norm() < 1e-6 * a.area.norm();
 }
 
-/// Where a hull has no thickness, as at a ship's stem in the centre plane, its two sides lie on each
-/// other. No water is kept out between them, and no panel method can tell their potentials apart:
-/// both go.
+/// Where a hull has no thickness, as at a ship's stem in the centre plane, its two sides lie on
+/// each other. No water is kept out between them, and no panel method can tell their potentials
+/// apart: both go.
 std::vector<Polygon> without_sheets(const std::vector<Polygon>& polygons) {
   std::vector<Face> faces;
   for (const Polygon& polygon : polygons) {

@@ -12,8 +12,8 @@ namespace blocklift::dynamics {
 /// triangles first, and so are those that touch the water line and are not flat at all: its edges
 /// then meet exactly. Vertices nearer to the surface than a thousandth of their smallest panel's
 /// size are moved onto it, so that no slivers arise. Where two of the hull's panels lie on each
-/// other, one from either side, the hull has no thickness, and both are left out. `p_BoR_B` is the point about which rotations
-/// and moments are taken (m).
+/// other, one from either side, the hull has no thickness, and both are left out. `p_BoR_B` is the
+/// point about which rotations and moments are taken (m).
 /// @throws ModelError if nothing is under water.
 WettedBody make_wetted_body(const Hull& hull, const Pose& X_WB,
                             const Vector3& p_BoR_B = Vector3::Zero());

@@ -130,8 +130,8 @@ void PartComputation::run(double step, long steps, std::vector<MatrixXd>& retard
     retardation[k](modes, modes) += share;
     if (k % 16 == 0) progress.march(static_cast<double>(k) / static_cast<double>(steps));
   });
-  // The coarser surface's waves are longer: what the finer one's step suits suits it too. Where not,
-  // the coarser panels have no solution that means anything.
+  // The coarser surface's waves are longer: what the finer one's step suits suits it too. Where
+  // not, the coarser panels have no solution that means anything.
   if (coarser_run_ && step <= coarser_run_->step_limit()) {
     coarser_run_->run(step, steps, [](long, const MatrixXd&) {});
   } else {

@@ -32,10 +32,10 @@ namespace blocklift::dynamics {
 /// other stays reciprocal.
 ///
 /// It acts from the water lines on: beside a long hull the rings are wide within the circle that
-/// holds it already. Gaps and moonpools keep their waves, since their water swings evenly across the
-/// rings, or in waves that many rings carry: in a gap of 16 m between barges of 100 x 20 m damping
-/// at the first resonance across it (1.4 rad/s) falls by 1.3 %, at the piston mode (0.8 rad/s) by
-/// 0.1 %.
+/// holds it already. Gaps and moonpools keep their waves, since their water swings evenly across
+/// the rings, or in waves that many rings carry: in a gap of 16 m between barges of 100 x 20 m
+/// damping at the first resonance across it (1.4 rad/s) falls by 1.3 %, at the piston mode (0.8
+/// rad/s) by 0.1 %.
 ///
 /// Smoothing against what a grid of points cannot carry: Longuet-Higgins and Cokelet (1976).
 using RingDifferences = Eigen::SparseMatrix<double, Eigen::RowMajor>;

@@ -11,18 +11,18 @@
 
 namespace blocklift::pipeline {
 
-/// Laws by which drives are steered, by the names of `keeps: law`: not from a file, but given by the
-/// program that this one is part of.
+/// Laws by which drives are steered, by the names of `keeps: law`: not from a file, but given by
+/// the program that this one is part of.
 using OwnLaws = std::map<std::string, LawMaker>;
 
-/// Complains about laws that are given and that no move of the operation names, and about those that
-/// moves name and nobody gives.
+/// Complains about laws that are given and that no move of the operation names, and about those
+/// that moves name and nobody gives.
 /// @param file that has the operation.
 void check_laws(const OwnLaws& laws, const std::vector<StageInCase>& operation,
                 const std::filesystem::path& file, Diagnostics& diagnostics);
 
-/// The law that steers a drive, with sights of its coordinate and its rate; those of `keep.sees` are
-/// still to be added, in their order.
+/// The law that steers a drive, with sights of its coordinate and its rate; those of `keep.sees`
+/// are still to be added, in their order.
 /// @throws InputError if nobody gives it.
 dynamics::OwnLaw make_own_law(const KeepInCase& keep, const OwnLaws& laws);
 

@@ -28,10 +28,10 @@ struct BarSection {
   double width() const { return pipe ? (*pipe)[0] : (*box)[1]; }
 };
 
-/// Spreader of the lift, of steel, its axes in its middle with z up: a straight bar, x along it from
-/// end a to end b; or, with a width, a rectangular frame of four bars rigidly joined at corners 1 to
-/// 4, anticlockwise from (-x, -y) seen from above. Slings from above end at its upper eyes, those to
-/// the load begin at its lower ones, over and under its ends or corners.
+/// Spreader of the lift, of steel, its axes in its middle with z up: a straight bar, x along it
+/// from end a to end b; or, with a width, a rectangular frame of four bars rigidly joined at
+/// corners 1 to 4, anticlockwise from (-x, -y) seen from above. Slings from above end at its upper
+/// eyes, those to the load begin at its lower ones, over and under its ends or corners.
 struct SpreaderInCase {
   Located<std::string> name;
   Located<double> length;       ///< along x, between the eyes, m

@@ -11,8 +11,8 @@ namespace blocklift::pipeline {
 /// is pressed nowhere), and the largest moments about its axes y and z, each by itself.
 ///
 /// Weight and inertia are those of an even rod: a load along it, linear in x, that balances forces
-/// and moments exactly, so that no acceleration is asked for. Moments are those about the bar's axis
-/// where it is straight: that of an eye beside it joins at the eye.
+/// and moments exactly, so that no acceleration is asked for. Moments are those about the bar's
+/// axis where it is straight: that of an eye beside it joins at the eye.
 structure::ColumnForces largest_forces(const std::vector<structure::PointForce>& forces,
                                        double length);
 

@@ -351,8 +351,8 @@ class MeshReader {
                {"the heaviest lifts are of some 50,000 t: is the deck in other units?"});
   }
 
-  /// What hangs on nothing in a lift may be held by the deck's own supports; whether it is shows when
-  /// its cases are solved.
+  /// What hangs on nothing in a lift may be held by the deck's own supports; whether it is shows
+  /// when its cases are solved.
   bool concerns_use(const structure::Finding& finding) const {
     return use_ == MeshUse::lift || finding.kind.starts_with("shells without") ||
            finding.kind == "folded solids";

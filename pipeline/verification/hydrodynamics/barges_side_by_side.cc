@@ -110,8 +110,8 @@ std::vector<VerificationRow> barges_side_by_side_rows() {
     DegreeOfFreedom freedom;
     const char* name;
     double bound;
-    /// Of the method without a meshed surface, which has no finer rings at the water line: it is off
-    /// by 6.5 and 8.4 % with these panels.
+    /// Of the method without a meshed surface, which has no finer rings at the water line: it is
+    /// off by 6.5 and 8.4 % with these panels.
     double bound_by_hulls;
   };
   std::vector<VerificationRow> rows;

@@ -27,8 +27,8 @@ struct CubesRow {
   double frequency;  ///< rad/s
   CoupledForce surge, heave;
 };
-// WAMIT 7 with 2,304 panels on each cube, as the developers of WEC-Sim published it (file cubes.1 of
-// their examples for BEMIO): density 1,000 kg/m3, g 9.81 m/s2, depth 20 m.
+// WAMIT 7 with 2,304 panels on each cube, as the developers of WEC-Sim published it (file cubes.1
+// of their examples for BEMIO): density 1,000 kg/m3, g 9.81 m/s2, depth 20 m.
 constexpr std::array<CubesRow, 3> wamit = {{{1.2, {-99.729, -43.774}, {-6.0006, 11.361}},
                                             {1.5, {72.482, -112.151}, {-3.4606, -1.0598}},
                                             {1.8, {-54.258, 71.996}, {0.9050, -0.1304}}}};

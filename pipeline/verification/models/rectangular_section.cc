@@ -16,8 +16,8 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 constexpr double pi = std::numbers::pi;
 
-/// Roots alpha of -alpha tan(alpha h) = number: i times the wave's number, then what stays. Those of
-/// the real part first, from there by Newton's method.
+/// Roots alpha of -alpha tan(alpha h) = number: i times the wave's number, then what stays. Those
+/// of the real part first, from there by Newton's method.
 std::vector<Complex> find_roots(double depth, Complex number, double wave_number, int terms) {
   std::vector<Complex> roots{Complex(0.0, wave_number)};
   const auto miss = [&](auto x) {

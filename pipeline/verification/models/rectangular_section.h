@@ -27,9 +27,9 @@ struct RectangularSection {
 /// Z_m the wave and what stays beside it, E_m going outwards or even across the gap; phi_p has the
 /// box's motion at its bottom. At its sides the potentials are equal beneath, and the velocities
 /// everywhere, beside the box to its own: Galerkin's method with `terms` cosines and as many Z. The
-/// velocity is infinite at the edge, and the error falls with their number to the power of 4/3: in a
-/// section of 20 x 5 m alone, from 0.8 to 2 rad/s, 60 terms differ from 120 by 0.2 %.
-/// Source: Black, Mei and Bray (1971), J. Fluid Mech. 46.
+/// velocity is infinite at the edge, and the error falls with their number to the power of 4/3: in
+/// a section of 20 x 5 m alone, from 0.8 to 2 rad/s, 60 terms differ from 120 by 0.2 %. Source:
+/// Black, Mei and Bray (1971), J. Fluid Mech. 46.
 std::complex<double> calc_section_force(const RectangularSection& section, DegreeOfFreedom mode,
                                         double frequency, double gravity, int terms = 60);
 

@@ -1,5 +1,5 @@
-// Friction between ropes and edges: the capstan in closed form, a band brake, curvature of the helix,
-// the energy account of loads that swing over edges.
+// Friction between ropes and edges: the capstan in closed form, a band brake, curvature of the
+// helix, the energy account of loads that swing over edges.
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -104,8 +104,8 @@ TEST(EdgeFriction, IsThatOfACapstan) {
   }
 }
 
-// A drum of the radius R that is driven, under a rope that comes from one side of it and goes to the
-// other; the rope pulls by 20 kN.
+// A drum of the radius R that is driven, under a rope that comes from one side of it and goes to
+// the other; the rope pulls by 20 kN.
 struct BandBrake {
   static constexpr double R = 0.4, EA = 10e6, friction = 0.5, travel = 0.6;
   // The tangents from 5 m aside and 3 m below the axis, and the arc between them.
@@ -288,8 +288,8 @@ struct Instant {
   Eigen::VectorXd v;
 };
 
-// The wrap is how far the rope's direction turns along its helix: summed over small steps of it, for
-// a sharp edge over those of a round one that is too small to matter.
+// The wrap is how far the rope's direction turns along its helix: summed over small steps of it,
+// for a sharp edge over those of a round one that is too small to matter.
 TEST(EdgeFriction, WrapIsTheCurvatureOfTheHelix) {
   for (const double radius : {0.0, 0.4}) {
     const ObliqueCradle cradle{.radius = radius, .apart = 6.0};

@@ -162,8 +162,8 @@ TEST(RopeSplit, SticksWithinTheCone) {
   EXPECT_LT(run.v_end.norm(), 1e-6);
 }
 
-// GL Noble Denton 0027/ND, rev. 11.2: a greased sheave shares 49:51, a two-part sling 45:55, one over a
-// trunnion in upending 32.5:67.5. Weights apart by far more move like on Atwood's machine:
+// GL Noble Denton 0027/ND, rev. 11.2: a greased sheave shares 49:51, a two-part sling 45:55, one
+// over a trunnion in upending 32.5:67.5. Weights apart by far more move like on Atwood's machine:
 //   a = g (m_b - e m_a) / (m_b + e m_a),   T_b = e T_a.
 TEST(RopeSplit, SlipsAtTheSharesOfStandards) {
   for (const double share : {0.51, 0.55, 0.675}) {
@@ -219,8 +219,8 @@ TEST(RopeSplit, ComesToAStandAndSticks) {
       (energy.dissipated.tail(299).array() >= energy.dissipated.head(299).array() - 1e-6).all());
 }
 
-// Over two sheaves with a quarter turn each the ratio is that of a half turn, whichever way, while a
-// winch pays out at the first end.
+// Over two sheaves with a quarter turn each the ratio is that of a half turn, whichever way, while
+// a winch pays out at the first end.
 TEST(RopeSplit, SheavesMultiply) {
   for (const bool to_first : {false, true}) {
     TwoWeights model{.first_mass = 5e3, .last_mass = 20e3, .friction = 0.1, .damping_time = 0.02};

@@ -110,8 +110,8 @@ TEST(EnergyLedger, ClosesTheBetterTheSmallerTheTolerance) {
 }
 
 // A winch runs while its load bounces and its rope is slack now and then. Steps look beyond the
-// instants at which the rope becomes taut or slack; a damped rope is slack while it is still stretched
-// and loses what it stores. The account knows where, and closes to the tolerance.
+// instants at which the rope becomes taut or slack; a damped rope is slack while it is still
+// stretched and loses what it stores. The account knows where, and closes to the tolerance.
 TEST(EnergyLedger, ClosesWhereTheWinchRunsWhileItsRopeIsSlack) {
   for (const double damping_time : {0.0, 0.005}) {
     samples::SingleRopeLift model;

@@ -24,8 +24,8 @@ using ::testing::ThrowsMessage;
 constexpr MotionLimits drive_can{0.2, 0.1, 0.4};
 
 // Its acceleration and jerk keep to their limits, its speed does not pass the one that is wanted
-// and is there in little more than the least time: v / a + a / j, or 2 sqrt(v / j) where the largest
-// acceleration is not reached.
+// and is there in little more than the least time: v / a + a / j, or 2 sqrt(v / j) where the
+// largest acceleration is not reached.
 TEST(Steering, GoesOverToASpeedWithinItsLimits) {
   constexpr double h = 0.2;
   for (const MotionLimits& can : {drive_can, MotionLimits{0.2, 10.0, 0.1}}) {
@@ -136,8 +136,8 @@ Eigen::Index sample_near(const History& history, double t) {
 }
 
 // Behind a load that sinks at the speed V it lags by V times its correction time and by its
-// tolerance, whatever its reaction; when the other stands, only the tolerance is left. Replayed as a
-// course, known beforehand, the motion is the same.
+// tolerance, whatever its reaction; when the other stands, only the tolerance is left. Replayed as
+// a course, known beforehand, the motion is the same.
 TEST(Steering, LagsByTheSpeedTimesTheCorrectionTime) {
   constexpr double speed = 0.05;
   for (const double reaction : {0.0, 1.0}) {
@@ -302,8 +302,8 @@ OwnLaw own_law(std::vector<Sight> sights, SpeedLaw law) {
   return {"own", std::move(sights), [law = std::move(law)] { return law; }};
 }
 
-// A proportional law from outside, y' = d / T, is the same equation; with looks every 0.02 s it acts
-// a tenth as late, and comes ten times as near.
+// A proportional law from outside, y' = d / T, is the same equation; with looks every 0.02 s it
+// acts a tenth as late, and comes ten times as near.
 TEST(Steering, AProportionalLawDampsAPendulum) {
   const Pendulum pendulum;
   Steering steering = pendulum.steering(

@@ -130,9 +130,9 @@ TEST(TimeIntegration, RopeGoesSlackAndTautAtItsInstants) {
   EXPECT_LT(largest_imbalance(run.history.energy), 1e-6 * model.mass * g);
 }
 
-// How ropes stand at a step's end is mostly known from its last right-hand side. A run that waits for
-// what never comes computes it each time: changes come at the same instants, and the motion is the
-// same.
+// How ropes stand at a step's end is mostly known from its last right-hand side. A run that waits
+// for what never comes computes it each time: changes come at the same instants, and the motion is
+// the same.
 TEST(TimeIntegration, ForeseenContactsAreThoseOfTheState) {
   const samples::SingleRopeLift model;
   const LiftSystem lift = model.build();

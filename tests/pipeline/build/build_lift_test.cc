@@ -65,8 +65,8 @@ TEST(BuildLiftTest, NamesAndPlacesTheParts) {
 }
 
 // Two equalised hooks carry alike, so a load whose centre of mass lies e beside their middle and h
-// below its pins turns until it hangs below it: tan(tilt) = e / h. Slings lean in by two centimetres
-// in seven metres then, which moves the tilt by less than a hundredth.
+// below its pins turns until it hangs below it: tan(tilt) = e / h. Slings lean in by two
+// centimetres in seven metres then, which moves the tilt by less than a hundredth.
 TEST(BuildLiftTest, EqualisedHoistsCarryAlike) {
   SampleLift parts;
   parts.crane = with(parts.crane, "rope: {axial_stiffness: 200 MN, breaking_load: 100 t}",

@@ -346,8 +346,8 @@ TEST(CopiedParts, RepeatedLongitudinalsMakeAGridByLabels) {
   EXPECT_LT((below->corners->value[1] - Vector3(3, -1, 0)).norm(), 1e-12);
 }
 
-// Edges that ropes may touch are parts like others. One that lies across the mirror plane is its own
-// image, one in the plane is not doubled.
+// Edges that ropes may touch are parts like others. One that lies across the mirror plane is its
+// own image, one in the plane is not doubled.
 TEST(CopiedParts, EdgesComeAgain) {
   const std::string edges =
       "edges:\n"

@@ -175,8 +175,8 @@ TEST_F(SweepCommand, FindsTheStressOfAllMembersWithOneFactor) {
   EXPECT_TRUE(fs::is_regular_file("one/worst/report.html"));
 }
 
-// Where ropes press on the block's edges follows from each member's motion: its stress is that of an
-// assessment all the same.
+// Where ropes press on the block's edges follows from each member's motion: its stress is that of
+// an assessment all the same.
 TEST_F(SweepCommand, FindsTheStressOfBlocksWithRopesOnTheirEdges) {
   fs::remove_all("lift");
   fs::create_directory("lift");

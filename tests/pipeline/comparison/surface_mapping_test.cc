@@ -42,8 +42,8 @@ TEST(SurfaceMapping, SameMeshesAreMappedPointByPointExactly) {
     EXPECT_EQ(mapped[i].points[0], static_cast<std::int32_t>(i));
 }
 
-// The field is linear on each plate and other on the bulkhead than on the deck, also where both are:
-// finer, coarser and meshes that do not fit each other give it to rounding (of 1e8 Pa).
+// The field is linear on each plate and other on the bulkhead than on the deck, also where both
+// are: finer, coarser and meshes that do not fit each other give it to rounding (of 1e8 Pa).
 TEST(SurfaceMapping, AFieldThatIsLinearOnEachPlateIsMappedExactly) {
   for (const int squares : {1, 4, 5, 8, 9})
     EXPECT_LT(largest_error(sample_surface(squares), sample_surface(4)),

@@ -1,5 +1,5 @@
-// A box in two crossing baskets from one hook and back: statics by hand, stress without a lug that is
-// pulled at.
+// A box in two crossing baskets from one hook and back: statics by hand, stress without a lug that
+// is pulled at.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -69,8 +69,8 @@ checks: )" + checks + "\n";
 
 const std::string locked = "falls_apart: 1.2 m, radius_of_gyration: 0.4 m, horns: 0.5 m";
 
-// The falls' moment is that of the tugger about the hook, and T b^2 sin(theta) / L of the twist, which
-// leaves a little to the lean of the falls. The load turns further, by the slings.
+// The falls' moment is that of the tugger about the hook, and T b^2 sin(theta) / L of the twist,
+// which leaves a little to the lean of the falls. The load turns further, by the slings.
 TEST(HookBlockMeasures, FallsBearTheMomentOfATugger) {
   const TurningLift lift(locked);
   const dynamics::History& history = lift.run->static_history;

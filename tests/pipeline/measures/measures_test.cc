@@ -37,8 +37,8 @@ struct WatchedLift {
   }
 };
 
-/// @param crane_lines, case_lines, rope_lines more of the crane, of the case, and of the model of both
-///   slings and the left tackle. @param left_sling in place of how it runs.
+/// @param crane_lines, case_lines, rope_lines more of the crane, of the case, and of the model of
+///   both slings and the left tackle. @param left_sling in place of how it runs.
 WatchedLift watch(const std::string& checks = "{}", const std::string& crane_lines = "",
                   const std::string& case_lines = "", const std::string& rope_lines = "",
                   const std::string& left_sling = "from: C1.left, to: L1, length: 2 m") {
@@ -138,8 +138,8 @@ TEST(Surface, OfAPlateBetweenArcsLiesOnTheCylinder) {
   EXPECT_NEAR(area, 2 * 32 * std::sin(std::acos(-1.0) / 64), 1e-12);
 }
 
-// Crane 108 t, hook blocks 1 t, load 10 t. Over the span of 10 m the gantry's weight lies at 5 m, the
-// rest where the trolley is: at 5 m first, at 7 m in the end.
+// Crane 108 t, hook blocks 1 t, load 10 t. Over the span of 10 m the gantry's weight lies at 5 m,
+// the rest where the trolley is: at 5 m first, at 7 m in the end.
 TEST(SupportLoads, AtRestFollowStatics) {
   const WatchedLift& lift = watched();
   const Eigen::Index last = lift.run.static_history.sample_count() - 1;
@@ -158,8 +158,8 @@ TEST(SupportLoads, AtRestFollowStatics) {
   EXPECT_NEAR(load("C", last) + load("D", last), (100e3 * 5 + 19e3 * 7) / 10 * g, 1e-4 * weight);
 }
 
-// What the crane presses on the rails is what all masses ask for, those of load and hooks, which the
-// measure knows by the ropes' pull alone, included.
+// What the crane presses on the rails is what all masses ask for, those of load and hooks, which
+// the measure knows by the ropes' pull alone, included.
 TEST(SupportLoads, InMotionObeyNewton) {
   const WatchedLift& lift = watched();
   const dynamics::History& history = lift.run.dynamic_history();
@@ -233,8 +233,8 @@ TEST(TackleMeasures, FollowTheShareOfTheFalls) {
   EXPECT_EQ(found, 2);
 }
 
-// Both slings of 2 m and the left tackle of 5 m weigh 50 kg/m: hooks and crane bear them, the load's
-// lugs do not.
+// Both slings of 2 m and the left tackle of 5 m weigh 50 kg/m: hooks and crane bear them, the
+// load's lugs do not.
 TEST(RopeWeight, IsInWhatHooksAndCraneBear) {
   const WatchedLift lift =
       watch("{smallest_tension: 1 kN}", "", "rope_weight: true\n", "mass: 50 kg/m\n");
@@ -273,8 +273,8 @@ TEST(RopeWeight, IsInWhatHooksAndCraneBear) {
 }
 
 // Friction keeps the way it had: hoisting before any motion, lowering while rope is paid out and
-// until it is taken in again.
-// A sling with both its parts over the left hook: at rest they share alike, in motion within the cone.
+// until it is taken in again. A sling with both its parts over the left hook: at rest they share
+// alike, in motion within the cone.
 TEST(SheaveMeasures, SharesOfAnEndlessSlingStayWithinTheFriction) {
   const WatchedLift lift = watch("{}", "", "", "",
                                  "from: {body: load, point: [0 m, -0.5 m, 1.2 m]}, through: "

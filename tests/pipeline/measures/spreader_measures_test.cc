@@ -118,8 +118,8 @@ TEST(SpreaderMeasures, CompressionFollowsTheMotion) {
   for (Eigen::Index i = 0; i < N.size(); ++i) EXPECT_NEAR(N[i] / N[0], pull[i] / pull[0], 1e-3);
 }
 
-// The bar's lower face is 0.1 + 1.5 m over the lugs' pins less half of the pipe, these 0.2 m over the
-// plate's top, and the slings stretch.
+// The bar's lower face is 0.1 + 1.5 m over the lugs' pins less half of the pipe, these 0.2 m over
+// the plate's top, and the slings stretch.
 TEST(SpreaderMeasures, BarKeepsItsDistanceFromTheLoad) {
   const BarLift& lift = plain_lift();
   std::vector<LiftMeasure> measures;
@@ -144,8 +144,8 @@ TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
   EXPECT_GT(checks[1].demand, checks[0].utilisation);
 }
 
-// All forces grow together until the column bears no more: half the load below the bar that it bears
-// asks half of its resistance where moments do not grow, and less where they do.
+// All forces grow together until the column bears no more: half the load below the bar that it
+// bears asks half of its resistance where moments do not grow, and less where they do.
 TEST(SpreaderMeasures, BorneLoadIsWhereTheColumnFails) {
   const BarLift& lift = plain_lift();
   const LiftSpreader& bar = lift.run.model.spreaders.front();
@@ -195,8 +195,8 @@ TEST(SpreaderMeasures, SlingsAboveABarHaveAngles) {
   EXPECT_NEAR(found, std::atan2(1.5, 2), 1e-3);
 }
 
-// Slings of 3 m from the hook to the corners of a frame of 4 x 2 m rise by 2 m; those of 2 m below it
-// lean in by 1 m and fall by sqrt(3) m. Along x only those above press, along y those above and,
+// Slings of 3 m from the hook to the corners of a frame of 4 x 2 m rise by 2 m; those of 2 m below
+// it lean in by 1 m and fall by sqrt(3) m. Along x only those above press, along y those above and,
 // towards the plate, those below; the eyes bend: each level pull times its height.
 TEST(SpreaderMeasures, FrameIsPressedByStatics) {
   const BarLift lift = lift_on_bar(test::frame_lift());

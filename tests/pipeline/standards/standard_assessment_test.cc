@@ -237,8 +237,8 @@ TEST(StandardAssessment, TellsTheLoadFactorOfLegsByAngleAndNumber) {
   EXPECT_FALSE(factor(4, 1.1));
 }
 
-// Twice the sling's 605 kN at rest of 1,300; twice 635.25 in motion of 1,300 x 1.05. Round a tread of
-// 300 mm a sling of 75 mm has D/d 4: 1 / (1 - 0.5 / 2) = 1.333 in place of the socket's 1.
+// Twice the sling's 605 kN at rest of 1,300; twice 635.25 in motion of 1,300 x 1.05. Round a tread
+// of 300 mm a sling of 75 mm has D/d 4: 1 / (1 - 0.5 / 2) = 1.333 in place of the socket's 1.
 TEST(StandardAssessment, BendsASlingOverItsSheave) {
   StandardInCase standard = by_nd_0027();
   standard.sheaves.push_back({called("R1"), 1300e3, 6500e3, 0.3});

@@ -122,8 +122,8 @@ TEST(DeckSolution, SimplySupportedPlateConverges) {
 }
 
 // A plate of 10 x 10 x 0.3 in, clamped along one edge and pulled by 100 lbf at each of six nodes of
-// the other, against MSC Nastran 2012 with CQUAD4 (public results of pyNastran's model "plate"): two
-// elements of one degree and of different make, at nodes away from the loaded corners.
+// the other, against MSC Nastran 2012 with CQUAD4 (public results of pyNastran's model "plate"):
+// two elements of one degree and of different make, at nodes away from the loaded corners.
 TEST(DeckSolution, AgreesWithNastran) {
   std::string cards;
   for (int j = 0; j <= 5; ++j)

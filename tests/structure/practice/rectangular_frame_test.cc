@@ -94,8 +94,8 @@ TEST(RectangularFrameTest, SlingsBesideTheCornersBendItInItsPlane) {
 }
 
 // Slings of one diagonal alone twist the frame: corners pulled up and down in turn by P. Cut in the
-// middles of the sides, where nothing bends for symmetry, a quarter bears V_1 and V_2 = P - V_1, and
-// each bends its own side and twists the other. Least work (Castigliano) gives V_1 a = V_2 b.
+// middles of the sides, where nothing bends for symmetry, a quarter bears V_1 and V_2 = P - V_1,
+// and each bends its own side and twists the other. Least work (Castigliano) gives V_1 a = V_2 b.
 TEST(RectangularFrameTest, OneDiagonalTwistsIt) {
   const double P = 30e3;
   const LoadedRectangle frame;

@@ -217,8 +217,8 @@ class StepBlocks {
     return block.name == "DLOAD" ? now_.on_elements : now_.on_surfaces;
   }
 
-  /// Steps that are solved in time, or for modes or heat; those of buckling have static loads. Empty
-  /// for a load case.
+  /// Steps that are solved in time, or for modes or heat; those of buckling have static loads.
+  /// Empty for a load case.
   std::string why_no_load_case(const std::vector<const AbaqusBlock*>& blocks) const {
     static const std::set<std::string, std::less<>> others{
         "FREQUENCY",         "COMPLEX FREQUENCY",     "DYNAMIC",

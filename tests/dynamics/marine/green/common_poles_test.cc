@@ -100,8 +100,8 @@ TEST(CommonPoles, FrequenciesGoWhereTheyAreNeeded) {
   }
 }
 
-// Waves of low frequency give the forces a branch cut. That of the transform of g = t/(1 + t^2)^2 is
-// met by poles along it. The transform by Simpson's rule.
+// Waves of low frequency give the forces a branch cut. That of the transform of g = t/(1 + t^2)^2
+// is met by poles along it. The transform by Simpson's rule.
 TEST(CommonPoles, ABranchCutIsMetByPolesAlongIt) {
   const auto compute = [](double w) {
     constexpr int steps = 10000;

@@ -88,8 +88,8 @@ TEST(DampingBeyond, AddedMassTellsWhatIsBeyond) {
   EXPECT_NEAR(beyond.rises()[0], 2.0 - 0.2, 0.02);
 }
 
-// The sum over all frequencies, whatever moves, takes energy out; a negative eigenvalue in the band,
-// of the size of panels' errors, is nothing afterwards.
+// The sum over all frequencies, whatever moves, takes energy out; a negative eigenvalue in the
+// band, of the size of panels' errors, is nothing afterwards.
 TEST(DampingBeyond, NoEnergyComesOutOfTheWater) {
   std::vector<double> band;
   std::vector<MatrixXd> damping;

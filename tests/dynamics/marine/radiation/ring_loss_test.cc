@@ -96,8 +96,8 @@ TEST(RingLoss, GrowsWithTheFourthPowerOfTheWaveNumber) {
   }
 }
 
-// Beside a long barge the rings run along its side: waves that run off from it lose within the circle
-// that holds the barge what its rings do not carry, waves along it nothing.
+// Beside a long barge the rings run along its side: waves that run off from it lose within the
+// circle that holds the barge what its rings do not carry, waves along it nothing.
 TEST(RingLoss, ActsBesideALongBarge) {
   const std::vector<WettedBody> bodies{
       {"barge", make_box_hull(100, 10, 5, {40, 4, 2, 1.0}), Vector3::Zero()}};

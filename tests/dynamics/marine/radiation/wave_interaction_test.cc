@@ -97,8 +97,8 @@ class DistantSpheres : public ::testing::Test {
 HydrodynamicDatabase* DistantSpheres::whole = nullptr;
 HydrodynamicDatabase* DistantSpheres::apart = nullptr;
 
-// The surface carries waves of 13 m and more over 8 m. Heave's local flow, which does not travel, is
-// left out: 2/R - pi K (H_0 - Y_0)(K R) of a source, in the added mass of the longest waves.
+// The surface carries waves of 13 m and more over 8 m. Heave's local flow, which does not travel,
+// is left out: 2/R - pi K (H_0 - Y_0)(K R) of a source, in the added mass of the longest waves.
 TEST_F(DistantSpheres, AreCoupledAsOnOneSurface) {
   for (std::size_t k = 0; k < whole->frequencies.size(); ++k) {
     const double w = whole->frequencies[k];

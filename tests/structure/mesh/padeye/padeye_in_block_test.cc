@@ -219,8 +219,8 @@ TEST(PadeyeInBlock, PinMovesALittleMoreThanThatOfShells) {
 }
 
 // Elements of the padeye as coarse as they may be serve the block: twice as many move the pin by
-// less than half a per cent. Division of the shells below leaves the tie as it is; the plate's edge,
-// on which the padeye pulls in its middle more than at its ends, gives way by a little more.
+// less than half a per cent. Division of the shells below leaves the tie as it is; the plate's
+// edge, on which the padeye pulls in its middle more than at its ends, gives way by a little more.
 TEST(PadeyeInBlock, CompliancesStandOnFinerMeshes) {
   const ElasticModel model(strip_mesh(), {3, {}}), finer(strip_mesh(32), {3, {}});
   const Eigen::Matrix3d found = HeldAtFoot(model).compliance();

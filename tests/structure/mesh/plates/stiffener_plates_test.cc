@@ -216,8 +216,8 @@ TEST(StiffenerPlates, BendWithTheirPlateAsABeam) {
   }
 }
 
-// A strip with a flat bar twists as thin walls do, J = sum l t^3 / 3 (Saint-Venant): both walls meet
-// in the shear centre and hardly warp. 3 % are for the clamped end.
+// A strip with a flat bar twists as thin walls do, J = sum l t^3 / 3 (Saint-Venant): both walls
+// meet in the shear centre and hardly warp. 3 % are for the clamped end.
 TEST(StiffenerPlates, TwistAsThinWalls) {
   const double length = 4, breadth = 0.3, t = 0.012, height = 0.2, web = 0.012;
   BlockDescription block = deck(length, breadth, t);
@@ -256,8 +256,8 @@ TEST(StiffenerPlates, DifferFromTheirProfileByTheJoints) {
     const StiffenerFigures plates = figures_as_plates(profile.plates.value(), 0.012);
     const StiffenerFigures beam = figures_as_beam(profile, 0.012);
     EXPECT_NEAR(plates.area, beam.area, 0.05 * beam.area);
-    // Most by the half of the flange's thickness that the web reaches into it, at the flange's whole
-    // distance: 10 x 7 mm at 257 mm are 3.2 % of the tee's.
+    // Most by the half of the flange's thickness that the web reaches into it, at the flange's
+    // whole distance: 10 x 7 mm at 257 mm are 3.2 % of the tee's.
     EXPECT_NEAR(plates.second_moment, beam.second_moment, 0.04 * beam.second_moment);
   }
   EXPECT_FALSE(channel(0.2, 0.01, 0.08, 0.012).plates.has_value());
