@@ -8,7 +8,6 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/mirrored_bodies.h"
 #include "dynamics/marine/panels/wetted_body.h"
-#include "dynamics/marine/radiation/distant_groups.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/simulation/marched_surface.h"
 
@@ -110,10 +109,14 @@ dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
   mirror_bodies(vertices_W, bodies);
   const dynamics::Symmetry symmetry = keep_symmetry(find_symmetry(bodies), problem.lids);
   const std::vector<dynamics::WaterLine> lines = find_water_lines(bodies);
-  const auto surface = make_surface_mesh(
-      lines,
-      dynamics::surface_settings(lines, wave_length(problem.frequencies.back(), problem.water),
-                                 wave_length(problem.frequencies.front(), problem.water)));
+  dynamics::SurfaceMesh surface;
+  surface.mesh.symmetry = symmetry;
+  if (problem.method == dynamics::PanelMethod::marched_surface) {
+    surface = make_surface_mesh(
+        lines,
+        dynamics::surface_settings(lines, wave_length(problem.frequencies.back(), problem.water),
+                                   wave_length(problem.frequencies.front(), problem.water)));
+  }
   dynamics::PanelModel model(std::move(bodies), surface, problem.water, symmetry);
   require_panels_for_waves(model, problem.frequencies.back());
   return model;
@@ -145,7 +148,7 @@ dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem
   settings.lids = problem.lids;
   settings.with_coarser = true;
   settings.with_far_field = problem.drifting.has_value();
-  return compute_distant_groups(model, groups, settings);
+  return compute_by_method(problem.method, model, groups, settings);
 }
 
 dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {
@@ -267,6 +270,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   problem.water = water_of(*parts_.sea, gravity_);
   problem.place = parts_.sea->radiation.place;
   problem.frequencies = radiation_frequencies(*parts_.sea);
+  problem.method = parts_.sea->radiation.method.value;
   for (int i = 0; i < heading_count; ++i) {
     problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/marine/radiation/distant_groups.h"
+#include "dynamics/marine/green/panel_method.h"
 #include "dynamics/marine/radiation/hydrodynamic_series.h"
 #include "dynamics/marine/radiation/radiation.h"
 #include "dynamics/simulation/lift_system.h"
@@ -37,8 +37,9 @@ struct RadiationProblem {
   /// its world.
   std::shared_ptr<const dynamics::HydrodynamicDatabase> given = nullptr;
   dynamics::Water water;
-  std::vector<double> frequencies;              ///< rad/s, ascending
-  std::vector<double> headings;                 ///< rad, a whole turn
+  std::vector<double> frequencies;  ///< rad/s, ascending
+  std::vector<double> headings;     ///< rad, a whole turn
+  dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
   std::vector<dynamics::DampingLid> lids = {};  ///< in D
   Mark place;                                   ///< of what the file says about radiation
   /// Of the one vessel whose mean drift is asked for, floating freely, 6 x 6 about its reference
@@ -81,13 +82,13 @@ struct MarchedWater {
 /// @throws dynamics::ModelError, dynamics::SimulationError as its meshes and DirectRadiation do.
 MarchedWater make_marched_water(const RadiationProblem& problem);
 
-/// The panels of a problem whose bodies stay.
+/// The panels of a problem whose bodies stay; none on the surface where the method has none.
 /// @throws dynamics::ModelError as meshes and dynamics::PanelModel do.
 dynamics::PanelModel make_panel_model(const RadiationProblem& problem);
 
-/// Computes the database of a problem by the panel method, with the model of its panels and the
-/// groups of bodies far from each other in it (dynamics::find_distant_groups).
-/// @throws dynamics::ModelError, dynamics::SimulationError as compute_database.
+/// Computes the database of a problem by its method, with the model of its panels and the groups of
+/// bodies far from each other in it (dynamics::find_distant_groups).
+/// @throws dynamics::ModelError, dynamics::SimulationError as compute_by_method.
 dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
                                                  const dynamics::PanelModel& model,
                                                  const std::vector<dynamics::BodyGroup>& groups);

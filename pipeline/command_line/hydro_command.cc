@@ -48,7 +48,9 @@ void print_panels(const HydrodynamicState& state) {
   if (!note.empty()) log_entry(note);
   if (!note.empty() && !is_quiet()) print_wrapped(note);
   const std::string doubt =
-      doubt_about_coupling(*state.model, state.groups, state.settings.frequencies.back());
+      state.groups.empty()
+          ? std::string{}
+          : doubt_about_coupling(*state.model, state.groups, state.settings.frequencies.back());
   if (!doubt.empty()) say_warning(doubt);
   std::fflush(stdout);
 }

@@ -14,6 +14,7 @@
 #include "pipeline/files/vessel/hull_places.h"
 #include "pipeline/formats/hydrodynamics/hull_hash.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
+#include "pipeline/hydrodynamics/method_hash.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -132,14 +133,19 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   const auto length = [&](double frequency) {
     return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, problem.water);
   };
-  const dynamics::SurfaceMesh surface =
-      make_surface_mesh(lines, dynamics::surface_settings(lines, length(problem.frequencies.back()),
-                                                          length(problem.frequencies.front())));
   const dynamics::Symmetry symmetry =
       problem.symmetry ? keep_symmetry(find_symmetry(bodies), problem.lids) : dynamics::Symmetry{};
+  const bool with_surface = problem.method == dynamics::PanelMethod::marched_surface;
+  dynamics::SurfaceMesh surface;
+  surface.mesh.symmetry = symmetry;
+  if (with_surface) {
+    surface = make_surface_mesh(
+        lines, dynamics::surface_settings(lines, length(problem.frequencies.back()),
+                                          length(problem.frequencies.front())));
+  }
   state.model = std::make_shared<const dynamics::PanelModel>(std::move(bodies), surface,
                                                              problem.water, symmetry);
-  state.groups = find_distant_groups(*state.model, problem.frequencies.back());
+  if (with_surface) state.groups = find_distant_groups(*state.model, problem.frequencies.back());
   state.settings.frequencies = problem.frequencies;
   state.settings.headings = problem.headings;
   state.settings.lids = problem.lids;
@@ -147,7 +153,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   state.settings.with_far_field = problem.mean_drift;
   state.settings.rankine.memory_limit = problem.memory_limit;
   require_panels(problem, *state.model);
-  state.bytes = database_bytes(*state.model, state.settings);
+  state.bytes = bytes_by_method(problem.method, *state.model, state.settings);
   refuse_if_too_large(
       state, problem.memory_limit > 0.0 ? problem.memory_limit : dynamics::usable_memory());
   return state;
@@ -163,6 +169,7 @@ std::string identity_of(const HydrodynamicProblem& problem) {
   hash.add(problem.water.depth);
   hash.add(problem.frequencies);
   hash.add(problem.headings);
+  add(hash, problem.method);
   hash.add(static_cast<std::int64_t>(problem.symmetry));
   hash.add(static_cast<std::int64_t>(problem.mean_drift));
   for (const dynamics::DampingLid& lid : problem.lids) {
@@ -185,10 +192,9 @@ std::string identity_of(const HydrodynamicProblem& problem) {
 }
 
 dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
-                                             const HydrodynamicState& state,
-                                             dynamics::DatabaseReport* report) {
+                                             const HydrodynamicState& state) {
   dynamics::HydrodynamicDatabase database =
-      compute_distant_groups(*state.model, state.groups, state.settings, report);
+      compute_by_method(problem.method, *state.model, state.groups, state.settings);
   const Eigen::Index modes = database.mode_count();
   database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(modes, modes);
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
@@ -224,6 +230,9 @@ HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
     databases.push_back(compute_state(problem, state));
   }
   std::string origin = fmt::format("computed by blocklift {}", program_version);
+  if (problem.method == dynamics::PanelMethod::green_function) {
+    origin += ", wave Green function";
+  }
   for (const HydrodynamicState& state : states) {
     if (const std::string note = note_on_groups(*state.model, state.groups); !note.empty()) {
       origin += "; " + note;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/marine/radiation/distant_groups.h"
+#include "dynamics/marine/green/panel_method.h"
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/files/vessel/vessel_model.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
@@ -34,7 +34,8 @@ struct HydrodynamicProblem {
   dynamics::Water water;
   std::vector<double> frequencies;  ///< rad/s
   std::vector<double> headings;     ///< rad
-  bool mean_drift = false;          ///< of the single body as it floats freely
+  dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
+  bool mean_drift = false;  ///< of the single body as it floats freely
   std::vector<dynamics::DampingLid> lids;
   bool symmetry = true;       ///< use what planes of symmetry there are
   double memory_limit = 0.0;  ///< bytes; 0: dynamics::usable_memory()
@@ -59,7 +60,8 @@ struct HydrodynamicState {
   std::vector<dynamics::Pose> poses;  ///< X_WB of the bodies at rest
   Eigen::MatrixXd mass;               ///< 6N x 6N about the centres of mass
   std::shared_ptr<const dynamics::PanelModel> model;
-  std::vector<dynamics::BodyGroup> groups;  ///< of bodies far from each other, or one of all
+  /// Of bodies far from each other, or one of all; none where the method needs none.
+  std::vector<dynamics::BodyGroup> groups;
   dynamics::DatabaseSettings settings;
   double bytes = 0.0;  ///< of memory that the computation takes, at most
 };
@@ -76,8 +78,7 @@ std::string identity_of(const HydrodynamicProblem& problem);
 
 /// Computes the database of a state, hydrostatics included.
 dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
-                                             const HydrodynamicState& state,
-                                             dynamics::DatabaseReport* report = nullptr);
+                                             const HydrodynamicState& state);
 
 /// Share done (0 to 1) and what is being done.
 using HydrodynamicProgress = std::function<void(double, const std::string&)>;

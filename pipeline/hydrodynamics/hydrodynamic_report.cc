@@ -12,6 +12,7 @@
 
 #include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
+#include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 #include "pipeline/terminal/text_table.h"
 
@@ -241,6 +242,10 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
       text += panel_table(database, first) + radiation_table(database, first) +
               wave_table(database, responses, first);
     }
+    text += fmt::format(
+        "\nerror of memory: the retardation functions miss added mass and damping by {:.2g} % of "
+        "the waves' largest share at most\n",
+        100.0 * calc_memory_error(database));
     if (const std::string doubt = doubt_about_panels(database); !doubt.empty()) {
       text += "\nwarning: " + doubt + "\n";
     }

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/radiation/distant_groups.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/formats/hydrodynamics/hull_hash.h"
@@ -19,6 +18,7 @@
 #include "pipeline/hydrodynamics/cache_lock.h"
 #include "pipeline/hydrodynamics/given_database.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
+#include "pipeline/hydrodynamics/method_hash.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -70,6 +70,7 @@ std::string identity_of(const RadiationProblem& problem) {
   hash.add(problem.water.depth);
   hash.add(problem.frequencies);
   hash.add(problem.headings);
+  add(hash, problem.method);
   // Others are kept under the names that they had before there was a far field.
   if (problem.drifting) hash.add("far field");
   for (const dynamics::DampingLid& lid : problem.lids) {
@@ -151,6 +152,8 @@ dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
   dynamics::HydrodynamicDatabase database =
       compute_or_refuse(problem, [&](const RadiationProblem& p) {
         const dynamics::PanelModel model = make_panel_model(p);
+        if (p.method == dynamics::PanelMethod::green_function)
+          return compute_radiation(p, model, {});
         const auto groups = find_distant_groups(model, p.frequencies.back());
         if (const std::string note = note_on_groups(model, groups); !note.empty()) say(note);
         const std::string doubt = doubt_about_coupling(model, groups, p.frequencies.back());

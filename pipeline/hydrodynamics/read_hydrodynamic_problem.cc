@@ -51,6 +51,7 @@ void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& pr
   problem.headings = settings.headings;
   problem.water.density = settings.water_density;
   if (settings.water_depth) problem.water.depth = *settings.water_depth;
+  problem.method = settings.method;
   problem.symmetry = settings.symmetry;
   problem.mean_drift = settings.mean_drift;
   problem.lids = make_lids(settings.lids);

@@ -302,6 +302,16 @@ HydrodynamicDatabase HullComputation::run() {
 
 }  // namespace
 
+double hull_database_bytes(const PanelModel& model, const DatabaseSettings& settings) {
+  std::vector<WaterPlaneRegion> regions;
+  for (const DampingLid& lid : settings.lids) regions.push_back({lid.low, lid.high});
+  const WaterPlaneCells cells =
+      make_water_plane_cells(find_water_lines(model.bodies()), regions, model.symmetry(),
+                             std::sqrt(model.body_areas().mean()));
+  return hull_equations_bytes(model.body_mesh().size() + cells.size(),
+                              static_cast<int>(model.parities().size()));
+}
+
 HydrodynamicDatabase compute_hull_database(const PanelModel& model,
                                            const DatabaseSettings& settings,
                                            HullDatabaseReport* report) {

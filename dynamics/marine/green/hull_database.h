@@ -35,4 +35,7 @@ HydrodynamicDatabase compute_hull_database(const PanelModel& model,
                                            const DatabaseSettings& settings,
                                            HullDatabaseReport* report = nullptr);
 
+/// Memory (bytes) that compute_hull_database takes at its peak, at most.
+double hull_database_bytes(const PanelModel& model, const DatabaseSettings& settings);
+
 }  // namespace blocklift::dynamics

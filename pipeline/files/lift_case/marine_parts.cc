@@ -238,6 +238,38 @@ void check_radiation(const std::vector<VesselInCase>& vessels, Diagnostics& diag
   }
 }
 
+/// A surface that is marched beside the vessels, and a database that is given, are of one method.
+void check_method(const MarineParts& parts, Diagnostics& diagnostics) {
+  if (!parts.sea) return;
+  const Located<dynamics::PanelMethod>& method = parts.sea->radiation.method;
+  if (method.value == dynamics::PanelMethod::marched_surface) return;
+  bool computed = false;
+  for (const VesselInCase& vessel : parts.vessels) {
+    if (vessel.radiation.value == RadiationMethod::none) continue;
+    computed = true;
+    const std::string& name = vessel.name.value;
+    if (vessel.radiation.value == RadiationMethod::direct) {
+      diagnostics.error(method.mark,
+                        fmt::format("the method is green function, and vessel {} has radiation: "
+                                    "direct, for which the surface is marched",
+                                    name),
+                        {"radiation: database, or method: marched surface"});
+      return;
+    }
+    if (vessel.database) {
+      diagnostics.error(
+          method.mark,
+          fmt::format("the method is given, and the database of vessel {} too: nothing is computed",
+                      name),
+          {"leave out one of them"});
+      return;
+    }
+  }
+  if (computed) return;
+  diagnostics.error(method.mark, "the method is given, and no vessel makes waves",
+                    {"radiation: database, or leave it out"});
+}
+
 /// Drift needs mean forces: of one vessel alone from its far field, or of its database.
 void check_drift(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
   const auto radiating = std::count_if(vessels.begin(), vessels.end(), [](const auto& vessel) {
@@ -360,6 +392,7 @@ void check_marine_parts(const MarineParts& parts, double gravity,
   }
   for (const VesselInCase& vessel : parts.vessels) check_vessel(vessel, diagnostics);
   check_radiation(parts.vessels, diagnostics);
+  check_method(parts, diagnostics);
   check_vessel_databases(parts, gravity, diagnostics);
   check_drift(parts.vessels, diagnostics);
   check_linear_buoyancy(parts.vessels, parts.sea && parts.sea->waves, diagnostics);

@@ -83,6 +83,7 @@ struct CurrentInCase {
 struct RadiationSettings {
   double lowest = 0, highest = 0;  ///< frequencies, rad/s
   int frequencies = 0;
+  Located<dynamics::PanelMethod> method{dynamics::PanelMethod::marched_surface, {}};
   /// Where water in gaps and moonpools is damped.
   std::optional<Located<std::vector<LidModel>>> lids;
   Mark place;

@@ -163,6 +163,8 @@ Format<RadiationSettings> radiation_settings_format() {
                   "19",
                   "at which diffraction is computed, evenly between; those of regular waves "
                   "are added")
+      .by_default("method", &RadiationSettings::method, located(panel_method_format()),
+                  "marched surface", panel_method_purpose)
       .optional("lids", &RadiationSettings::lids, located(list_of(lid_format())),
                 "rectangles on which waves fade, for water in gaps and moonpools that would swing "
                 "on, where the vessels are at the start; a database has its own")

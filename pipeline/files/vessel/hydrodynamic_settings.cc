@@ -81,6 +81,11 @@ Format<LidModel> lid_format() {
   return table.format();
 }
 
+Format<dynamics::PanelMethod> panel_method_format() {
+  return choice<dynamics::PanelMethod>({{"marched surface", dynamics::PanelMethod::marched_surface},
+                                        {"green function", dynamics::PanelMethod::green_function}});
+}
+
 Format<std::vector<double>> draughts_format() {
   const Format<std::vector<double>> list =
       list_of(quantity(Dimension::length, Range::positive()), 1, 100);
@@ -111,6 +116,8 @@ Format<HydrodynamicSettings> hydrodynamic_settings_format() {
                 quantity(Dimension::length, Range::positive()), "deep water if left out")
       .by_default("water_density", &HydrodynamicSettings::water_density,
                   quantity(Dimension::density, Range::positive()), "1025 kg/m^3", "of the water")
+      .by_default("method", &HydrodynamicSettings::method, panel_method_format(), "marched surface",
+                  panel_method_purpose)
       .optional("panel_size", &HydrodynamicSettings::panel_size,
                 quantity(Dimension::length, Range::positive()),
                 "edge length of the panels; the vessel's own if left out")

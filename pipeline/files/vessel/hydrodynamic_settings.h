@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "dynamics/marine/green/panel_method.h"
 #include "dynamics/marine/radiation/free_surface.h"
 #include "pipeline/declaration/format.h"
 
@@ -32,10 +33,11 @@ struct HydrodynamicSettings {
   std::vector<double> headings;       ///< direction of travel from +x towards +y, rad
   std::optional<double> water_depth;  ///< m; none: deep
   double water_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m3
-  std::optional<double> panel_size;                                 ///< m; none: the vessel's own
-  std::vector<double> draughts;  ///< upright, m, ascending; empty: afloat by its own weight
-  bool as_meshed = false;        ///< z = 0 of the hull's own frame is the water
-  bool mean_drift = false;       ///< compute mean drift forces of the hull afloat
+  dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
+  std::optional<double> panel_size;  ///< m; none: the vessel's own
+  std::vector<double> draughts;      ///< upright, m, ascending; empty: afloat by its own weight
+  bool as_meshed = false;            ///< z = 0 of the hull's own frame is the water
+  bool mean_drift = false;           ///< compute mean drift forces of the hull afloat
   /// Where water in gaps and moonpools is damped.
   std::optional<std::vector<LidModel>> lids;
   bool symmetry = true;  ///< use the planes of symmetry that there are
@@ -48,6 +50,13 @@ std::vector<dynamics::DampingLid> make_lids(
 
 Format<LidModel> lid_format();
 Format<HydrodynamicSettings> hydrodynamic_settings_format();
+
+/// What finds the flow about hulls: the method's names are declared once, for vessels and cases.
+Format<dynamics::PanelMethod> panel_method_format();
+/// What a key of that format is for.
+inline constexpr const char* panel_method_purpose =
+    "what finds the flow: panels on the water's surface too, marched in time, or panels on the "
+    "hulls alone whose sources make waves, frequency by frequency";
 
 /// Draughts as a list of lengths that ascend.
 Format<std::vector<double>> draughts_format();

@@ -1,4 +1,5 @@
 // `blocklift hydro` as a user meets it: run as a process.
+#include <complex>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -71,6 +72,32 @@ TEST_F(HydroCommand, ComputesOnceAndConverts) {
   EXPECT_THAT(run("--import wec.h5 -o back.h5").out, HasSubstr("imported from wec.h5 (BEMIO)"));
   EXPECT_THAT(run("--import wec.1 --water-depth 20 -o back.h5").out,
               HasSubstr("imported from wec.1 (WAMIT)"));
+}
+
+// Both methods agree but for their panels' errors, and one's database is not taken for the other's.
+TEST_F(HydroCommand, ComputesByTheMethodThatIsAskedFor) {
+  ASSERT_EQ(run("pontoon/vessel.yaml -o marched.h5").exit_code, 0);
+  fs::copy("marched.h5", "hulls.h5");
+  folder_.write("pontoon/vessel.yaml", pontoon + "  method: green function\n");
+  const Outcome outcome = run("pontoon -o hulls.h5");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("0 on the surface"), HasSubstr("wave Green function"),
+                                 HasSubstr("error of memory"), HasSubstr("database: hulls.h5")));
+  EXPECT_THAT(run("pontoon -o hulls.h5").out, HasSubstr("already computed"));
+  const auto marched = read_hydrodynamic_file("marched.h5").series.databases[0];
+  const auto hulls = read_hydrodynamic_file("hulls.h5").series.databases[0];
+  for (std::size_t k = 0; k < marched.frequencies.size(); ++k) {
+    for (const int mode : {0, 2, 4}) {
+      const double w = marched.frequencies[k];
+      const std::complex<double> one(marched.damping[k](mode, mode),
+                                     w * marched.added_mass[k](mode, mode));
+      const std::complex<double> other(hulls.damping[k](mode, mode),
+                                       w * hulls.added_mass[k](mode, mode));
+      EXPECT_LT(std::abs(one - other), 0.1 * std::abs(other)) << w << " rad/s, mode " << mode;
+    }
+  }
+  EXPECT_THAT(complaint("  headings:", "  method: green functions\n  headings:"),
+              HasSubstr("green function"));
 }
 
 TEST_F(HydroCommand, ComputesSeveralVesselsTogether) {

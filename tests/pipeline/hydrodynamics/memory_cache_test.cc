@@ -110,5 +110,14 @@ TEST(MemoryCache, ADamagedEntryIsFittedAgain) {
   EXPECT_THAT(find(dry_and_wet(3.0)).said, ElementsAre(HasSubstr("from ")));
 }
 
+// What one method found is not taken for what another would; the marched surface's names stay.
+TEST(RadiationCache, MethodsHaveDatabasesOfTheirOwn) {
+  RadiationProblem problem;
+  problem.frequencies = {0.5, 1.0};
+  const std::string marched = identity_of(problem);
+  problem.method = dynamics::PanelMethod::green_function;
+  EXPECT_NE(identity_of(problem), marched);
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

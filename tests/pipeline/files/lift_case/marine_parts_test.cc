@@ -246,6 +246,29 @@ TEST(MarineParts, LidsAreThoseOfTheProblem) {
   EXPECT_THAT(complaints, HasSubstr("lids are given beside a database"));
 }
 
+// The Green function needs no panels on the surface; where the surface is marched, or nothing is
+// computed, it would do nothing.
+TEST(MarineParts, MethodIsThatOfTheProblem) {
+  const auto changed = [&](const std::string& method, const std::string& vessel) {
+    return with(with(floating, "sea:", "sea:\n  radiation: {method: " + method + "}"),
+                "damping:", vessel + "damping:");
+  };
+  const RadiationProblem marched = radiation_problem(sound(changed("marched surface", "")));
+  EXPECT_EQ(marched.method, dynamics::PanelMethod::marched_surface);
+  const RadiationProblem problem = radiation_problem(sound(changed("green function", "")));
+  EXPECT_EQ(problem.method, dynamics::PanelMethod::green_function);
+  EXPECT_EQ(make_panel_model(problem).surface_mesh().size(), 0);
+  std::string complaints;
+  EXPECT_FALSE(read_floating(changed("green function", "radiation: direct, "), complaints));
+  EXPECT_THAT(complaints, HasSubstr("for which the surface is marched"));
+  EXPECT_FALSE(read_floating(changed("green function", "radiation: none, "), complaints));
+  EXPECT_THAT(complaints, HasSubstr("no vessel makes waves"));
+  EXPECT_FALSE(read_floating(changed("green function", "database: none.h5, "), complaints));
+  EXPECT_THAT(complaints, HasSubstr("nothing is computed"));
+  EXPECT_FALSE(read_floating(changed("green functions", ""), complaints));
+  EXPECT_THAT(complaints, HasSubstr("did you mean"));
+}
+
 // The free vessel whose mean drift is asked for: mass with what stands on it, about the point in
 // the water line above the origin, in the world's axes (the barge heads along y).
 TEST(MarineParts, DriftAsksForTheFarField) {
