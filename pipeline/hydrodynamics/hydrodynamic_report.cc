@@ -243,7 +243,7 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
               wave_table(database, responses, first);
     }
     text += fmt::format(
-        "\nerror of memory: the retardation functions miss added mass and damping by {:.2g} % of "
+        "\nerror of retardation functions: they miss added mass and damping by {:.2g} % of "
         "the waves' largest share at most\n",
         100.0 * calc_memory_error(database));
     if (const std::string doubt = doubt_about_panels(database); !doubt.empty()) {
