@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "structure/index.h"
 #include "structure/mesh/mesh.h"
 #include "structure/mesh/part_mesh.h"
 #include "structure/space/space.h"
@@ -25,10 +25,8 @@ struct SolidSet {
   std::vector<int> law;          ///< of each solid, place in `laws`
 
   int count() const { return static_cast<int>(kinds.size()); }
-  const ElementKind& kind(int solid) const { return *kinds[static_cast<std::size_t>(solid)]; }
-  int node(int solid, int local) const {
-    return members[static_cast<std::size_t>(first[static_cast<std::size_t>(solid)] + local)];
-  }
+  const ElementKind& kind(int solid) const { return *kinds[at(solid)]; }
+  int node(int solid, int local) const { return members[at(first[at(solid)] + local)]; }
   /// Places of a solid's nodes, 3 x nodes, m.
   Eigen::Matrix3Xd places(int solid) const;
   /// Adds a solid of as many nodes as its kind has.
