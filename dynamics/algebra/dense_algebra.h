@@ -34,8 +34,8 @@ extern template class DenseLu<double>;
 extern template class DenseLu<float>;
 using LuFactorisation = DenseLu<double>;
 
-/// Replaces the right-hand sides by the solutions of a dense complex system, of whose matrix
-/// nothing is left, by LAPACK.
+/// Replaces the right-hand sides by the solutions of a dense complex system, by LAPACK; large ones
+/// leave a billionth of the right-hand sides at most. The matrix means nothing afterwards.
 /// @throws SimulationError if the matrix is singular; `what` says which matrix it is.
 void solve_in_place(Eigen::MatrixXcd& matrix, Eigen::MatrixXcd& right_sides, const char* what);
 

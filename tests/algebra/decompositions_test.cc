@@ -6,20 +6,16 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "tests/algebra/some_matrix.h"
+
 namespace blocklift::algebra {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using test::some_matrix;
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
-
-/// A full matrix whose entries follow no pattern, the same on each machine.
-MatrixXd some_matrix(Eigen::Index rows, Eigen::Index columns) {
-  return MatrixXd::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index j) {
-    return std::sin(1.0 + 3.7 * static_cast<double>(i) + 1.3 * static_cast<double>(i * j + j * j));
-  });
-}
 
 /// Symmetric and positive definite; its condition is below 1000.
 MatrixXd some_positive(Eigen::Index size) {

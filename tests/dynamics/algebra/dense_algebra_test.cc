@@ -10,10 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "tests/algebra/some_matrix.h"
 
 namespace blocklift::dynamics {
 namespace {
 
+using test::some_matrix;
 using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
@@ -21,13 +23,6 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
-
-/// A full matrix whose entries follow no pattern, the same on each machine.
-MatrixXd some_matrix(Eigen::Index rows, Eigen::Index columns) {
-  return MatrixXd::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index j) {
-    return std::sin(1.0 + 3.7 * static_cast<double>(i) + 1.3 * static_cast<double>(i * j + j * j));
-  });
-}
 
 TEST(DenseAlgebra, GeneralEigenvectorsSatisfyTheirEquation) {
   const Eigen::Index n = 17;

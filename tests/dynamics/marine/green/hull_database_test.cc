@@ -14,6 +14,7 @@
 #include "dynamics/marine/radiation/floating_motion.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "tests/dynamics/marine/green/truncated_cylinder.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -77,22 +78,14 @@ TEST(HullDatabase, RetardationFunctionsGiveEachFrequency) {
   }
 }
 
-// Matched eigenfunctions, over rho a^3, and for the damping 1/s (Yeung 1981): through the
-// retardation functions, so that panels (1.3 %) and memory are both in it.
+// Through the retardation functions, so that panels (1.3 %) and memory are both in it.
 TEST(HullDatabase, TruncatedCylinderThroughItsMemory) {
-  struct Row {
-    double w, surge_A, heave_A, surge_B, heave_B;
-  };
-  constexpr std::array<Row, 4> exact = {{{1.0, .68333, 2.43399, .001261, .38273},
-                                         {1.4, .72495, 2.28487, .012839, .80505},
-                                         {3.0, .88176, 1.55601, 1.43016, 1.45673},
-                                         {4.0, .43641, 1.48549, 2.70330, .83563}}};
   const PanelModel model = make_round_model(
       make_vertical_cylinder(
           1.0, 0.5, true, {.meridians = 32, .parallels = 8, .grading = 5.0, .graded_edge = true}),
       deep);
   const HydrodynamicDatabase database = compute_hull_database(model, round_settings());
-  for (const Row& row : exact) {
+  for (const test::CylinderForces& row : test::truncated_cylinder) {
     MatrixXd A, B;
     calc_added_mass_and_damping(database, row.w, A, B);
     const Complex surge_exact(row.surge_B, row.w * row.surge_A);

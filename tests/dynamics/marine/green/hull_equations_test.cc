@@ -11,6 +11,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/radiation/incident_wave.h"
+#include "tests/dynamics/marine/green/truncated_cylinder.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -54,20 +55,12 @@ Complex force_of(const PanelModel& model, const HullEquations::Settings& setting
   return equations.calc_radiation(equations.solve(w), w)(mode, mode);
 }
 
-// Matched eigenfunctions, over rho a^3, and for the damping 1/s (Yeung 1981). 144 panels on a
-// quarter of the hull are off by 1.3 % in surge, 36 by 4.3 %: the edge keeps the order below 2.
+// 144 panels on a quarter of the hull are off by 1.3 % in surge, 36 by 4.3 %: the edge keeps the order below 2.
 TEST(HullEquations, TruncatedCylinder) {
-  struct Row {
-    double w, surge_A, heave_A, surge_B, heave_B;
-  };
-  constexpr std::array<Row, 4> exact = {{{1.0, .68333, 2.43399, .001261, .38273},
-                                         {1.4, .72495, 2.28487, .012839, .80505},
-                                         {3.0, .88176, 1.55601, 1.43016, 1.45673},
-                                         {4.0, .43641, 1.48549, 2.70330, .83563}}};
   const PanelModel model = make_model({{"cylinder", cylinder_of(32), Vector3::Zero()}},
                                       {1.0, standard_gravity}, {true, true});
   const HullEquations equations(model, {});
-  for (const Row& row : exact) {
+  for (const test::CylinderForces& row : test::truncated_cylinder) {
     const Eigen::MatrixXcd force = equations.calc_radiation(equations.solve(row.w), row.w);
     const Complex surge_exact(row.surge_B, row.w * row.surge_A);
     const Complex heave_exact(row.heave_B, row.w * row.heave_A);
