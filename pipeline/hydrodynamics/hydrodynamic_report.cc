@@ -29,6 +29,8 @@ constexpr std::array<const char*, 6> mode_names = {"surge", "sway",  "heave",
 /// Largest change of a radiation force from panels of twice the size that is not warned of. The
 /// error is a third of it where panels converge at second order: some three per cent.
 constexpr double acceptable_change = 0.1;
+/// Of a radiation force, by the end of the impulse runs.
+constexpr double acceptable_cut = 0.05;
 constexpr double degree = std::numbers::pi / 180.0;
 
 bool is_rotation(Eigen::Index mode) { return mode % modes_per_body >= 3; }
@@ -86,13 +88,18 @@ std::string radiation_table(const HydrodynamicDatabase& database, Eigen::Index f
   return mass.text() + damping.text();
 }
 
-/// How far the panels are from fine enough; empty where it is not known.
-std::string panel_table(const HydrodynamicDatabase& database, Eigen::Index first) {
-  if (database.change_from_coarser.size() == 0) return {};
-  ModeTable table("error of panels, %");
-  table.add("at most, by coarser ones", first,
-            [&](Eigen::Index m) { return 100.0 * database.change_from_coarser[m]; });
-  return table.text();
+/// How far panels and runs are from fine and long enough; empty where it is not known.
+std::string error_table(const HydrodynamicDatabase& database, Eigen::Index first) {
+  std::string text;
+  const auto add = [&](const char* what, const char* how, const Eigen::VectorXd& errors) {
+    if (errors.size() == 0) return;
+    ModeTable table(what);
+    table.add(how, first, [&](Eigen::Index m) { return 100.0 * errors[m]; });
+    text += table.text();
+  };
+  add("error of panels, %", "at most, by coarser ones", database.change_from_coarser);
+  add("error of the runs' end, %", "at most, by what fades", database.cut_off_by_end);
+  return text;
 }
 
 /// Excitation (kN/m, kN) and response (m/m, deg/m): the largest over all headings.
@@ -239,15 +246,15 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
                     [&](Eigen::Index m) { return calc_natural_period(database, masses[s], m); });
         text += periods.text();
       }
-      text += panel_table(database, first) + radiation_table(database, first) +
+      text += error_table(database, first) + radiation_table(database, first) +
               wave_table(database, responses, first);
     }
     text += fmt::format(
         "\nerror of retardation functions: they miss added mass and damping by {:.2g} % of "
         "the waves' largest share at most\n",
         100.0 * calc_memory_error(database));
-    if (const std::string doubt = doubt_about_panels(database); !doubt.empty()) {
-      text += "\nwarning: " + doubt + "\n";
+    for (const std::string& doubt : {doubt_about_panels(database), doubt_about_runs(database)}) {
+      if (!doubt.empty()) text += "\nwarning: " + doubt + "\n";
     }
   }
   return text;
@@ -274,6 +281,20 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
     doubt += "; water that swings in a gap or moonpool without damping does that, which lids give";
   }
   return doubt;
+}
+
+std::string doubt_about_runs(const HydrodynamicDatabase& database) {
+  if (database.cut_off_by_end.size() == 0) return {};
+  Eigen::Index worst = 0;
+  const double cut = database.cut_off_by_end.maxCoeff(&worst);
+  if (cut <= acceptable_cut) return {};
+  return fmt::format(
+      "water swings longer than its impulse responses were followed: their end cuts off about "
+      "{:.0f} % of the radiation force of {} in {}; a lower lowest_frequency follows them longer, "
+      "a "
+      "lid damps the water, method: green function needs no such responses",
+      100.0 * cut, database.body_names[static_cast<std::size_t>(worst / modes_per_body)],
+      mode_names[worst % modes_per_body]);
 }
 
 std::string note_on_groups(const dynamics::PanelModel& model,

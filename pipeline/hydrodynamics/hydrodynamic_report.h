@@ -19,6 +19,10 @@ std::string hydrodynamic_table(const HydrodynamicFile& file,
 /// force changes most from panels of twice the size, where that is more than a tenth; else empty.
 std::string doubt_about_panels(const dynamics::HydrodynamicDatabase& database);
 
+/// A sentence for a database whose impulse runs end before the water is at rest: the mode of whose
+/// radiation force their end cuts off most, where that is more than a twentieth; else empty.
+std::string doubt_about_runs(const dynamics::HydrodynamicDatabase& database);
+
 /// What bodies far apart are coupled by: one sentence, for people; empty for a single group.
 std::string note_on_groups(const dynamics::PanelModel& model,
                            const std::vector<dynamics::BodyGroup>& groups);

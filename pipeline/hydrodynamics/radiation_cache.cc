@@ -107,8 +107,9 @@ namespace {
 using Say = std::function<void(const std::string&)>;
 
 void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
-  const std::string doubt = doubt_about_panels(database);
-  if (!doubt.empty()) say("warning: " + doubt);
+  for (const std::string& doubt : {doubt_about_panels(database), doubt_about_runs(database)}) {
+    if (!doubt.empty()) say("warning: " + doubt);
+  }
 }
 
 /// What `read` finds of an entry of the cache, or what `compute` makes and `write` puts there. What

@@ -4,7 +4,8 @@ A file may include headers of its own folder and of the rooms that the list gran
 may be granted only rooms that stand above it in the list. Tests may include everything, but nothing in
 the rooms may include a test. Libraries: only structure/ may include deal.II, only the rooms named in
 LIBRARIES may include Gmsh, HDF5 and the others. Two types of one name in one namespace are found, too: no
-compiler sees both, and the linker silently gives one the functions of the other.
+compiler sees both, and the linker silently gives one the functions of the other. So are tests that no
+CMakeLists.txt names: they would never run, and nobody would miss them.
 
 Usage: check_rooms.py FOLDER; exit code 1 if a wall is crossed.
 """
@@ -15,6 +16,7 @@ import sys
 
 HOUSES = ("algebra", "parallel", "dynamics", "structure", "pipeline")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
+SOURCE = re.compile(r"[\w./]+_test\.cc")
 # What opens and closes scopes, once comments and texts are left out.
 SCOPE = re.compile(r"namespace\s*(?P<space>[\w:]*)\s*\{|"
                    r"(?:struct|class)\s+(?P<type>\w+)\s*(?:final\s*)?(?::(?!:)[^;{]*)?\{|"
@@ -113,6 +115,15 @@ def check_types(paths, root):
     return complaints
 
 
+def check_tests(root):
+    """Complaints about sources of tests that belong to no program."""
+    named = set()
+    for listing in (root / "tests").rglob("CMakeLists.txt"):
+        named |= {(listing.parent / source).resolve() for source in SOURCE.findall(listing.read_text())}
+    return [f"{path.relative_to(root)}:1: error: no CMakeLists.txt names this test"
+            for path in sorted((root / "tests").rglob("*_test.cc")) if path.resolve() not in named]
+
+
 def check_tree(root):
     """All complaints about a tree."""
     rooms, complaints = read_rooms(root / ".ci" / "rooms.txt")
@@ -120,7 +131,7 @@ def check_tree(root):
              if path.suffix in (".h", ".cc", ".inc") and "node_modules" not in path.parts]
     for path in files:
         complaints += check_file(path, root, rooms)
-    complaints += check_types(files, root)
+    complaints += check_types(files, root) + check_tests(root)
     inhabited = {str(path.parent.relative_to(root)) for path in files}
     complaints += [f".ci/rooms.txt: error: the room {room} is empty" for room in rooms if room not in inhabited]
     return complaints
@@ -128,5 +139,5 @@ def check_tree(root):
 
 if __name__ == "__main__":
     found = check_tree(pathlib.Path(sys.argv[1]).resolve())
-    print("\n".join(found) or "no include crosses a wall, no type has the name of another")
+    print("\n".join(found) or "no include crosses a wall, no type has the name of another, every test has its program")
     sys.exit(1 if found else 0)

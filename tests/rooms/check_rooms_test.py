@@ -52,4 +52,9 @@ expect(complaints_of({"dynamics/rope/rope.h": ROPE,
                       "pipeline/build/build.cc": ROPE.replace("struct", "namespace {\nstruct") + "}\n"}))
 expect(complaints_of({"dynamics/rope/rope.h": ROPE.replace("  int strands;", "  struct Wire;"),
                       "dynamics/rope/rope.cc": "namespace lift {\nstruct Rope::Wire {\n};\n}\n"}))
+LISTED = {"tests/rope/CMakeLists.txt": "blocklift_test(rope SOURCES rope_test.cc ../steel_test.cc)\n",
+          "tests/rope/rope_test.cc": "", "tests/steel_test.cc": ""}
+expect(complaints_of(LISTED))
+expect(complaints_of({**LISTED, "tests/rope/knot_test.cc": ""}),
+       "tests/rope/knot_test.cc:1: error: no CMakeLists.txt names this test")
 print("every breach is seen")

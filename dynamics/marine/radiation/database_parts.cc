@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "dynamics/errors.h"
@@ -68,20 +69,40 @@ HydrodynamicDatabase make_empty_database(const PanelModel& model,
   return database;
 }
 
-Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
-                               const std::vector<MatrixXcd>& coarser) {
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(database.mode_count());
-  for (std::size_t k = 0; k < coarser.size(); ++k) {
-    for (Eigen::Index m = 0; m < change.size(); ++m) {
-      const Complex force(database.damping[k](m, m),
-                          database.frequencies[k] * database.added_mass[k](m, m));
-      const Eigen::Index first = m - m % 3;
-      const double largest = database.added_mass[k].diagonal().segment<3>(first).maxCoeff();
-      if (std::abs(force) < 1e-3 * database.frequencies[k] * largest) continue;
-      change[m] = std::max(change[m], std::abs(coarser[k](m, m) - force) / std::abs(force));
+double negligible_force(const Eigen::VectorXd& reactance, const std::vector<int>& modes,
+                        Eigen::Index mode) {
+  const auto way_of = [&](Eigen::Index m) { return modes[static_cast<std::size_t>(m)] / 3; };
+  double largest = 0.0;
+  for (Eigen::Index m = 0; m < reactance.size(); ++m) {
+    if (way_of(m) == way_of(mode)) largest = std::max(largest, reactance[m]);
+  }
+  return 1e-3 * largest;
+}
+
+Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const MatrixXd& amounts) {
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(database.mode_count());
+  std::vector<int> modes(static_cast<std::size_t>(shares.size()));
+  std::iota(modes.begin(), modes.end(), 0);
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const Eigen::VectorXd reactance = database.frequencies[k] * database.added_mass[k].diagonal();
+    for (Eigen::Index m = 0; m < shares.size(); ++m) {
+      const double force = std::hypot(database.damping[k](m, m), reactance[m]);
+      if (force < negligible_force(reactance, modes, m)) continue;
+      shares[m] = std::max(shares[m], amounts(m, static_cast<Eigen::Index>(k)) / force);
     }
   }
-  return change;
+  return shares;
+}
+
+Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
+                               const std::vector<MatrixXcd>& coarser) {
+  MatrixXd changes(database.mode_count(), static_cast<Eigen::Index>(coarser.size()));
+  for (std::size_t k = 0; k < coarser.size(); ++k) {
+    const MatrixXcd forces =
+        database.damping[k] + Complex(0.0, database.frequencies[k]) * database.added_mass[k];
+    changes.col(static_cast<Eigen::Index>(k)) = (coarser[k] - forces).diagonal().cwiseAbs();
+  }
+  return largest_share(database, changes);
 }
 
 MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity, double frequency,

@@ -13,9 +13,19 @@ void check_frequencies(const DatabaseSettings& settings);
 /// for.
 HydrodynamicDatabase make_empty_database(const PanelModel& model, const DatabaseSettings& settings);
 
-/// Largest relative change of each mode's radiation force on itself over the frequencies, from the
-/// forces B + i w A of coarser panels. Zero for a mode with next to no force, such as the turns of
-/// a round body about its axis.
+/// Below it a mode's radiation force on itself is next to none, as that of a round body that turns
+/// about its axis: a thousandth of the largest with which the modes resist that move the same body
+/// in the same way, along axes or about them.
+/// @param reactance w A of each mode on itself. @param modes their numbers. @param mode the place of
+/// one among them.
+double negligible_force(const Eigen::VectorXd& reactance, const std::vector<int>& modes,
+                        Eigen::Index mode);
+
+/// Largest share over the frequencies that amounts (modes x frequencies; as B and w A) are of each
+/// mode's radiation force on itself, |B + i w A|. Zero for a mode with a negligible_force().
+Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const Eigen::MatrixXd& amounts);
+
+/// The largest_share() that the forces change by from those of coarser panels, B + i w A.
 Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
                                const std::vector<Eigen::MatrixXcd>& coarser);
 

@@ -31,9 +31,16 @@ class Progress {
  public:
   Progress(const DatabaseSettings& settings, std::size_t parts)
       : tell_(settings.progress), parts_(static_cast<double>(parts)) {}
-  void part(std::size_t index) { done_ = static_cast<double>(index); }
+  void part(std::size_t index) {
+    done_ = static_cast<double>(index);
+    marched_ = 0.0;
+  }
   void solve() const { show(0.0, "influence of the panels"); }
-  void march(double fraction) const { show(0.35 + 0.6 * fraction, "impulse responses"); }
+  /// A run that becomes longer stands still here, and does not go back.
+  void march(long step, long steps) {
+    marched_ = std::max(marched_, static_cast<double>(step) / static_cast<double>(steps));
+    show(0.35 + 0.6 * marched_, "impulse responses");
+  }
   void excite() const { show(0.95, "waves of all headings"); }
 
  private:
@@ -41,7 +48,7 @@ class Progress {
     if (tell_) tell_((done_ + fraction) / parts_, what);
   }
   const std::function<void(double, const char*)>& tell_;
-  double parts_, done_ = 0.0;
+  double parts_, done_ = 0.0, marched_ = 0.0;
 };
 
 /// On the surface only what is small beside the shortest wave is taken together: near the hulls.
@@ -69,13 +76,17 @@ class PartComputation {
   const RankinePart& part() const { return part_; }
   double step_limit() const { return run_.step_limit(); }
   double added_mass_asymmetry(MatrixXd& infinite_added_mass) const;
-  void run(double step, long steps, std::vector<MatrixXd>& retardation, const Progress& progress);
+  /// @returns the steps.
+  long run(double step, const RunLength& length, std::vector<MatrixXd>& retardation,
+           Progress& progress);
   void add_frequencies(HydrodynamicDatabase& database) const;
   /// To excitation, and to the far field, made for all parts together.
   void add_waves(HydrodynamicDatabase& database) const;
   void add_distant_waves(HydrodynamicDatabase& database) const;
   /// To the radiation forces of the coarser solution, one 6N x 6N for each frequency.
   void add_coarser(std::vector<MatrixXcd>& forces) const;
+  /// To what the ends of the runs cut off, modes x frequencies.
+  void add_cut(MatrixXd& cut) const;
 
  private:
   MatrixXcd mode_potentials(std::size_t frequency) const;
@@ -121,22 +132,25 @@ double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) cons
   return asymmetry;
 }
 
-void PartComputation::run(double step, long steps, std::vector<MatrixXd>& retardation,
-                          const Progress& progress) {
+long PartComputation::run(double step, const RunLength& length, std::vector<MatrixXd>& retardation,
+                          Progress& progress) {
   const auto& modes = part_.modes();
-  retardation.resize(static_cast<std::size_t>(steps) + 1,
-                     MatrixXd::Zero(model_.mode_count(), model_.mode_count()));
-  run_.run(step, steps, [&](long k, const MatrixXd& share) {
-    retardation[k](modes, modes) += share;
-    if (k % 16 == 0) progress.march(static_cast<double>(k) / static_cast<double>(steps));
+  const long steps = run_.run(step, length, [&](long k, long planned) {
+    if (k % 16 == 0) progress.march(k, planned);
   });
+  for (long k = 0; k <= steps; ++k) {
+    if (static_cast<std::size_t>(k) == retardation.size())
+      retardation.emplace_back(MatrixXd::Zero(model_.mode_count(), model_.mode_count()));
+    retardation[k](modes, modes) += run_.retardation(k);
+  }
   // The coarser surface's waves are longer: what the finer one's step suits suits it too. Where
   // not, the coarser panels have no solution that means anything.
   if (coarser_run_ && step <= coarser_run_->step_limit()) {
-    coarser_run_->run(step, steps, [](long, const MatrixXd&) {});
+    coarser_run_->run(step, {steps});
   } else {
     coarser_run_.reset();
   }
+  return steps;
 }
 
 void PartComputation::add_frequencies(HydrodynamicDatabase& database) const {
@@ -160,6 +174,10 @@ void PartComputation::add_coarser(std::vector<MatrixXcd>& forces) const {
     forces[k](modes, modes) +=
         coarser_run_->damping(k) + Complex(0, settings_.frequencies[k]) * mass;
   }
+}
+
+void PartComputation::add_cut(MatrixXd& cut) const {
+  cut(part_.modes(), Eigen::all) += run_.cut_off();
 }
 
 /// Potentials on the bodies per unit velocity of the modes.
@@ -253,6 +271,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   const double lowest = settings.frequencies.front(), highest = settings.frequencies.back();
   const double duration =
       settings.duration > 0.0 ? settings.duration : 3.0 * 2.0 * std::numbers::pi / lowest;
+  const int most_lengths = settings.duration > 0.0 ? 1 : 4;
   const double strength =
       settings.damping_strength > 0.0 ? settings.damping_strength : damping_zone(lowest).strength;
   DatabaseReport unused;
@@ -264,6 +283,8 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   const RankineSettings rankine = rankine_settings(model, settings);
   std::vector<MatrixXcd> coarser(settings.with_coarser ? settings.frequencies.size() : 0,
                                  MatrixXcd::Zero(model.mode_count(), model.mode_count()));
+  MatrixXd cut =
+      MatrixXd::Zero(model.mode_count(), static_cast<Eigen::Index>(settings.frequencies.size()));
   double step = settings.time_step;
   const std::vector<Parity> parities = model.parities();
   Progress progress(settings, parities.size());
@@ -284,10 +305,10 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     account.asymmetry =
         std::max(account.asymmetry, computation.added_mass_asymmetry(database.infinite_added_mass));
     const auto steps = static_cast<long>(std::ceil(duration / step));
-    computation.run(step, steps, database.retardation, progress);
-    account.steps += steps;
+    account.steps += computation.run(step, {steps, most_lengths}, database.retardation, progress);
     computation.add_frequencies(database);
     computation.add_coarser(coarser);
+    computation.add_cut(cut);
     account.march_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
     progress.excite();
@@ -307,6 +328,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   database.time_step = step;
   for (MatrixXd& mass : database.added_mass) mass += database.infinite_added_mass;
   if (settings.with_coarser) database.change_from_coarser = largest_change(database, coarser);
+  database.cut_off_by_end = largest_share(database, cut);
   return database;
 }
 

@@ -42,6 +42,10 @@ struct HydrodynamicDatabase {
   /// frequencies from panels of twice the size to these, relative; infinite: those have no solution;
   /// empty: unknown. At first order it is the panels' error itself, at second order three times it.
   Eigen::VectorXd change_from_coarser;
+  /// For each mode, how much of its radiation force on itself the end of the impulse runs cuts off at
+  /// most over the frequencies, relative, by estimate (ImpulseRun::cut_off); empty: there were no
+  /// runs, or it is unknown.
+  Eigen::VectorXd cut_off_by_end;
   /// Mean forces of second order on each body as it floats, in regular waves of unit amplitude
   /// (calc_mean_drift): 6N x headings for each frequency; N/m2, N m/m2; empty: unknown.
   std::vector<Eigen::MatrixXd> mean_drift;
@@ -57,12 +61,14 @@ struct HydrodynamicDatabase {
 
 /// Changes whenever compute_database, or the meshing of the water's surface, gives other figures
 /// for the same bodies: what was computed before is then not to be taken for what would be now.
-inline constexpr int panel_method_version = 7;
+inline constexpr int panel_method_version = 8;
 
 struct DatabaseSettings {
   std::vector<double> frequencies;  ///< rad/s, positive, ascending
   std::vector<double> headings;     ///< rad
-  /// Of the impulse runs; 0: three periods of the lowest frequency, s. The last 40 % are tapered.
+  /// Of the impulse runs, s. 0: three periods of the lowest frequency, and up to four times as long
+  /// where water swings longer than that, until their end cuts off no more than 3 % of any mode's
+  /// force on itself. The last 40 % are tapered.
   double duration = 0.0;
   /// Of the impulse runs; 0: as long as the surface allows, at most 0.25 rad of the highest
   /// frequency, s.

@@ -22,9 +22,8 @@ class Examination {
     if (database_.hydrostatic_stiffness.size() > 0) {
       matrix(database_.hydrostatic_stiffness, modes, "the hydrostatic stiffness");
     }
-    if (const auto known = database_.change_from_coarser.size(); known > 0 && known != modes) {
-      complain(join("there are ", known, " changes from coarser panels for ", modes, " modes"));
-    }
+    errors(database_.change_from_coarser, modes, "changes from coarser panels");
+    errors(database_.cut_off_by_end, modes, "shares that the runs' end cuts off");
     series(database_.added_mass, modes, "the added mass");
     series(database_.damping, modes, "the damping");
     series(database_.froude_krylov, headings(), "the Froude-Krylov force");
@@ -55,6 +54,11 @@ class Examination {
                     water.gravity, " m/s2 and a depth of ", water.depth,
                     " m: all must be positive, the first two finite"));
     }
+  }
+
+  void errors(const Eigen::VectorXd& found, Eigen::Index modes, const char* what) {
+    if (found.size() == 0 || found.size() == modes) return;
+    complain(join("there are ", found.size(), " ", what, " for ", modes, " modes"));
   }
 
   void count(std::size_t found, const char* what, bool may_lack = false) {

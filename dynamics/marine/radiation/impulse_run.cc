@@ -6,17 +6,24 @@
 #include <numbers>
 #include <utility>
 
+#include "dynamics/marine/radiation/database_parts.h"
+
 namespace blocklift::dynamics {
 namespace {
 
+using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 constexpr double tapered_fraction = 0.4;
 constexpr Eigen::Index instants_together = 32;
 
+/// Where the taper of a run of so many steps begins.
+double taper_begin(long steps) { return (1.0 - tapered_fraction) * static_cast<double>(steps); }
+
 /// 1 over the first part of the run, then half a cosine down to 0 at its end.
 double taper(long step, long steps) {
-  const double begin = (1.0 - tapered_fraction) * static_cast<double>(steps);
+  const double begin = taper_begin(steps);
   const double fraction =
       (static_cast<double>(step) - begin) / (static_cast<double>(steps) - begin);
   return fraction <= 0.0 ? 1.0 : 0.5 * (1.0 + std::cos(std::numbers::pi * std::min(1.0, fraction)));
@@ -28,7 +35,7 @@ MatrixXd symmetric_part(const MatrixXd& matrix) { return 0.5 * (matrix + matrix.
 
 double elevation_bytes(double unknowns, std::size_t frequencies) {
   const auto columns =
-      static_cast<double>(2 * frequencies) + static_cast<double>(instants_together);
+      static_cast<double>(4 * frequencies) + static_cast<double>(instants_together);
   return sizeof(double) * unknowns * columns;
 }
 
@@ -44,19 +51,24 @@ ImpulseRun::ImpulseRun(const RankinePart& part, const SurfaceDamping& damping, c
   elevation_ = MatrixXd::Zero(part.surface_columns().size(), columns);
   instants_.resize(elevation_.rows(), instants_together);
   weights_.resize(instants_together, columns);
+  whole_weights_.resize(instants_together, columns);
 }
 
-void ImpulseRun::accumulate(long step, double weight, const MatrixXd& force) {
+std::complex<double> ImpulseRun::wave(std::size_t frequency, long step) const {
+  const double angle = 2.0 * std::asin(0.5 * frequencies_[frequency] * step_);
+  return std::polar(1.0, -angle * static_cast<double>(step));
+}
+
+void ImpulseRun::accumulate(long step, double reduction) {
+  if (elevation_.size() == 0) return;
   const auto count = static_cast<Eigen::Index>(frequencies_.size());
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double angle = 2.0 * std::asin(0.5 * frequencies_[k] * step_) * static_cast<double>(step);
-    const std::complex<double> factor = weight * std::polar(1.0, -angle);
-    force_[k] += factor * force;
-    if (elevation_.size() == 0) continue;
-    weights_(waiting_, k) = factor.real();
-    weights_(waiting_, count + k) = factor.imag();
+    const std::complex<double> factor =
+        (step == 0 ? 0.5 : 1.0) * step_ * wave(static_cast<std::size_t>(k), step);
+    whole_weights_(waiting_, k) = factor.real();
+    whole_weights_(waiting_, count + k) = factor.imag();
   }
-  if (elevation_.size() == 0) return;
+  weights_.row(waiting_) = reduction * whole_weights_.row(waiting_);
   instants_.col(waiting_) = march_.elevation().reshaped();
   if (++waiting_ == instants_together) add_instants();
 }
@@ -66,26 +78,114 @@ void ImpulseRun::add_instants() {
   // Those that are not there have no weight, and what was there before is finite.
   instants_.rightCols(instants_together - waiting_).setZero();
   weights_.bottomRows(instants_together - waiting_).setZero();
+  whole_weights_.bottomRows(instants_together - waiting_).setZero();
   multiply(1.0, instants_, weights_, 1.0, elevation_);
+  if (whole_elevation_.size() > 0) {
+    multiply(1.0, instants_, whole_weights_, 1.0, whole_elevation_);
+  }
   waiting_ = 0;
 }
 
-void ImpulseRun::run(double step, long steps, const Receiver& receive) {
+void ImpulseRun::keep_whole() {
+  add_instants();
+  whole_elevation_ = elevation_;
+}
+
+long ImpulseRun::run(double step, const RunLength& length,
+                     const std::function<void(long, long)>& progress) {
   step_ = step;
+  steps_ = length.steps;
   const MatrixXd& q = part_.surface_columns();
-  force_.assign(frequencies_.size(), Eigen::MatrixXcd::Zero(q.cols(), q.cols()));
+  forces_.clear();
   elevation_.setZero();
+  whole_elevation_.resize(0, 0);
   const double factor = density_ * gravity_;
   march_.start(q, step);
   for (long k = 0;; ++k) {
-    const double reduction = taper(k, steps);
-    const MatrixXd force = symmetric_part(factor * (q.transpose() * march_.elevation()));
-    receive(k, part_.image_count() * reduction * force);
-    accumulate(k, (k == 0 ? 0.5 : 1.0) * step * reduction, force);
-    if (k == steps) break;
+    const double reduction = taper(k, steps_);
+    const bool may_go_on = steps_ < length.most * length.steps;
+    if (may_go_on && reduction < 1.0 && whole_elevation_.size() < elevation_.size()) keep_whole();
+    forces_.push_back(symmetric_part(factor * (q.transpose() * march_.elevation())));
+    accumulate(k, reduction);
+    if (progress) progress(k, steps_);
+    if (k == steps_) {
+      estimate_cut(steps_);
+      const Eigen::VectorXd shares = largest_shares(cut_off_);
+      if (!may_go_on || shares.size() == 0 || shares.maxCoeff() <= length.share) break;
+      add_instants();
+      elevation_.swap(whole_elevation_);
+      whole_elevation_.resize(0, 0);
+      steps_ += length.steps;
+    }
     march_.advance();
   }
   add_instants();
+  whole_elevation_.resize(0, 0);
+  return steps_;
+}
+
+MatrixXd ImpulseRun::retardation(long step) const {
+  return part_.image_count() * taper(step, steps_) * forces_[static_cast<std::size_t>(step)];
+}
+
+void ImpulseRun::integrate(long steps) {
+  const Eigen::Index modes = part_.surface_columns().cols();
+  force_.assign(frequencies_.size(), MatrixXcd::Zero(modes, modes));
+  for (long n = 0; n <= steps; ++n) {
+    const double weight = (n == 0 ? 0.5 : 1.0) * step_ * taper(n, steps);
+    for (std::size_t k = 0; k < force_.size(); ++k) {
+      force_[k] += (weight * wave(k, n)) * forces_[static_cast<std::size_t>(n)];
+    }
+  }
+}
+
+MatrixXcd ImpulseRun::integrate_diagonals(long steps) const {
+  MatrixXcd sum = MatrixXcd::Zero(part_.surface_columns().cols(),
+                                  static_cast<Eigen::Index>(frequencies_.size()));
+  for (long n = 0; n <= steps; ++n) {
+    const double weight = (n == 0 ? 0.5 : 1.0) * step_ * taper(n, steps);
+    const VectorXd force = weight * forces_[static_cast<std::size_t>(n)].diagonal();
+    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
+      sum.col(k) += wave(static_cast<std::size_t>(k), n) * force;
+    }
+  }
+  return sum;
+}
+
+void ImpulseRun::estimate_cut(long steps) {
+  integrate(steps);
+  const auto fifths = [](long all) { return static_cast<long>(taper_begin(all)); };
+  const long shorter = fifths(steps), shortest = fifths(shorter);
+  const MatrixXcd integrals = integrate_diagonals(steps);
+  const auto change = [&](long from) {
+    MatrixXd changes = (integrate_diagonals(from) - integrals).cwiseAbs();
+    for (Eigen::Index k = 0; k < changes.cols(); ++k) {
+      changes.col(k) *= part_.image_count() * scale(static_cast<std::size_t>(k));
+    }
+    return changes;
+  };
+  cut_off_ = change(shorter);
+  const VectorXd last = largest_shares(cut_off_), before = largest_shares(change(shortest));
+  for (Eigen::Index m = 0; m < cut_off_.rows(); ++m) {
+    const double q = before[m] > 0.0 ? std::pow(last[m] / before[m], 5.0 / 3.0) : 0.0;
+    if (q < 0.5) cut_off_.row(m) *= q / (1.0 - q);
+  }
+}
+
+VectorXd ImpulseRun::largest_shares(const MatrixXd& amounts) const {
+  const std::vector<int>& modes = part_.modes();
+  VectorXd shares = VectorXd::Zero(amounts.rows());
+  for (std::size_t k = 0; k < frequencies_.size(); ++k) {
+    const VectorXd reactance =
+        frequencies_[k] * (density_ * part_.infinite_frequency_volume() + added_mass(k)).diagonal();
+    const VectorXd resistance = damping(k).diagonal();
+    for (Eigen::Index m = 0; m < shares.size(); ++m) {
+      const double force = std::hypot(resistance[m], reactance[m]);
+      if (force < negligible_force(reactance, modes, m)) continue;
+      shares[m] = std::max(shares[m], amounts(m, static_cast<Eigen::Index>(k)) / force);
+    }
+  }
+  return shares;
 }
 
 double ImpulseRun::scale(std::size_t frequency) const {
@@ -102,11 +202,11 @@ MatrixXd ImpulseRun::added_mass(std::size_t frequency) const {
          force_[frequency].imag();
 }
 
-Eigen::MatrixXcd ImpulseRun::elevation(std::size_t frequency) const {
+MatrixXcd ImpulseRun::elevation(std::size_t frequency) const {
   const MatrixXd& q = part_.surface_columns();
   const auto real = static_cast<Eigen::Index>(frequency);
   const auto imaginary = real + static_cast<Eigen::Index>(frequencies_.size());
-  Eigen::MatrixXcd elevation(q.rows(), q.cols());
+  MatrixXcd elevation(q.rows(), q.cols());
   elevation.real() = scale(frequency) * elevation_.col(real).reshaped(q.rows(), q.cols());
   elevation.imag() = scale(frequency) * elevation_.col(imaginary).reshaped(q.rows(), q.cols());
   return elevation;

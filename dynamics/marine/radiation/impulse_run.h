@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <functional>
 #include <vector>
 
@@ -10,6 +11,15 @@ namespace blocklift::dynamics {
 /// Memory (bytes) that an ImpulseRun takes with_elevation, for numbers of unknowns (surface panels
 /// times modes) and frequencies.
 double elevation_bytes(double unknowns, std::size_t frequencies);
+
+/// How long an ImpulseRun lasts: `steps`, or twice, three times ... `most` times as many: the first
+/// number at which its end cuts off (ImpulseRun::cut_off) no more than `share` of any mode's force
+/// on itself, B + i w A, at any frequency.
+struct RunLength {
+  long steps = 0;
+  int most = 1;
+  double share = 0.03;
+};
 
 /// What the water answers to an impulse of each mode of one part: its surface marched from the
 /// elevation that the impulse leaves, and the Fourier integrals of that.
@@ -26,12 +36,15 @@ class ImpulseRun {
   /// Largest stable step, s.
   double step_limit() const { return march_.step_limit(); }
 
-  /// Marches. `receive` is called with each step's number and the retardation functions K of the
-  /// part's modes then (modes() square, images included, made symmetric).
-  using Receiver = std::function<void(long step, const Eigen::MatrixXd& retardation)>;
-  /// @param step s. @param steps their number.
-  void run(double step, long steps, const Receiver& receive);
+  /// Marches. `progress`, if any, is called with each step's number and how many there will be as
+  /// far as is known.
+  /// @param step s. @returns the number of steps.
+  long run(double step, const RunLength& length,
+           const std::function<void(long step, long steps)>& progress = {});
 
+  /// After run(): retardation functions K of the part's modes at each step (modes() square, images
+  /// included, made symmetric).
+  Eigen::MatrixXd retardation(long step) const;
   /// After run(), for a frequency (index): B of the part's modes (modes() square, images
   /// included), and its share of A - A_inf.
   Eigen::MatrixXd damping(std::size_t frequency) const;
@@ -39,13 +52,29 @@ class ImpulseRun {
   /// After run(), with_elevation: integral of W^1/2 eta e^{-i w t} for a frequency (index), panels
   /// x modes.
   Eigen::MatrixXcd elevation(std::size_t frequency) const;
+  /// After run(), by estimate: what its end cuts off of each mode's force on itself, as |B + i w A|;
+  /// modes x frequencies, images included. Runs that ended after three fifths of the steps, and
+  /// after three fifths of those, would differ by D and d from this one, at most over the
+  /// frequencies. What fades as exp(-r t) leaves an error of the same kind, so that (D/d)^(5/3) = q
+  /// is what this run's error is of the first's; it is D q/(1 - q), and no more than D.
+  const Eigen::MatrixXd& cut_off() const { return cut_off_; }
 
  private:
-  /// Adds an instant to the integrals.
-  /// @param force what the elevation presses on the modes with, without image_count().
-  void accumulate(long step, double weight, const Eigen::MatrixXd& force);
+  /// Adds an instant to the integrals of the elevation.
+  void accumulate(long step, double reduction);
   /// Adds the instants that wait to the integrals of the elevation.
   void add_instants();
+  /// Keeps the integrals of the elevation as they are without a taper from here on.
+  void keep_whole();
+  /// e^{-i w t} at a step, by the march's dispersion.
+  std::complex<double> wave(std::size_t frequency, long step) const;
+  /// The force's integrals, a row each frequency, of a run that ends after so many of the steps.
+  Eigen::MatrixXcd integrate_diagonals(long steps) const;
+  void integrate(long steps);
+  void estimate_cut(long steps);
+  /// Of each mode's force on itself, with negligible forces left out; the largest over the
+  /// frequencies.
+  Eigen::VectorXd largest_shares(const Eigen::MatrixXd& amounts) const;
   /// The Fourier integral's factor that the leapfrog march asks for.
   double scale(std::size_t frequency) const;
 
@@ -54,13 +83,18 @@ class ImpulseRun {
   std::vector<double> frequencies_;
   FreeSurfaceMarch march_;
   double step_ = not_a_number;
-  std::vector<Eigen::MatrixXcd> force_;  ///< integral of the force e^{-i w t}
+  long steps_ = 0;
+  std::vector<Eigen::MatrixXd> forces_;  ///< at each step, without taper and images
+  std::vector<Eigen::MatrixXcd> force_;  ///< their integrals times e^{-i w t}
+  Eigen::MatrixXd cut_off_;
   /// Real parts of the integrals of the elevation for all frequencies, then imaginary ones: a
   /// column each, panels of the first mode first. Empty without elevation.
   Eigen::MatrixXd elevation_;
+  /// The same without a taper, while the run may become longer; else empty.
+  Eigen::MatrixXd whole_elevation_;
   /// The elevation at instants that wait, a column each, and what each is to be added with, a row
-  /// each: added together they read and write elevation_ once.
-  Eigen::MatrixXd instants_, weights_;
+  /// each, with and without taper: added together they read and write the integrals once.
+  Eigen::MatrixXd instants_, weights_, whole_weights_;
   Eigen::Index waiting_ = 0;
 };
 

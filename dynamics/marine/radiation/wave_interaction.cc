@@ -168,6 +168,12 @@ void require_waves(const HydrodynamicDatabase& database) {
   }
 }
 
+/// Into the errors of all modes; these are unknown if any group's are.
+void join_errors(const std::vector<Index>& rows, const Eigen::VectorXd& one, Eigen::VectorXd& all) {
+  if (one.size() == 0) all.resize(0);
+  if (all.size() > 0) all(rows) = one;
+}
+
 /// The groups side by side, none feeling the others.
 HydrodynamicDatabase join(const std::vector<BodyGroup>& groups,
                           const std::vector<HydrodynamicDatabase>& databases) {
@@ -185,7 +191,7 @@ HydrodynamicDatabase join(const std::vector<BodyGroup>& groups,
   all.retardation.assign(databases[0].retardation.size(), all.infinite_added_mass);
   all.added_mass.assign(all.frequencies.size(), all.infinite_added_mass);
   all.damping = all.added_mass;
-  all.change_from_coarser = Eigen::VectorXd::Zero(modes);
+  all.change_from_coarser = all.cut_off_by_end = Eigen::VectorXd::Zero(modes);
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const HydrodynamicDatabase& one = databases[g];
     const Vector3 centre(groups[g].centre.x(), groups[g].centre.y(), 0.0);
@@ -203,10 +209,8 @@ HydrodynamicDatabase join(const std::vector<BodyGroup>& groups,
       all.added_mass[k](rows, rows) = one.added_mass[k];
       all.damping[k](rows, rows) = one.damping[k];
     }
-    if (one.change_from_coarser.size() > 0)
-      all.change_from_coarser(rows) = one.change_from_coarser;
-    else
-      all.change_from_coarser.resize(0);
+    join_errors(rows, one.change_from_coarser, all.change_from_coarser);
+    join_errors(rows, one.cut_off_by_end, all.cut_off_by_end);
   }
   return all;
 }

@@ -100,11 +100,16 @@ void write_state(ResultsWriter& file, const std::string& group,
         group + "/hydrostatic_stiffness", database.hydrostatic_stiffness,
         {"N m-1", "restoring force by displacement, weight included (rotations: N, N m)"});
   }
-  if (const Eigen::VectorXd& change = database.change_from_coarser; change.size() > 0) {
-    file.write(group + "/change_from_coarser",
-               std::span<const double>(change.data(), static_cast<std::size_t>(change.size())),
-               {"1", "of each mode's radiation force, from panels of twice the size to these"});
-  }
+  const auto write_errors = [&](const char* name, const Eigen::VectorXd& errors, const char* what) {
+    if (errors.size() == 0) return;
+    file.write(group + name,
+               std::span<const double>(errors.data(), static_cast<std::size_t>(errors.size())),
+               {"1", what});
+  };
+  write_errors("/change_from_coarser", database.change_from_coarser,
+               "of each mode's radiation force, from panels of twice the size to these");
+  write_errors("/cut_off_by_end", database.cut_off_by_end,
+               "of each mode's radiation force, by the end of the impulse runs");
   file.write_matrix(group + "/infinite_added_mass", database.infinite_added_mass,
                     {"kg", "added mass at infinite frequency (rotations: kg m, kg m2)"});
   write_matrices(file, group + "/added_mass", database.added_mass, modes, modes, same,
@@ -255,10 +260,11 @@ HydrodynamicDatabase read_state(const Source& source, const std::string& group,
   if (source.file().has(group + "/hydrostatic_stiffness")) {
     database.hydrostatic_stiffness = source.matrix(group + "/hydrostatic_stiffness", modes, modes);
   }
-  if (source.file().has(group + "/change_from_coarser")) {
-    const std::vector<double> change = source.read(group + "/change_from_coarser", {modes});
-    database.change_from_coarser =
-        Eigen::Map<const Eigen::VectorXd>(change.data(), static_cast<Eigen::Index>(modes));
+  for (auto [name, errors] : {std::pair{"/change_from_coarser", &database.change_from_coarser},
+                              std::pair{"/cut_off_by_end", &database.cut_off_by_end}}) {
+    if (!source.file().has(group + name)) continue;
+    const std::vector<double> found = source.read(group + name, {modes});
+    *errors = Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(modes));
   }
   database.infinite_added_mass = source.matrix(group + "/infinite_added_mass", modes, modes);
   database.added_mass = source.matrices(group + "/added_mass", frequencies, modes, modes);

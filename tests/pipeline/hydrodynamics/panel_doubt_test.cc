@@ -1,4 +1,4 @@
-// What is said of a database whose panels are not known to be fine enough.
+// What is said of a database whose panels or runs are not known to be fine and long enough.
 
 #include <limits>
 
@@ -40,6 +40,17 @@ TEST(DoubtAboutPanels, ThinksOfGapsWhereAForceChangesByMoreThanItself) {
   EXPECT_THAT(doubt_about_panels(database), Not(HasSubstr("gap or moonpool")));
   database.change_from_coarser[8] = 2.7;
   EXPECT_THAT(doubt_about_panels(database), HasSubstr("gap or moonpool"));
+}
+
+TEST(DoubtAboutRuns, NamesTheWorstModeAndWhatHelps) {
+  dynamics::HydrodynamicDatabase database = two_bodies();
+  EXPECT_THAT(doubt_about_runs(database), IsEmpty());
+  database.cut_off_by_end = Eigen::VectorXd::Constant(12, 0.03);
+  EXPECT_THAT(doubt_about_runs(database), IsEmpty());
+  database.cut_off_by_end[1] = 0.19;
+  EXPECT_THAT(doubt_about_runs(database),
+              HasSubstr("about 19 % of the radiation force of pontoon in sway"));
+  EXPECT_THAT(doubt_about_runs(database), HasSubstr("lid"));
 }
 
 TEST(DoubtAboutPanels, SaysThatCoarserOnesHaveNoSolution) {

@@ -1,0 +1,87 @@
+#include "dynamics/marine/radiation/impulse_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/radiation/hydrodynamic_database.h"
+
+namespace blocklift::dynamics {
+namespace {
+
+using Complex = std::complex<double>;
+
+const Water open_water{1.0, 9.80665};
+const std::vector<double> band = {1.0, 1.4, 1.6, 1.7, 1.8, 1.9, 2.0, 2.1, 2.2, 2.4};
+constexpr double three_periods = 3.0 * 2.0 * std::numbers::pi / 1.0;
+
+/// Boxes of 20 x 8 x 1 m, side by side with 3 m between them, or one alone.
+PanelModel make_boxes(bool two) {
+  const PanelMesh box = make_box_hull(20, 8, 1, {.length = 20, .breadth = 8, .draught = 2});
+  const double y = two ? 5.5 : 0.0;
+  std::vector<WettedBody> bodies{{"left", translate(box, {0, y, 0}), {0, y, 0}}};
+  if (two) bodies.push_back({"right", translate(box, {0, -y, 0}), {0, -y, 0}});
+  const auto lines = find_water_lines(bodies);
+  const auto length = [](double w) {
+    return 2.0 * std::numbers::pi / calc_wave_number(w, open_water);
+  };
+  const SurfaceMesh surface =
+      make_surface_mesh(lines, surface_settings(lines, length(band.back()), length(band.front())));
+  return {bodies, surface, open_water, {true, true}};
+}
+
+DatabaseSettings settings_for(double duration) {
+  DatabaseSettings settings;
+  settings.frequencies = band;
+  settings.duration = duration;
+  return settings;
+}
+
+/// Largest relative difference of a mode's force on itself.
+double difference(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b, int mode) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < band.size(); ++k) {
+    const auto force = [&](const HydrodynamicDatabase& of) {
+      return Complex(of.damping[k](mode, mode), band[k] * of.added_mass[k](mode, mode));
+    };
+    largest = std::max(largest, std::abs(force(a) - force(b)) / std::abs(force(b)));
+  }
+  return largest;
+}
+
+double duration_of(const HydrodynamicDatabase& database) {
+  return database.time_step * static_cast<double>(database.retardation.size() - 1);
+}
+
+// Water that swings between two hulls outlasts three periods of the lowest frequency. A run that
+// ends there says by how much it is off, and one that is free to go on does.
+TEST(ImpulseRun, LastsAsLongAsWaterSwingsBetweenHulls) {
+  const PanelModel model = make_boxes(true);
+  const HydrodynamicDatabase endless = compute_database(model, settings_for(10.0 * three_periods));
+  const HydrodynamicDatabase ended = compute_database(model, settings_for(three_periods));
+  const HydrodynamicDatabase free = compute_database(model, settings_for(0.0));
+  for (const int mode : {+sway, +heave}) {
+    const double error = difference(ended, endless, mode);
+    EXPECT_GT(error, 0.3) << mode;
+    // An estimate: what it is compared with has an end of its own.
+    EXPECT_GT(ended.cut_off_by_end[mode], 0.3 * error) << mode;
+    EXPECT_LT(ended.cut_off_by_end[mode], 3.0 * error) << mode;
+    EXPECT_LT(difference(free, endless, mode), 0.04) << mode;
+    EXPECT_LT(free.cut_off_by_end[mode], 0.05) << mode;
+    EXPECT_GT(free.cut_off_by_end[mode], 0.5 * difference(free, endless, mode)) << mode;
+  }
+  EXPECT_GT(duration_of(free), 1.9 * three_periods);
+}
+
+TEST(ImpulseRun, EndsSoonWhereNothingSwings) {
+  const HydrodynamicDatabase alone = compute_database(make_boxes(false), settings_for(0.0));
+  EXPECT_NEAR(duration_of(alone), three_periods, alone.time_step);
+  EXPECT_LT(alone.cut_off_by_end.maxCoeff(), 0.03);
+}
+
+}  // namespace
+}  // namespace blocklift::dynamics
