@@ -25,6 +25,13 @@ template SymmetricEigensystem<2> symmetric_eigensystem(const SquareMatrix<2>&);
 template SymmetricEigensystem<3> symmetric_eigensystem(const SquareMatrix<3>&);
 template SymmetricEigensystem<Eigen::Dynamic> symmetric_eigensystem(const Eigen::MatrixXd&);
 
+Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal,
+                                        const Eigen::VectorXd& beside) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, beside, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues();
+}
+
 template <int size>
 SquareMatrix<size> inverse_of(const SquareMatrix<size>& matrix) {
   return matrix.inverse();
@@ -39,6 +46,7 @@ ColumnVector<size> solve_symmetric(const SquareMatrix<size>& A, const ColumnVect
 template ColumnVector<2> solve_symmetric(const SquareMatrix<2>&, const ColumnVector<2>&);
 template ColumnVector<3> solve_symmetric(const SquareMatrix<3>&, const ColumnVector<3>&);
 template ColumnVector<4> solve_symmetric(const SquareMatrix<4>&, const ColumnVector<4>&);
+template ColumnVector<5> solve_symmetric(const SquareMatrix<5>&, const ColumnVector<5>&);
 template Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd&, const Eigen::VectorXd&);
 
 Eigen::Vector3d solve_square(const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
@@ -47,6 +55,12 @@ Eigen::Vector3d solve_square(const Eigen::Matrix3d& A, const Eigen::Vector3d& b)
 
 Eigen::MatrixXd solve_by_full_pivoting(const SquareMatrix<6>& A, const Eigen::MatrixXd& B) {
   return A.fullPivLu().solve(B);
+}
+
+void solve_positive_definite_in_place(Eigen::Ref<Eigen::MatrixXd> A,
+                                      Eigen::Ref<Eigen::VectorXd> b) {
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(A);
+  factors.solveInPlace(b);
 }
 
 Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
@@ -62,6 +76,14 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
   Eigen::JacobiSVD<Eigen::MatrixXd> solver(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   solver.setThreshold(threshold);
   return solver.solve(b);
+}
+
+Eigen::MatrixXd least_squares_by_pivots(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
+                                        double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(A.rows(), A.cols());
+  solver.setThreshold(threshold);
+  solver.compute(A);
+  return solver.solve(B);
 }
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
@@ -81,6 +103,11 @@ Eigen::MatrixXd left_null_space(const Eigen::MatrixXd& matrix, double threshold)
   return Q.rightCols(matrix.rows() - solver.rank());
 }
 
+Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& matrix) {
+  return Eigen::HouseholderQR<Eigen::MatrixXd>(matrix).householderQ() *
+         Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
+}
+
 PivotedColumns pivoted_columns(const Eigen::MatrixXd& matrix) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(matrix);
   const auto reaches = solver.matrixR().diagonal().cwiseAbs();
@@ -91,6 +118,11 @@ PivotedColumns pivoted_columns(const Eigen::MatrixXd& matrix) {
 LeftSingularVectors left_singular_vectors(const Eigen::MatrixXd& matrix) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> solver(matrix, Eigen::ComputeThinU);
   return {solver.singularValues(), solver.matrixU()};
+}
+
+SingularVectors singular_vectors(const Eigen::MatrixXd& matrix) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> solver(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return {solver.singularValues(), solver.matrixU(), solver.matrixV()};
 }
 
 double smallest_singular_value(const SquareMatrix<6>& matrix) {

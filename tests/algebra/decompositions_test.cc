@@ -14,14 +14,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::some_matrix;
+using test::some_positive;
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
-
-/// Symmetric and positive definite; its condition is below 1000.
-MatrixXd some_positive(Eigen::Index size) {
-  const MatrixXd root = some_matrix(size, size);
-  return root.transpose() * root + 0.1 * MatrixXd::Identity(size, size);
-}
 
 template <int size>
 void expect_eigensystem() {
@@ -58,9 +53,14 @@ TEST(Decompositions, SolutionsSatisfyTheirEquations) {
   symmetric.operator()<2>();
   symmetric.operator()<3>();
   symmetric.operator()<4>();
+  symmetric.operator()<5>();
   const MatrixXd A = some_positive(6), B = some_matrix(6, 2);
   EXPECT_LT((A * solve_symmetric(A, VectorXd(B.col(0))) - B.col(0)).norm(), small);
   EXPECT_LT((A * solve_positive_definite(A, B) - B).norm(), small);
+  MatrixXd root = A;
+  VectorXd x = B.col(0);
+  solve_positive_definite_in_place(root, x);
+  EXPECT_LT((A * x - B.col(0)).norm(), small);
   EXPECT_LT((A * solve_by_full_pivoting(A, B) - B).norm(), small);
   EXPECT_LT((A * inverse_of(A) - MatrixXd::Identity(6, 6)).norm(), small);
   EXPECT_LT((A * inverse_of<6>(A) - MatrixXd::Identity(6, 6)).norm(), small);
@@ -91,6 +91,22 @@ TEST(Decompositions, SmallSingularValuesAreLeftOutBelowTheThreshold) {
   EXPECT_LT((least_squares(A, b, 0.1) - Eigen::Vector2d(2, 0)).norm(), 1e-14);
 }
 
+TEST(Decompositions, SmallPivotsAreLeftOutBelowTheThreshold) {
+  const Eigen::Matrix2d A = Eigen::Vector2d(1, 1e-3).asDiagonal();
+  const MatrixXd b = Eigen::Vector2d(2, 1);
+  EXPECT_LT((least_squares_by_pivots(A, b, 1e-4) - Eigen::Vector2d(2, 1000)).norm(), 1e-10);
+  EXPECT_LT((least_squares_by_pivots(A, b, 0.1) - Eigen::Vector2d(2, 0)).norm(), 1e-14);
+}
+
+TEST(Decompositions, EigenvaluesOfATridiagonalMatrix) {
+  const VectorXd diagonal = some_matrix(5, 1), beside = some_matrix(4, 1);
+  MatrixXd A = diagonal.asDiagonal();
+  A.diagonal(-1) = A.diagonal(1) = beside;
+  EXPECT_LT((tridiagonal_eigenvalues(diagonal, beside) - symmetric_eigenvalues(A)).norm(),
+            100 * rounding * A.norm());
+  EXPECT_EQ(tridiagonal_eigenvalues(VectorXd::Constant(1, 3), VectorXd())[0], 3);
+}
+
 TEST(Decompositions, RanksAndNullSpaces) {
   MatrixXd A = some_matrix(5, 4);
   A.col(2) = A.col(0) + A.col(1);
@@ -110,6 +126,21 @@ TEST(Decompositions, TheColumnThatReachesFurthestIsFirst) {
   EXPECT_EQ(pivots.order[1], 1);
   EXPECT_DOUBLE_EQ(pivots.first, 3);
   EXPECT_DOUBLE_EQ(pivots.last, 2);
+}
+
+TEST(Decompositions, OrthonormalColumnsSpanTheMatrix) {
+  const MatrixXd A = some_matrix(7, 3), Q = orthonormal_columns(A);
+  ASSERT_EQ(Q.cols(), 3);
+  EXPECT_LT((Q.transpose() * Q - MatrixXd::Identity(3, 3)).norm(), 1e-14);
+  EXPECT_LT((Q * (Q.transpose() * A) - A).norm(), 1e-14);
+}
+
+TEST(Decompositions, SingularVectorsMakeTheMatrix) {
+  const MatrixXd A = some_matrix(6, 3);
+  const auto [values, left, right] = singular_vectors(A);
+  EXPECT_LT((left * values.asDiagonal() * right.transpose() - A).norm(), 1e-14);
+  EXPECT_LT((left.transpose() * left - MatrixXd::Identity(3, 3)).norm(), 1e-14);
+  EXPECT_LT((right.transpose() * right - MatrixXd::Identity(3, 3)).norm(), 1e-14);
 }
 
 TEST(Decompositions, SingularVectorsSpanTheColumns) {

@@ -13,4 +13,10 @@ inline Eigen::MatrixXd some_matrix(Eigen::Index rows, Eigen::Index columns) {
   });
 }
 
+/// Symmetric and positive definite; its condition is below 1000.
+inline Eigen::MatrixXd some_positive(Eigen::Index size) {
+  const Eigen::MatrixXd root = some_matrix(size, size);
+  return root.transpose() * root + 0.1 * Eigen::MatrixXd::Identity(size, size);
+}
+
 }  // namespace blocklift::test
