@@ -229,13 +229,13 @@ void compute_forward_dynamics_derivatives(const Mechanism& mechanism, const Kine
     d.right_.row(row).head(n) = -d.inverse.dtau_dq.row(free[i]);
     d.right_.row(row).tail(n) = -d.inverse.dtau_dv.row(free[i]);
   }
-  d.factor_.compute(d.free_mass_);
-  if (d.factor_.info() != Eigen::Success) {
+  d.factor_.factorise(d.free_mass_);
+  if (!d.factor_.is_positive()) {
     throw SimulationError(
         "the mass matrix of the free velocities is singular: some motion meets no "
         "inertia in the present configuration");
   }
-  d.factor_.solveInPlace(d.right_);
+  d.factor_.solve_columns_in_place(d.right_);
   for (std::size_t i = 0; i < free.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     d.by_q.row(free[i]) = d.right_.row(row).head(n);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "algebra/factors.h"
 #include "dynamics/multibody/kinematics.h"
 
 namespace blocklift::dynamics {
@@ -92,7 +93,7 @@ struct ForwardDynamicsDerivatives {
                                                    const std::vector<ForceVector>& F_Bo_W,
                                                    ForwardDynamicsDerivatives& derivatives);
   Eigen::MatrixXd free_mass_, right_;
-  Eigen::LLT<Eigen::MatrixXd> factor_;
+  algebra::CholeskyFactors factor_;
 };
 
 /// Derivatives of compute_forward_dynamics at the accelerations vdot that it has found, with F_Bo_W

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "algebra/decompositions.h"
+
 namespace blocklift::dynamics {
 namespace {
 
@@ -170,9 +172,8 @@ void RankRevealingQr::solve_minimum_norm(VectorRef y) {
   }
   // Gram = 1 + C^T C is well conditioned from below: plain Cholesky.
   Eigen::Ref<Eigen::MatrixXd> gram = gram_.topLeftCorner(dependent, dependent);
-  Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(gram);
   auto c = free_.head(dependent);
-  cholesky.solveInPlace(c);
+  algebra::solve_positive_definite_in_place(gram, c);
   for (Eigen::Index i = 0; i < dependent; ++i) {
     const auto j = static_cast<std::size_t>(null_(rank_, i));
     y[pivots_[j]] = c[i];

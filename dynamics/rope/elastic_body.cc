@@ -114,8 +114,8 @@ ElasticBody::Workspace::Workspace(const ElasticBody& body, const Mechanism& mech
   zero(nv, nv, dtau_dq, dtau_dv);
   unit(n, matrix, inverse, damper);
   unit(ends, compliance_W, inner, end_stiffness);
-  factor.compute(matrix);
-  relaxer.compute(inner);
+  factor.factorise(matrix);
+  relaxer.factorise(inner);
   stretched.assign(body.ropes_.size(), 1);
   rate_W.assign(body.points_, Vector3::Zero());
 }
@@ -178,14 +178,14 @@ void ElasticBody::solve(Workspace& w) const {
     w.matrix(i, i) = 1;
     w.elastic[i] = w.damping[i] = 0;
   }
-  w.factor.compute(w.matrix);
-  w.factor.solveInPlace(w.elastic);
-  w.factor.solveInPlace(w.damping);
+  w.factor.factorise(w.matrix);
+  w.factor.solve_in_place(w.elastic);
+  w.factor.solve_in_place(w.damping);
   for (Eigen::Index i = 0; i < n; ++i)
     w.damping[i] = w.stretched[at(i)]
                        ? w.flexibility[i] * w.rope_damping[i] * w.flexibility[i] * w.damping[i]
                        : 0;
-  w.factor.solveInPlace(w.damping);
+  w.factor.solve_in_place(w.damping);
   w.force.noalias() = -w.gradient * w.elastic;
   // The elongations that these forces leave.
   w.next_u.noalias() = d_.compliance * w.force;
@@ -358,7 +358,7 @@ void ElasticBody::relax(const Kinematics& kinematics, bool stretch_only, Workspa
   }
   w.inner.setIdentity();
   w.inner.noalias() -= w.compliance_W * w.end_stiffness;
-  w.relaxer.compute(w.inner);
+  w.relaxer.factorise(w.inner);
   w.df_dq.noalias() = w.stiffness * w.motion;
   for (Eigen::Index e = 0; e < ends; ++e) {
     w.end_force.middleRows<3>(3 * e) = w.df_dq.middleRows<3>(3 * places_[at(e)].slot);
@@ -367,7 +367,7 @@ void ElasticBody::relax(const Kinematics& kinematics, bool stretch_only, Workspa
     w.end_force.middleRows<3>(3 * e).noalias() += skew(f_W) * w.turn;
   }
   w.relaxed.noalias() = w.compliance_W * w.end_force;
-  w.end_force = w.relaxer.solve(w.relaxed);
+  w.relaxer.solve_columns(w.relaxed, w.end_force);
   w.relaxed = w.end_force;
   w.moved = w.motion;
   for (Eigen::Index e = 0; e < ends; ++e)
@@ -407,7 +407,7 @@ void ElasticBody::add_derivatives(const Kinematics& kinematics, const Ropes& rop
     if (!ropes.loads[ropes_[at(i)]].taut) w.pulling.col(i).setZero();
   // W^T c W of the stretched ropes.
   w.inverse.setIdentity();
-  w.factor.solveInPlace(w.inverse);
+  w.factor.solve_columns_in_place(w.inverse);
   for (Eigen::Index i = 0; i < w.spring.size(); ++i) {
     if (w.stretched[at(i)]) continue;
     w.inverse.row(i).setZero();

@@ -3,9 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
+#include "algebra/factors.h"
 #include "dynamics/rope/rope.h"
 
 namespace blocklift::dynamics {
@@ -64,14 +62,14 @@ class ElasticBody {
     Eigen::VectorXd length, length_rate, elongation, rate, elastic, damping, scratch;
     Eigen::VectorXd flexibility, rope_damping;  ///< 1/k and c
     Eigen::MatrixXd matrix;                     ///< 1/k + g^T C g
-    Eigen::LLT<Eigen::MatrixXd> factor;
+    algebra::CholeskyFactors factor;
     double energy = 0.0;  ///< stored in the body: F^T C F / 2, and in the springs of its modes, J
 
     // Of the derivatives.
     Eigen::VectorXd spring;                              // k of stretched ropes, else 0
     Eigen::MatrixXd inverse, damper;                     // ropes x ropes
     Eigen::MatrixXd compliance_W, inner, end_stiffness;  // 3 ends x 3 ends
-    Eigen::PartialPivLU<Eigen::MatrixXd> relaxer;
+    algebra::LuFactors<double> relaxer;
     Eigen::MatrixXd stretch, rate_stretch, scaled_stretch;  // 3 points x ropes: dL/dp, dLdot/dp
     Eigen::MatrixXd pulling;                                // dL/dp of taut ropes alone
     Eigen::MatrixXd geometric, geometric_all, stiffness;    // 3 points x 3 points

@@ -9,6 +9,7 @@
 
 #include <kinsol/kinsol.h>
 
+#include "algebra/factors.h"
 #include "dynamics/multibody/inverse_dynamics.h"
 #include "dynamics/multibody/mass_matrix.h"
 #include "dynamics/simulation/jacobian.h"
@@ -83,8 +84,8 @@ struct EquilibriumSolver::Implementation {
   sundials::Context context;
   sundials::Vector unknowns, unknown_scale, force_scale;
   sundials::Matrix matrix;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factor;  ///< of minus the stiffness
-  bool is_factorised = false;                   ///< for as many unknowns as there are
+  algebra::LuFactors<double> factor;  ///< of minus the stiffness
+  bool is_factorised = false;         ///< for as many unknowns as there are
   sundials::LinearSolver linear_solver;
   void* kinsol = nullptr;
   std::exception_ptr exception;
@@ -247,16 +248,15 @@ int EquilibriumSolver::Implementation::jacobian_callback(N_Vector u, N_Vector, S
 int EquilibriumSolver::Implementation::factorise_callback(SUNLinearSolver solver, SUNMatrix J) {
   constexpr int singular = 1;  // recoverable
   auto& self = *static_cast<Implementation*>(solver->content);
-  self.factor.compute(sundials::view(J));
-  const auto pivots = self.factor.matrixLU().diagonal();
-  self.is_factorised = pivots.allFinite() && pivots.cwiseAbs().minCoeff() > 0.0;
+  self.factor.factorise(sundials::view(J));
+  self.is_factorised = self.factor.is_regular();
   return self.is_factorised ? 0 : singular;
 }
 
 int EquilibriumSolver::Implementation::solve_callback(SUNLinearSolver solver, SUNMatrix, N_Vector x,
                                                       N_Vector b, double) {
   const auto& self = *static_cast<const Implementation*>(solver->content);
-  sundials::view(x) = self.factor.solve(sundials::view(b));
+  self.factor.solve(sundials::view(b), sundials::view(x));
   return 0;
 }
 
@@ -344,7 +344,7 @@ bool EquilibriumSolver::Implementation::solve_active_set() {
 // by more than it was: the potential energy has then fallen. False: h is too long.
 bool EquilibriumSolver::Implementation::try_step(double h, double largest_move,
                                                  Eigen::VectorXd& f) {
-  Eigen::VectorXd du = (stiffness + mass / (h * h)).partialPivLu().solve(f);
+  Eigen::VectorXd du = algebra::LuFactors<double>(stiffness + mass / (h * h)).solve(f);
   const double before = f.dot(du);
   if (!du.allFinite() || !(before > 0.0) || du.lpNorm<Eigen::Infinity>() > largest_move) {
     return false;

@@ -173,8 +173,8 @@ void calc_jacobian(const LiftSystem& system, double t, ConstVectorRef y, const C
     }
   }
   if (system.water()) add_memory(system, nq, nv, workspace, jacobian);
-  workspace.mass.compute(tangent.mass);
-  workspace.mass.solveInPlace(workspace.scaled);
+  workspace.mass.factorise(tangent.mass);
+  workspace.mass.solve_columns_in_place(workspace.scaled);
   jacobian.middleRows(nq, nv) = workspace.scaled;
 }
 

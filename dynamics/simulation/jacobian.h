@@ -1,5 +1,6 @@
 #pragma once
 
+#include "algebra/factors.h"
 #include "dynamics/simulation/lift_system.h"
 
 namespace blocklift::dynamics {
@@ -44,11 +45,11 @@ struct JacobianWorkspace {
   explicit JacobianWorkspace(const LiftSystem& system);
 
   TangentMatrices tangent;
-  Eigen::LLT<Eigen::MatrixXd> mass;  ///< of the free velocities, factorised
-  Eigen::MatrixXd increments;        ///< nv x nq
-  Eigen::MatrixXd rates_by_q;        ///< nq x nq
-  Eigen::MatrixXd rates_by_v;        ///< nq x nv
-  Eigen::MatrixXd scaled;            ///< nv_free x state_size
+  algebra::CholeskyFactors mass;  ///< of the free velocities, factorised
+  Eigen::MatrixXd increments;     ///< nv x nq
+  Eigen::MatrixXd rates_by_q;     ///< nq x nq
+  Eigen::MatrixXd rates_by_v;     ///< nq x nv
+  Eigen::MatrixXd scaled;         ///< nv_free x state_size
 };
 
 /// Jacobian d(dy/dt)/dy of the whole right-hand side (state_size x state_size) at the state y and

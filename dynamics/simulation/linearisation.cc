@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "algebra/decompositions.h"
+#include "algebra/factors.h"
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
 #include "dynamics/simulation/mode_shape.h"
@@ -29,14 +30,13 @@ struct Normalised {
   double scale = 1.0;  ///< about the largest frequency, rad/s
 
   explicit Normalised(const Linearisation& l) {
-    const Eigen::LLT<Eigen::MatrixXd> factor(l.mass);
-    if (factor.info() != Eigen::Success) {
+    const algebra::CholeskyFactors factor(l.mass);
+    if (!factor.is_positive()) {
       throw SimulationError(
           "the mass matrix of the free velocities is singular at the equilibrium: some motion "
           "meets no inertia, so that it has no frequency");
     }
-    const Eigen::Index n = l.mass.rows();
-    to_z = factor.matrixU().solve(Eigen::MatrixXd::Identity(n, n));
+    to_z = factor.inverse_of_transposed();
     stiffness = to_z.transpose() * l.stiffness * to_z;
     damping = to_z.transpose() * l.damping * to_z;
     const double largest = std::max(std::sqrt(stiffness.norm()), damping.norm());
@@ -309,7 +309,8 @@ double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w
   }
   constexpr double holding = 1e-10;
   stiffness.diagonal().array() += holding * stiffness.diagonal().cwiseAbs().maxCoeff();
-  const Eigen::Matrix2d compliance = tilts * stiffness.partialPivLu().solve(tilts.transpose());
+  const Eigen::Matrix2d compliance =
+      tilts * algebra::LuFactors<double>(stiffness).solve_columns(tilts.transpose());
   const Eigen::Matrix2d symmetric = 0.5 * (compliance + compliance.transpose());
   return algebra::symmetric_eigenvalues(symmetric).cwiseInverse().minCoeff() / weight;
 }

@@ -134,10 +134,8 @@ bool NewtonMatrix::factorise(const LiftSystem& system, double gamma) {
     multiply_by_Z(gamma * gamma, loops_->by_q(), demand);
     matrix_.bottomRightCorner(m, m).setZero();
   }
-  factor_.compute(matrix_);
-  // A pivot of zero shows as a factor that is not finite once it has been divided by.
-  const auto pivots = factor_.matrixLU().diagonal();
-  return matrix_.rows() == 0 || (pivots.allFinite() && pivots.cwiseAbs().minCoeff() > 0.0);
+  factor_.factorise(matrix_);
+  return factor_.is_regular();
 }
 
 void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x) {
@@ -170,7 +168,7 @@ void NewtonMatrix::solve(const LiftSystem& system, ConstVectorRef b, VectorRef x
     demand.noalias() = loops_->jacobian() * b.segment(nq, nv);
     demand.noalias() -= gamma_ * (loops_->by_q() * moved_);
   }
-  solution_ = factor_.solve(right_);
+  factor_.solve(right_, solution_);
   moved_ = solution_.head(nv);
   // x_q = (1 - gamma A)^-1 (b_q + gamma N x_v).
   for (std::size_t i = 0; i < plain_q_.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "algebra/factors.h"
 #include "dynamics/simulation/jacobian.h"
 #include "dynamics/simulation/loop_tangent.h"
 
@@ -60,7 +61,7 @@ class NewtonMatrix {
   // Free coordinates whose rate is a velocity: their places among both.
   std::vector<Eigen::Index> plain_q_, plain_v_;
   Eigen::MatrixXd matrix_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factor_;
+  algebra::LuFactors<double> factor_;
   Eigen::VectorXd right_, solution_, moved_, x_q_;
   // Of radiated water: R; C; R B; C R B and that times J; R b_x; forces and velocities of the
   // frames. Sections of the memory that have no share now have neither C nor B.

@@ -52,7 +52,7 @@ void ReducedCoordinates::evaluate(ConstVectorRef q) {
   jacobian_.resize(rows_.count(), mechanism.nv());
   calc_loop_jacobian(mechanism, kinematics_, *state_, rows_.slot, jacobian_);
   free_jacobian_ = jacobian_(Eigen::all, mechanism.free_velocities());
-  if (rows_.count() > 0) gn_.compute(free_jacobian_ * normal_);
+  if (rows_.count() > 0) gn_.factorise(free_jacobian_ * normal_);
 }
 
 // Newton's step in y that closes the loops: dy = -(G D N)^-1 g.
@@ -61,7 +61,7 @@ Eigen::VectorXd ReducedCoordinates::closing_move(const Eigen::MatrixXd& incremen
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
     residual[i] = state_->residual[rows_.rows[i]];
   }
-  return -(free_jacobian_ * increments * normal_).partialPivLu().solve(residual);
+  return -algebra::LuFactors<double>(free_jacobian_ * increments * normal_).solve(residual);
 }
 
 Eigen::MatrixXd ReducedCoordinates::seen_along(const Eigen::MatrixXd& stiffness) {
@@ -114,21 +114,21 @@ Eigen::MatrixXd ReducedCoordinates::tangent() {
   Eigen::MatrixXd moves = basis_;
   if (rows_.count() > 0) {
     const Eigen::MatrixXd closed = free_jacobian_ * increments;
-    moves -= normal_ * (closed * normal_).partialPivLu().solve(closed * basis_);
+    moves -= normal_ * algebra::LuFactors<double>(closed * normal_).solve_columns(closed * basis_);
   }
   return increments * moves;
 }
 
 Eigen::MatrixXd ReducedCoordinates::virtual_motions() const {
   if (rows_.count() == 0) return basis_;
-  return basis_ - normal_ * gn_.solve(free_jacobian_ * basis_);
+  return basis_ - normal_ * gn_.solve_columns(free_jacobian_ * basis_);
 }
 
 void ReducedCoordinates::balance(VectorRef f, VectorRef lambda) const {
   lambda.setZero();
   if (rows_.count() == 0) return;
   const Eigen::VectorXd normal_force = normal_.transpose() * f;
-  Eigen::VectorXd chosen = gn_.transpose().solve(normal_force);
+  Eigen::VectorXd chosen = gn_.solve_transposed(normal_force);
   chosen *= -1.0;
   f += free_jacobian_.transpose() * chosen;
   for (Eigen::Index i = 0; i < chosen.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "algebra/factors.h"
 #include "dynamics/multibody/loop_projection.h"
 #include "dynamics/simulation/lift_system.h"
 
@@ -60,12 +61,12 @@ class ReducedCoordinates {
   Kinematics kinematics_;
   LoopRows rows_;  ///< independent at the reference
   Eigen::VectorXd reference_;
-  Eigen::MatrixXd basis_;                    ///< Z
-  Eigen::MatrixXd normal_;                   ///< N
-  Eigen::MatrixXd jacobian_;                 ///< rank x nv: G of the rows chosen
-  Eigen::MatrixXd free_jacobian_;            ///< rank x nv_free
-  Eigen::PartialPivLU<Eigen::MatrixXd> gn_;  ///< G N, rank x rank
-  Eigen::VectorXd increment_;                ///< nv: w
+  Eigen::MatrixXd basis_;          ///< Z
+  Eigen::MatrixXd normal_;         ///< N
+  Eigen::MatrixXd jacobian_;       ///< rank x nv: G of the rows chosen
+  Eigen::MatrixXd free_jacobian_;  ///< rank x nv_free
+  algebra::LuFactors<double> gn_;  ///< G N, rank x rank
+  Eigen::VectorXd increment_;      ///< nv: w
 };
 
 }  // namespace blocklift::dynamics
