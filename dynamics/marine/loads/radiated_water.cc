@@ -4,8 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include <Eigen/Eigenvalues>
-
+#include "algebra/decompositions.h"
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
 
@@ -59,10 +58,10 @@ MatrixXd reordered(const MatrixXd& by_modes) { return reordered(by_modes, true, 
 // The positive semidefinite part of a symmetric matrix, its rows and columns measured by `scale`.
 MatrixXd positive_part(const MatrixXd& matrix, const Eigen::VectorXd& scale) {
   const Eigen::VectorXd inverse = scale.cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(inverse.asDiagonal() * matrix *
-                                                      inverse.asDiagonal());
-  const MatrixXd vectors = scale.asDiagonal() * eigen.eigenvectors();
-  return vectors * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() * vectors.transpose();
+  const auto eigen = algebra::symmetric_eigensystem<Eigen::Dynamic>(inverse.asDiagonal() * matrix *
+                                                                    inverse.asDiagonal());
+  const MatrixXd vectors = scale.asDiagonal() * eigen.vectors;
+  return vectors * eigen.values.cwiseMax(0.0).asDiagonal() * vectors.transpose();
 }
 
 // Root of the diagonal, or 1 where there is nothing.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algebra/factors.h"
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
@@ -33,7 +34,7 @@ double ramp(const RegularWave& wave, double time) {
 
 FloatingMotion march_directly(const LinearFloatation& bodies, DirectRadiation& water, double step,
                               double duration) {
-  const Eigen::LDLT<MatrixXd> mass(bodies.mass + water.infinite_added_mass());
+  const algebra::SymmetricFactors mass(bodies.mass + water.infinite_added_mass());
   FloatingMotion motion{step, {bodies.start}};
   VectorXd x = bodies.start, v = VectorXd::Zero(x.size());
   water.start(step);
@@ -51,7 +52,7 @@ FloatingMotion march_directly(const LinearFloatation& bodies, DirectRadiation& w
 FloatingMotion march_with_database(const LinearFloatation& bodies,
                                    const HydrodynamicDatabase& database, double step,
                                    double duration, const std::optional<RegularWave>& wave) {
-  const Eigen::LDLT<MatrixXd> mass(bodies.mass + database.infinite_added_mass);
+  const algebra::SymmetricFactors mass(bodies.mass + database.infinite_added_mass);
   MemoryConvolution memory(database);
   Eigen::VectorXcd excitation;
   if (wave) excitation = wave->amplitude * find_excitation(database, *wave);
@@ -90,7 +91,7 @@ FloatingMotion march_with_state_space(const LinearFloatation& bodies,
                                       const MatrixXd& infinite_added_mass,
                                       const MemoryStateSpace& memory, double step,
                                       double duration) {
-  const Eigen::LDLT<MatrixXd> mass(bodies.mass + infinite_added_mass);
+  const algebra::SymmetricFactors mass(bodies.mass + infinite_added_mass);
   const Eigen::Index modes = bodies.start.size(), states = memory.state_count();
   // One vector: positions, velocities, states of the memory.
   VectorXd force(modes), rate(states);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "algebra/decompositions.h"
 #include "dynamics/algebra/single_precision.h"
 #include "dynamics/errors.h"
 
@@ -101,9 +102,7 @@ double FreeSurfaceMarch::find_largest_eigenvalue(double potential, double loss) 
     last = x;
     x = y / beta;
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small;
-  small.computeFromTridiagonal(diagonal.head(k), off_diagonal.head(k - 1), Eigen::EigenvaluesOnly);
-  return 1.01 * small.eigenvalues()[k - 1];
+  return 1.01 * algebra::tridiagonal_eigenvalues(diagonal.head(k), off_diagonal.head(k - 1))[k - 1];
 }
 
 void FreeSurfaceMarch::start(const Eigen::MatrixXd& elevation, double step) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algebra/factors.h"
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
@@ -57,7 +58,8 @@ std::vector<MatrixXcd> calc_response_amplitudes(const HydrodynamicDatabase& data
     matrix.real() = database.hydrostatic_stiffness - w * w * (mass + database.added_mass[k]);
     matrix.imag() = w * database.damping[k];
     if (damping.size() > 0) matrix.imag() += w * damping;
-    response.emplace_back(matrix.partialPivLu().solve(database.excitation(k)));
+    response.emplace_back(
+        algebra::LuFactors<std::complex<double>>(matrix).solve_columns(database.excitation(k)));
   }
   return response;
 }

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/LU>
-
+#include "algebra/factors.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/cylindrical_waves.h"
 #include "dynamics/marine/radiation/retardation_samples.h"
@@ -124,11 +123,13 @@ class Interaction {
             groups[a].centre - groups[b].centre, number_, waves_[a].order, waves_[b].order);
       }
     }
-    factors_.compute(MatrixXcd::Identity(size_, size_) - scattered_ * carried_);
+    factors_.factorise(MatrixXcd::Identity(size_, size_) - scattered_ * carried_);
   }
 
   /// Force on all modes by the others' waves, of unit motion of each mode: 6N x 6N.
-  MatrixXcd forces_of_motion() const { return force_ * (carried_ * factors_.solve(radiated_)); }
+  MatrixXcd forces_of_motion() const {
+    return force_ * (carried_ * factors_.solve_columns(radiated_));
+  }
   /// Of a wave of unit amplitude, the phase being that at the origin: its own pressure, and the rest.
   Eigen::VectorXcd undisturbed_forces(double heading) const {
     return undisturbed_ * incident(heading);
@@ -157,7 +158,7 @@ class Interaction {
   std::vector<CylindricalWaves> waves_;
   std::vector<Index> first_;
   MatrixXcd carried_, scattered_, force_, undisturbed_, radiated_;
-  Eigen::PartialPivLU<MatrixXcd> factors_;
+  algebra::LuFactors<std::complex<double>> factors_;
 };
 
 void require_waves(const HydrodynamicDatabase& database) {
