@@ -6,7 +6,8 @@
 #include <limits>
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
+
+#include "algebra/decompositions.h"
 
 namespace blocklift::structure {
 
@@ -125,8 +126,7 @@ double frobenius_of(const Eigen::Matrix<double, 6, 1>& s) {
 double largest_principal(const Eigen::Matrix<double, 6, 1>& s) {
   Eigen::Matrix3d tensor;
   tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(tensor, Eigen::EigenvaluesOnly)
-      .eigenvalues()[2];
+  return algebra::symmetric_eigenvalues(tensor)[2];
 }
 
 // Scale of a point's responses, and the margin for their rounding in single precision: products of

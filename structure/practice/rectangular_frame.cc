@@ -100,7 +100,7 @@ RectangularFrame::RectangularFrame(const FrameMember& along, const FrameMember& 
                                                        freedoms * static_cast<Eigen::Index>(b));
   }
   const Eigen::Index rest = freedoms * (count - 1);
-  held_.compute(all.bottomRightCorner(rest, rest));
+  held_ = algebra::SymmetricFactors(all.bottomRightCorner(rest, rest));
 }
 
 void RectangularFrame::add_nodes(const std::vector<Vector3d>& points) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/factors.h"
 #include "structure/practice/column.h"
 
 namespace blocklift::structure {
@@ -107,7 +108,7 @@ class RectangularFrame {
   std::vector<std::size_t> side_of_;    ///< the side on which a node stands or that begins there
   std::vector<std::size_t> node_of_;    ///< of each point
   std::vector<Stretch> stretches_;
-  Eigen::LDLT<Eigen::MatrixXd> held_;  ///< of all nodes but the first, which is held
+  algebra::SymmetricFactors held_;  ///< of all nodes but the first, which is held
 };
 
 }  // namespace blocklift::structure

@@ -166,12 +166,9 @@ class Recovery {
         rows.row(row) = monomials((sample_places_[solid].col(q) - centre) / reach, order);
         values.row(row) = sample_stresses_[solid].col(q).transpose();
       }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> fitted(rows.rows(), rows.cols());
-    fitted.setThreshold(1e-11);
-    fitted.compute(rows);
     const Eigen::RowVectorXd mean = values.colwise().mean();
     values.rowwise() -= mean;
-    const Eigen::MatrixXd polynomial = fitted.solve(values);
+    const Eigen::MatrixXd polynomial = algebra::least_squares_by_pivots(rows, values, 1e-11);
     const auto add = [&](int to) {
       recovered_.col(to) +=
           (mean + monomials((place(to) - centre) / reach, order) * polynomial).transpose();

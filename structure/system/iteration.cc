@@ -11,9 +11,9 @@
 #include <string>
 #include <utility>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/system/shared_factor.h"
@@ -205,9 +205,7 @@ std::vector<EquationRows> deal_out_rows(const SparseLower& stiffness,
                                         int processes) {
   std::vector<char> is_fixed(at(static_cast<int>(stiffness.rows())), 0);
   for (const FixedUnknown& one : fixed) is_fixed[one.unknown] = 1;
-  const Eigen::MatrixXd motions =
-      Eigen::HouseholderQR<Eigen::MatrixXd>(rigid_motions).householderQ() *
-      Eigen::MatrixXd::Identity(load.size(), rigid_motion_count);
+  const Eigen::MatrixXd motions = algebra::orthonormal_columns(rigid_motions);
   const long nodes = stiffness.rows() / unknowns_a_node;
   std::vector<EquationRows> all;
   for (int process = 0; process < processes; ++process) {
