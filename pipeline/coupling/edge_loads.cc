@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "algebra/decompositions.h"
 #include "dynamics/rope/edge_wrap.h"
 #include "dynamics/rope/rope.h"
 #include "structure/response/line_loads.h"
@@ -31,11 +31,11 @@ std::array<std::pair<double, double>, gauss_points> make_gauss_rule() {
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(gauss_points, gauss_points);
   for (int k = 1; k < gauss_points; ++k)
     jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
+  const auto [values, vectors] = algebra::symmetric_eigensystem<Eigen::Dynamic>(jacobi);
   std::array<std::pair<double, double>, gauss_points> rule;
   for (int k = 0; k < gauss_points; ++k) {
-    const double first = solver.eigenvectors()(0, k);
-    rule[k] = {0.5 * (1 + solver.eigenvalues()[k]), first * first};
+    const double first = vectors(0, k);
+    rule[k] = {0.5 * (1 + values[k]), first * first};
   }
   return rule;
 }

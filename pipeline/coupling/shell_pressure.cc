@@ -6,8 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include <Eigen/Eigenvalues>
-
+#include "algebra/decompositions.h"
 #include "dynamics/marine/hull/wet_triangle.h"
 
 namespace blocklift::pipeline {
@@ -146,8 +145,8 @@ std::optional<PressureBasis> find_pressure_basis(const structure::ElasticModel& 
   scale.reshaped(6, regions).topRows<3>().setOnes();
   scale.reshaped(6, regions).bottomRows<3>().setConstant(2 / settings.region_size);
   const Eigen::MatrixXd scaled = scale.asDiagonal() * wrenches;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled * scaled.transpose());
-  const Eigen::MatrixXd modes = solver.eigenvectors().rowwise().reverse();
+  const auto system = algebra::symmetric_eigensystem<Eigen::Dynamic>(scaled * scaled.transpose());
+  const Eigen::MatrixXd modes = system.vectors.rowwise().reverse();
   const auto [count, error] = count_modes(modes, scaled, settings.tolerance);
 
   PressureBasis basis;

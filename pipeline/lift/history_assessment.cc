@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
@@ -221,9 +221,8 @@ int nearest_square(const structure::CheckedStress& checked, const Vector3& point
 Vector3 principal_direction(const structure::Stress& s) {
   Eigen::Matrix3d tensor;
   tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
-  return solver.eigenvectors().col(
-      std::abs(solver.eigenvalues()[2]) >= std::abs(solver.eigenvalues()[0]) ? 2 : 0);
+  const auto [values, vectors] = algebra::symmetric_eigensystem(tensor);
+  return vectors.col(std::abs(values[2]) >= std::abs(values[0]) ? 2 : 0);
 }
 
 // Stress in time of one place, by its unit responses (6 x unit loads, Pa); cycles are counted of

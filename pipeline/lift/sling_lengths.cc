@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Dense>
-
+#include "algebra/decompositions.h"
 #include "dynamics/errors.h"
 #include "dynamics/simulation/equilibrium.h"
 #include "pipeline/lift/sling_ends.h"
@@ -139,7 +138,7 @@ void find_level(SlingStates& states, SlingLengths& result) {
     }
     const Eigen::Matrix2Xd slopes = slopes_of(states, lengths, state);
     const Eigen::VectorXd change =
-        -slopes.completeOrthogonalDecomposition().solve(Eigen::Vector2d(state.trim, state.list));
+        -algebra::least_squares(slopes, Eigen::Vector2d(state.trim, state.list));
     lengths += change;
     if (((lengths - result.lengths).array().abs() > 0.1 * result.lengths.array()).any()) return;
     state = states.with_lengths(lengths);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
+#include "algebra/decompositions.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -48,7 +48,8 @@ DecayParameters scan_of_decays(const Eigen::VectorXd& time, const Eigen::VectorX
     for (const double damping : {0.0, 0.02, 0.1}) {
       const Eigen::MatrixXd shapes = decay_shapes(time, damping * frequency, frequency);
       const Eigen::Matrix3d normal = shapes.transpose() * shapes;
-      const Eigen::Vector3d linear = normal.ldlt().solve(shapes.transpose() * values);
+      const Eigen::Vector3d linear =
+          algebra::solve_symmetric<3>(normal, shapes.transpose() * values);
       const double error = (values - shapes * linear).squaredNorm();
       if (!(error < least)) continue;
       least = error;
@@ -68,7 +69,7 @@ DecayParameters refine_decay(const Eigen::VectorXd& time, const Eigen::VectorXd&
     Eigen::Matrix<double, 5, 5> normal = jacobian.transpose() * jacobian;
     normal.diagonal() *= 1 + stiffening;
     const DecayParameters step =
-        normal.ldlt().solve(jacobian.transpose() * decay_residual(time, values, p));
+        algebra::solve_symmetric<5>(normal, jacobian.transpose() * decay_residual(time, values, p));
     const double next = decay_residual(time, values, p + step).squaredNorm();
     if (!(next < error)) {
       stiffening *= 10;
@@ -109,7 +110,8 @@ std::optional<Decay> fit_decay(const TimeSeries& series) {
   decay.amplitude = std::hypot(p[1], p[2]);
   const Eigen::MatrixXd jacobian = decay_jacobian(time, p);
   const Eigen::Matrix<double, 5, 5> covariance =
-      (jacobian.transpose() * jacobian).inverse() * (error / static_cast<double>(size - 5));
+      algebra::inverse_of<Eigen::Dynamic>(jacobian.transpose() * jacobian) *
+      (error / static_cast<double>(size - 5));
   decay.period_deviation = decay.period / frequency * std::sqrt(covariance(4, 4));
   // The ratio's derivatives with respect to rate and frequency.
   const Eigen::Vector2d slope(frequency * frequency / std::pow(natural, 3),

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "algebra/decompositions.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -66,13 +66,12 @@ std::optional<Weighing> weigh(const std::vector<WeighingInstant>& instants, doub
   const WeighingEquations system = weighing_equations(instants, gravity);
   const Eigen::VectorXd right = system.by_rope.rowwise().sum();
   // A direction counts as seen if the attitude turned by more than about two degrees in all.
-  Eigen::JacobiSVD<Eigen::MatrixXd> factors(system.matrix,
-                                            Eigen::ComputeThinU | Eigen::ComputeThinV);
-  factors.setThreshold(0.03);
+  constexpr double seen = 0.03;
+  const algebra::SingularVectors factors = algebra::singular_vectors(system.matrix);
+  const auto rank = (factors.values.array() >= seen * factors.values[0]).count();
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(4, system.matrix.rows());
-  for (Eigen::Index i = 0; i < factors.rank(); ++i)
-    inverse += factors.matrixV().col(i) * factors.matrixU().col(i).transpose() /
-               factors.singularValues()[i];
+  for (Eigen::Index i = 0; i < rank; ++i)
+    inverse += factors.right.col(i) * factors.left.col(i).transpose() / factors.values[i];
   const Eigen::Vector4d solution = inverse * right;
   const Eigen::VectorXd residual = right - system.matrix * solution;
   Eigen::Matrix4d covariance = scatter_covariance(residual, inverse);
@@ -86,8 +85,7 @@ std::optional<Weighing> weigh(const std::vector<WeighingInstant>& instants, doub
   for (Eigen::Index row = 0; row < residual.size(); row += equations)
     squares += residual[row] * residual[row];
   weighing.force_residual = std::sqrt(squares / static_cast<double>(instants.size()));
-  if (factors.rank() < 4)
-    weighing.open_direction_B = factors.matrixV().col(3).tail<3>().normalized();
+  if (rank < 4) weighing.open_direction_B = factors.right.col(3).tail<3>().normalized();
   for (Eigen::Index k = 0; k < 3; ++k) {
     weighing.centre_of_mass_B[k] = system.length * solution[k + 1] / solution[0];
     // c = L s / m: its derivatives with respect to s and m.

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
+#include "algebra/decompositions.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::pipeline {
@@ -48,7 +48,7 @@ std::vector<Vector3> divide_arc(const std::vector<Vector3>& points) {
   rows << (b - a).transpose(), (c - a).transpose(), normal.transpose();
   const Vector3 right(0.5 * (b.squaredNorm() - a.squaredNorm()),
                       0.5 * (c.squaredNorm() - a.squaredNorm()), normal.dot(a));
-  const Vector3 centre = rows.partialPivLu().solve(right);
+  const Vector3 centre = algebra::solve_square(rows, right);
   const Vector3 axis = normal.normalized(), x = a - centre, y = axis.cross(x);
   double angle = std::atan2((c - centre).dot(y), (c - centre).dot(x));
   if (angle <= 0) angle += 2 * std::acos(-1.0);

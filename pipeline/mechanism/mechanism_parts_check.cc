@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "pipeline/mechanism/joint_values.h"
 
 namespace blocklift::pipeline {
@@ -181,7 +181,7 @@ void check_body(const BodyModel& body, Reading& reading, const Mark& mark) {
   }
   const Eigen::Matrix3d inertia = body.inertia_matrix();
   if (!inertia.allFinite()) return;
-  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  const Vector3 moments = algebra::symmetric_eigenvalues(inertia);
   const double tolerance = 1e-9 * moments.cwiseAbs().maxCoeff();
   if (moments[0] < -tolerance || moments[2] > moments[0] + moments[1] + tolerance) {
     reading.error(

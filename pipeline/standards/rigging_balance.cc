@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Dense>
+#include "algebra/decompositions.h"
 
 namespace blocklift::pipeline {
 
@@ -100,16 +100,16 @@ Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& fo
   VectorXd result = VectorXd::Zero(tension_.size());
   while (!taut.empty()) {
     const MatrixXd B = elongation_(taut, Eigen::all);
-    const MatrixXd stiffness_of_ropes = compliance_(taut, taut).inverse();
+    const MatrixXd stiffness_of_ropes =
+        algebra::inverse_of<Eigen::Dynamic>(compliance_(taut, taut));
     const VectorXd e = errors(taut);
     const MatrixXd K = B.transpose() * stiffness_of_ropes * B + turning;
     // What turns freely (a load about the plumb line of its one hook) stays where it is. Its
     // stiffness is nil but for rounding, some 1e-13 of the ropes'; that of a pendulum is 1e-5 of
     // it.
-    Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
-    decomposition.setThreshold(1e-10);
-    decomposition.compute(K);
-    const VectorXd x = decomposition.solve(slackened + B.transpose() * stiffness_of_ropes * e);
+    constexpr double nil = 1e-10;
+    const VectorXd x = algebra::least_squares_by_pivots(
+        K, slackened + B.transpose() * stiffness_of_ropes * e, nil);
     const VectorXd tension = tension_(taut) + stiffness_of_ropes * (B * x - e);
     Eigen::Index lowest = 0;
     if (tension.minCoeff(&lowest) >= 0) {

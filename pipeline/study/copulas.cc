@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include "algebra/factors.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -39,7 +39,7 @@ Eigen::MatrixXd joined_scores(const Eigen::MatrixXd& shares, const Eigen::Matrix
   if (!without_chance) return scores * root.transpose();
   scores.rowwise() -= scores.colwise().mean().eval();
   for (Eigen::Index v = 0; v < scores.cols(); ++v) scores.col(v).normalize();
-  const Eigen::MatrixXd chance = (scores.transpose() * scores).llt().matrixL();
+  const Eigen::MatrixXd chance = algebra::CholeskyFactors(scores.transpose() * scores).lower();
   return chance.triangularView<Eigen::Lower>().solve(scores.transpose()).transpose() *
          root.transpose();
 }
@@ -127,7 +127,7 @@ Eigen::Index column_of(const StudyFile& study, const std::string& name) {
 void join_normal(const StudyFile& study, const Laws& laws, bool keeps_strata,
                  const Eigen::MatrixXd& shares, OT::Sample& sample) {
   const Eigen::MatrixXd correlations = study.correlation_matrix();
-  const Eigen::MatrixXd root = correlations.llt().matrixL();
+  const Eigen::MatrixXd root = algebra::CholeskyFactors(correlations).lower();
   const Eigen::MatrixXd joined = joined_scores(shares, root, keeps_strata);
   for (Eigen::Index v = 1; v < joined.cols(); ++v) {
     if (keeps_strata)

@@ -8,9 +8,9 @@
 #include <system_error>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "algebra/factors.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/format_once.h"
 #include "pipeline/declaration/reading.h"
@@ -338,8 +338,7 @@ void check_correlations(const StudyFile& study, Reading& reading) {
   for (const StudyCorrelation& correlation : study.correlations)
     if (correlation.of.size() != 2) return;
   check_correlated_variables(study, reading);
-  const Eigen::LLT<Eigen::MatrixXd> factor(study.correlation_matrix());
-  if (factor.info() != Eigen::Success)
+  if (!algebra::CholeskyFactors(study.correlation_matrix()).is_positive())
     reading.error(mark,
                   "these correlations contradict each other: their matrix is not positive "
                   "definite");

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "algebra/factors.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/simulation/mechanism_run.h"
 #include "pipeline/verification/hydrodynamics/hydrodynamics_cases.h"
@@ -66,7 +67,7 @@ Response solve_in_frequency(const AbsorberFile& absorber, std::size_t k, double 
   Eigen::MatrixXcd free = T.transpose() * Z * T;
   free(6, 6) += Complex(0.0, w * take_off);
   const Eigen::VectorXcd force = T.transpose() * database.excitation(k).col(0);
-  const Eigen::VectorXcd motion = T * free.partialPivLu().solve(force);
+  const Eigen::VectorXcd motion = T * algebra::LuFactors<Complex>(free).solve(force);
   return {motion[2], motion[8], motion[0]};
 }
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include <Eigen/LU>
+#include "algebra/factors.h"
 
 namespace blocklift::dynamics::testing {
 namespace {
@@ -181,7 +181,7 @@ SideValues solve(const SeriesBeneath& beneath, const WaterBeside& left, const Wa
   VectorXcd known(2 * count);
   known << from_left * left.velocity - beneath.at_left,
       from_right * right.velocity - beneath.at_right;
-  const VectorXcd values = matrix.partialPivLu().solve(known);
+  const VectorXcd values = algebra::LuFactors<Complex>(matrix).solve(known);
   return {values.head(count), values.tail(count)};
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
+#include "algebra/decompositions.h"
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "pipeline/verification/shells/shell_cases.h"
 #include "structure/formulation/shell.h"
@@ -122,7 +123,7 @@ double clamped_plate_by_ritz(double thickness) {
   block(2, 1) = block(1, 2).transpose();
   Eigen::VectorXd load = Eigen::VectorXd::Zero(3 * n);
   load.head(n) = product(f.sums, f.sums) / 4;
-  const Eigen::VectorXd found = energy.ldlt().solve(load);
+  const Eigen::VectorXd found = algebra::solve_symmetric<Eigen::Dynamic>(energy, load);
   double deflection = 0;
   for (unsigned i = 0; i < count; ++i)
     for (unsigned j = 0; j < count; ++j)
@@ -205,9 +206,7 @@ struct Rhombus {
                             fixed);
   }
   Eigen::Vector3d principal(double z) const {
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-               testing::stress_at(*space, motion, centre, z))
-        .eigenvalues();
+    return algebra::symmetric_eigenvalues<3>(testing::stress_at(*space, motion, centre, z));
   }
 };
 
