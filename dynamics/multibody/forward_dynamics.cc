@@ -1,5 +1,6 @@
 #include "dynamics/multibody/forward_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/errors.h"
@@ -96,7 +97,7 @@ void give_way(const Column& column, ArticulatedBody& body) {
 class Recursion {
  public:
   Recursion(const Mechanism& mechanism, const Kinematics& kinematics, const double* v,
-            ForwardDynamicsWorkspace& workspace, double* tau, double* vdot)
+            ForwardDynamicsWorkspace& workspace, double* tau, double* vdot, DriveForces drives)
       : mechanism_(mechanism),
         kinematics_(kinematics),
         v_(v),
@@ -105,16 +106,18 @@ class Recursion {
         vdot_(vdot),
         angular_(mechanism.angular().data()),
         driven_(mechanism.driven().data()),
-        damping_(mechanism.damping().data()) {}
+        damping_(mechanism.damping().data()),
+        drives_(drives) {}
 
   void start(const std::vector<ForceVector>& F_Bo_W) {
     for (const Link& link : mechanism_.links()) {
+      if (is_idle(link.body)) continue;
       start_link(link, kinematics_, mechanism_.gravity(), F_Bo_W[index(link.body)],
                  workspace_.articulated[index(link.body)]);
     }
     for (const BodyIndex i : mechanism_.fixed_bodies()) {
       const BodyIndex carrier = mechanism_.bodies()[index(i)].carrier;
-      if (carrier == world_index) continue;
+      if (carrier == world_index || is_idle(carrier)) continue;
       ForceVector& bias = workspace_.articulated[index(carrier)].bias;
       bias = bias - shift_to(F_Bo_W[index(i)], kinematics_.p_CB_W[index(i)]);
     }
@@ -122,6 +125,7 @@ class Recursion {
 
   // Towards the base (eq. 17, 18). False if the inertia is not finite.
   bool inwards(const Link& link) {
+    if (is_idle(link.body)) return true;
     const std::size_t b = index(link.body);
     ArticulatedBody& body = workspace_.articulated[b];
     const MotionVector& c = kinematics_.A_bias_W[b];
@@ -142,7 +146,7 @@ class Recursion {
       column.u = tau_[k] - damping_[k] * v_[k] - along(angular_[k], direction, body.bias);
       give_way(column, body);
     }
-    if (link.carrier == world_index) return true;
+    if (link.carrier == world_index || is_idle(link.carrier)) return true;
     ArticulatedBody& carrier = workspace_.articulated[index(link.carrier)];
     const Vector3& r = kinematics_.p_CB_W[b];
     add_shifted(body.inertia, r, carrier.inertia);
@@ -172,7 +176,7 @@ class Recursion {
     if (link.has_driven) add_known_motion(link, A);
     A.angular += kinematics_.A_bias_W[b].angular;
     A.linear += kinematics_.A_bias_W[b].linear;
-    if (link.has_driven) drive_forces(link, A);
+    if (link.has_driven && drives_ == DriveForces::wanted) drive_forces(link, A);
   }
 
   void carry_fixed_bodies() {
@@ -186,6 +190,11 @@ class Recursion {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  // Does nobody ask what it takes to accelerate the body?
+  bool is_idle(BodyIndex body) const {
+    return drives_ == DriveForces::unwanted && workspace_.prescribed[index(body)] != 0;
+  }
 
   // Driven velocities: their accelerations are known, so they only shift the bias.
   void known_motion(const Link& link, ArticulatedBody& body) {
@@ -226,6 +235,7 @@ class Recursion {
   const char* angular_;
   const char* driven_;
   const double* damping_;
+  DriveForces drives_;
 };
 
 }  // namespace
@@ -233,15 +243,23 @@ class Recursion {
 ForwardDynamicsWorkspace::ForwardDynamicsWorkspace(const Mechanism& mechanism)
     : A_WB(static_cast<std::size_t>(mechanism.body_count())),
       articulated(A_WB.size()),
-      columns(static_cast<std::size_t>(mechanism.nv())) {
+      columns(static_cast<std::size_t>(mechanism.nv())),
+      prescribed(A_WB.size(), 0) {
   A_WB[0] = MotionVector::zero();
+  prescribed[0] = 1;
+  for (const Link& link : mechanism.links()) {
+    const auto driven = mechanism.driven().begin() + link.v_offset;
+    prescribed[link.body] =
+        prescribed[link.carrier] != 0 && std::count(driven, driven + link.nv, 0) == 0 ? 1 : 0;
+  }
 }
 
 void compute_forward_dynamics(const Mechanism& mechanism, const Kinematics& kinematics,
                               ConstVectorRef v, const std::vector<ForceVector>& F_Bo_W,
-                              ForwardDynamicsWorkspace& workspace, VectorRef tau, VectorRef vdot) {
+                              ForwardDynamicsWorkspace& workspace, VectorRef tau, VectorRef vdot,
+                              DriveForces drives) {
   eigen_assert(v.size() == mechanism.nv() && tau.size() == v.size() && vdot.size() == v.size());
-  Recursion recursion(mechanism, kinematics, v.data(), workspace, tau.data(), vdot.data());
+  Recursion recursion(mechanism, kinematics, v.data(), workspace, tau.data(), vdot.data(), drives);
   recursion.start(F_Bo_W);
   const std::vector<Link>& links = mechanism.links();
   bool finite = true;

@@ -26,7 +26,13 @@ struct ForwardDynamicsWorkspace {
   };
   std::vector<ArticulatedBody> articulated;  ///< one a body
   std::vector<Column> columns;               ///< one a velocity
+  /// For each body: is its motion prescribed, all velocities being driven between it and the world?
+  std::vector<char> prescribed;
 };
+
+/// Are the forces of drives asked for? Where not, bodies whose motion is prescribed are accelerated
+/// alone: what they weigh and bear changes nothing for those that are free.
+enum class DriveForces { wanted, unwanted };
 
 /// Accelerations of the free velocities and forces of the driven ones: articulated-body algorithm
 /// (paper eq. 15-18), hybrid as in Featherstone (2008), section 9.2.
@@ -39,8 +45,9 @@ struct ForwardDynamicsWorkspace {
 /// | tau  | given: joint force besides the damping | found: force of the drive    |
 /// | vdot | found                                  | given: the prescribed motion |
 ///
-/// The drive overcomes the joint's viscous damping too. Does not allocate; cost linear in the
-/// bodies.
+/// The drive overcomes the joint's viscous damping too. Where drive forces are unwanted the driven
+/// entries of tau mean nothing, and vdot is the same bit for bit. Does not allocate; cost linear in
+/// the bodies.
 ///
 /// The recursion runs in world axes about each body's own origin: carrying an inertia inwards is
 /// then a mere shift, the rotations of the paper's X drop out, and poses and velocities are used as
@@ -52,6 +59,7 @@ struct ForwardDynamicsWorkspace {
 /// it shows.
 void compute_forward_dynamics(const Mechanism& mechanism, const Kinematics& kinematics,
                               ConstVectorRef v, const std::vector<ForceVector>& F_Bo_W,
-                              ForwardDynamicsWorkspace& workspace, VectorRef tau, VectorRef vdot);
+                              ForwardDynamicsWorkspace& workspace, VectorRef tau, VectorRef vdot,
+                              DriveForces drives = DriveForces::wanted);
 
 }  // namespace blocklift::dynamics

@@ -315,6 +315,10 @@ ProfileValue MotionProfile::evaluate(double t) const {
     ProfileValue value{sequence->initial, 0, 0};
     for (const RestToRestMove& move : sequence->moves) {
       if (t <= move.start()) break;
+      if (t - move.start() >= move.duration()) {  // most moves are over most of the time
+        value.position += move.distance();
+        continue;
+      }
       const ProfileValue part = move.evaluate(t);
       value.position += part.position;
       value.velocity += part.velocity;

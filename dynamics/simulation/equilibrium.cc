@@ -512,8 +512,9 @@ void EquilibriumSolver::follow(double t_from, double t, Eigen::VectorXd& q) {
 History static_sweep(const LiftSystem& system, const Eigen::VectorXd& times,
                      const Eigen::VectorXd& q_start, const EquilibriumSettings& settings,
                      const std::function<void(double, double)>& progress,
-                     const std::function<void(Eigen::Index, double, LiftWorkspace&)>& observe) {
-  History history(system, times.size(), false);
+                     const std::function<void(Eigen::Index, double, LiftWorkspace&)>& observe,
+                     const Recording& recording) {
+  History history(system, times.size(), false, recording);
   EquilibriumSolver solver(system, settings);
   Eigen::VectorXd q = q_start;
   for (Eigen::Index i = 0; i < times.size(); ++i) {

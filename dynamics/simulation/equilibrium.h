@@ -55,10 +55,12 @@ class EquilibriumSolver {
 /// @param progress called with the fraction done and the time, may be empty.
 /// @param observe called with each sample's number, its time and the solver's workspace of that
 /// instant, may be empty.
+/// @param recording of each equilibrium.
 History static_sweep(const LiftSystem& system, const Eigen::VectorXd& times,
                      const Eigen::VectorXd& q_start, const EquilibriumSettings& settings = {},
                      const std::function<void(double, double)>& progress = {},
-                     const std::function<void(Eigen::Index, double, LiftWorkspace&)>& observe = {});
+                     const std::function<void(Eigen::Index, double, LiftWorkspace&)>& observe = {},
+                     const Recording& recording = {});
 
 /// Times 0, interval, 2 interval ... duration, the duration itself always last.
 Eigen::VectorXd sample_times(double duration, double interval);

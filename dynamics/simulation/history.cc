@@ -38,17 +38,35 @@ int coordinate_of(const Mechanism& mechanism, int velocity_index) {
   return body.q_offset + velocity_index - body.v_offset;
 }
 
+// Within rounding of an instant of change the fixed set may leave a push of no account.
+RopeLoad without_push(const RopeLoad& load) {
+  RopeLoad pulling = load;
+  pulling.tension = std::max(0.0, load.tension);
+  pulling.split.first_tension = std::max(0.0, load.split.first_tension);
+  pulling.split.last_tension = std::max(0.0, load.split.last_tension);
+  return pulling;
+}
+
 }  // namespace
 
 Pose BodyHistory::X_WB(Eigen::Index sample) const {
   return {rotation_from_quaternion(pose.row(sample).tail<4>()), pose.row(sample).head<3>()};
 }
 
-History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
+History::History(const LiftSystem& system, Eigen::Index n, bool with_works,
+                 const Recording& recording)
     : time(n),
+      recording_(recording),
       A_WB_(static_cast<std::size_t>(system.mechanism().body_count())),
       F_Bo_W_(A_WB_.size()),
       tau_(system.mechanism().nv()) {
+  if (with_works && !recording.energy)
+    throw ModelError("works are recorded beside energies, which are left out");
+  // Samples of what is recorded at all.
+  const Eigen::Index moving = recording.motion ? n : 0;
+  const Eigen::Index pulling = recording.rope_forces ? n : 0;
+  const Eigen::Index accelerating = recording.accelerations ? n : 0;
+  const Eigen::Index storing = recording.energy ? n : 0;
   if (system.water()) {
     water_momentum_ = water_force_ = Eigen::VectorXd::Zero(system.water()->inertia().size());
   }
@@ -56,15 +74,17 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
     if (body.parent < 0) continue;
     BodyHistory& b = bodies.emplace_back();
     b.name = body.name;
-    b.pose.resize(n, 7);
-    b.velocity.resize(n, 6);
-    b.acceleration.resize(n, 6);
-    b.load.resize(n, 6);
+    b.pose.resize(moving, 7);
+    b.velocity.resize(moving, 6);
+    b.acceleration.resize(accelerating, 6);
+    b.load.resize(accelerating, 6);
   }
   for (const ElasticMode& mode : system.mechanism().elastic_modes()) {
     ElasticModeHistory& m = elastic_modes.emplace_back();
     m.name = mode.name;
-    for (auto* values : {&m.coordinate, &m.rate, &m.acceleration}) values->resize(n);
+    m.coordinate.resize(moving);
+    m.rate.resize(moving);
+    m.acceleration.resize(accelerating);
   }
   for (const Rope& rope : system.ropes()) {
     RopeHistory& r = ropes.emplace_back();
@@ -72,21 +92,23 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
     for (auto* values : {&r.tension, &r.elongation, &r.unstretched_length, &r.unstretched_rate}) {
       values->resize(n);
     }
-    r.first_force.resize(n, 3);
-    r.last_force.resize(n, 3);
+    r.first_force.resize(pulling, 3);
+    r.last_force.resize(pulling, 3);
     for (const RopeEdge& edge : rope.edges()) {
       EdgeHistory& e = r.edges.emplace_back();
       e.name = edge.name;
-      e.force.resize(n, 3);
+      e.force.resize(pulling, 3);
       for (auto* values : {&e.wrap, &e.first_angle, &e.last_angle, &e.first_place, &e.last_place,
                            &e.first_tension, &e.last_tension})
-        values->resize(n);
+        values->resize(pulling);
     }
   }
   for (const int k : system.mechanism().driven_velocities()) {
     DriveHistory& d = drives.emplace_back();
     d.name = drive_name(system, k);
-    for (auto* values : {&d.position, &d.velocity, &d.force}) values->resize(n);
+    d.position.resize(moving);
+    d.velocity.resize(moving);
+    d.force.resize(accelerating);
   }
   for (const SupportPad& pad : system.supports()) {
     supports.push_back({pad.name(), Eigen::VectorXd(n)});
@@ -94,12 +116,12 @@ History::History(const LiftSystem& system, Eigen::Index n, bool with_works)
   for (const Loop& loop : system.mechanism().loops()) {
     LoopHistory& l = loops.emplace_back();
     l.name = loop.name;
-    l.force.resize(n, 6);
-    l.multipliers.resize(n, loop.row_count);
-    l.residual.resize(n);
+    l.force.resize(accelerating, 6);
+    l.multipliers.resize(accelerating, loop.row_count);
+    l.residual.resize(accelerating);
   }
   for (auto* values : {&energy.kinetic, &energy.gravity, &energy.elastic, &buoyancy_in_waves_})
-    values->resize(n);
+    values->resize(storing);
   if (with_works) {
     for (auto* values :
          {&energy.drive_work, &energy.winch_work, &energy.outside_work, &energy.dissipated}) {
@@ -134,14 +156,7 @@ void History::add_water_inertia(const RadiatedWater& water, const LiftWorkspace&
   add_frame_forces(inertia.frames(), w.kinematics, water_force_, F_Bo_W_);
 }
 
-void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w) {
-  compute_accelerations(system.mechanism(), w.kinematics, w.vdot, A_WB_);
-  F_Bo_W_ = w.loads.F_Bo_W;
-  if (w.loops) {
-    add_loop_forces(system.mechanism(), w.kinematics, w.loops->loops, w.loops->lambda, F_Bo_W_,
-                    tau_);
-  }
-  if (system.water()) add_water_inertia(*system.water(), w);
+void History::record_motion(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     BodyHistory& b = bodies[i];
     const Pose& X_WB = w.kinematics.X_WB[i + 1];
@@ -152,26 +167,59 @@ void History::record_bodies(const LiftSystem& system, Eigen::Index sample, const
     b.pose.row(sample) << X_WB.p.transpose(), quaternion.transpose();
     const MotionVector& V = w.kinematics.V_WB[i + 1];
     b.velocity.row(sample) << V.angular.transpose(), V.linear.transpose();
-    const MotionVector& A = A_WB_[i + 1];
-    b.acceleration.row(sample) << A.angular.transpose(), A.linear.transpose();
-    const ForceVector& F = F_Bo_W_[i + 1];
-    b.load.row(sample) << F.moment.transpose(), F.force.transpose();
+  }
+  const Mechanism& mechanism = system.mechanism();
+  for (std::size_t i = 0; i < elastic_modes.size(); ++i) {
+    const ElasticMode& mode = mechanism.elastic_modes()[i];
+    elastic_modes[i].coordinate[sample] = w.q[mode.q_index];
+    elastic_modes[i].rate[sample] = w.v[mode.v_index];
+  }
+  const std::vector<int>& driven = mechanism.driven_velocities();
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const int coordinate = coordinate_of(mechanism, driven[i]);
+    drives[i].position[sample] = coordinate < 0 ? not_a_number : w.q[coordinate];
+    drives[i].velocity[sample] = w.v[driven[i]];
   }
 }
 
-void History::record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w) {
+void History::record_accelerations(const LiftSystem& system, Eigen::Index sample,
+                                   const LiftWorkspace& w) {
+  const Mechanism& mechanism = system.mechanism();
+  compute_accelerations(mechanism, w.kinematics, w.vdot, A_WB_);
+  F_Bo_W_ = w.loads.F_Bo_W;
+  if (w.loops) {
+    add_loop_forces(mechanism, w.kinematics, w.loops->loops, w.loops->lambda, F_Bo_W_, tau_);
+  }
+  if (system.water()) add_water_inertia(*system.water(), w);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const MotionVector& A = A_WB_[i + 1];
+    bodies[i].acceleration.row(sample) << A.angular.transpose(), A.linear.transpose();
+    const ForceVector& F = F_Bo_W_[i + 1];
+    bodies[i].load.row(sample) << F.moment.transpose(), F.force.transpose();
+  }
+  for (std::size_t i = 0; i < elastic_modes.size(); ++i)
+    elastic_modes[i].acceleration[sample] = w.vdot[mechanism.elastic_modes()[i].v_index];
+  const std::vector<int>& driven = mechanism.driven_velocities();
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    drives[i].force[sample] = w.joint_force[driven[i]];
+  record_loops(system, sample, w);
+}
+
+void History::record_ropes(Eigen::Index sample, const LiftWorkspace& w) {
   for (std::size_t i = 0; i < ropes.size(); ++i) {
     RopeHistory& r = ropes[i];
     const RopeLoad& load = w.rope_loads[i];
-    // Within rounding of an instant of change the fixed set may leave a push of no account.
-    RopeLoad pulling = load;
-    pulling.tension = std::max(0.0, load.tension);
-    pulling.split.first_tension = std::max(0.0, load.split.first_tension);
-    pulling.split.last_tension = std::max(0.0, load.split.last_tension);
-    r.tension[sample] = pulling.tension;
+    r.tension[sample] = std::max(0.0, load.tension);  // as without_push
     r.elongation[sample] = load.elongation();
     r.unstretched_length[sample] = load.unstretched_length;
     r.unstretched_rate[sample] = load.unstretched_rate;
+  }
+}
+
+void History::record_rope_forces(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w) {
+  for (std::size_t i = 0; i < ropes.size(); ++i) {
+    RopeHistory& r = ropes[i];
+    const RopeLoad pulling = without_push(w.rope_loads[i]);
     system.ropes()[i].calc_path(w.kinematics, w.path, &w.end_shifts[i]);
     r.first_force.row(sample) = system.ropes()[i].first_force(w.path, pulling).transpose();
     r.last_force.row(sample) = system.ropes()[i].last_force(w.path, pulling).transpose();
@@ -222,32 +270,25 @@ void History::record_loops(const LiftSystem& system, Eigen::Index sample, const 
   }
 }
 
-void History::record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w) {
-  time[sample] = t;
-  record_bodies(system, sample, w);
-  for (std::size_t i = 0; i < elastic_modes.size(); ++i) {
-    const ElasticMode& mode = system.mechanism().elastic_modes()[i];
-    elastic_modes[i].coordinate[sample] = w.q[mode.q_index];
-    elastic_modes[i].rate[sample] = w.v[mode.v_index];
-    elastic_modes[i].acceleration[sample] = w.vdot[mode.v_index];
-  }
-  record_ropes(system, sample, w);
-  record_loops(system, sample, w);
-  const std::vector<int>& driven = system.mechanism().driven_velocities();
-  for (std::size_t i = 0; i < drives.size(); ++i) {
-    const int coordinate = coordinate_of(system.mechanism(), driven[i]);
-    drives[i].position[sample] = coordinate < 0 ? not_a_number : w.q[coordinate];
-    drives[i].velocity[sample] = w.v[driven[i]];
-    drives[i].force[sample] = w.joint_force[driven[i]];
-  }
-  for (std::size_t i = 0; i < supports.size(); ++i) {
-    supports[i].normal_force[sample] = std::max(0.0, w.support_loads[i].normal_force);
-  }
+void History::record_energy(const LiftSystem& system, Eigen::Index sample, double t,
+                            const LiftWorkspace& w) {
   const StoredEnergy stored = calc_stored_energy(system, t, w);
   energy.kinetic[sample] = stored.kinetic;
   energy.gravity[sample] = stored.gravity;
   energy.elastic[sample] = stored.elastic;
   buoyancy_in_waves_[sample] = stored.buoyancy_in_waves;
+}
+
+void History::record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w) {
+  time[sample] = t;
+  record_ropes(sample, w);
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    supports[i].normal_force[sample] = std::max(0.0, w.support_loads[i].normal_force);
+  }
+  if (recording_.motion) record_motion(system, sample, w);
+  if (recording_.rope_forces) record_rope_forces(system, sample, w);
+  if (recording_.accelerations) record_accelerations(system, sample, w);
+  if (recording_.energy) record_energy(system, sample, t, w);
 }
 
 void History::record_works(Eigen::Index sample, const Eigen::Vector4d& works) {

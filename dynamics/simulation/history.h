@@ -8,6 +8,21 @@
 
 namespace blocklift::dynamics {
 
+/// What a history holds of each sample, besides the time, ropes' tensions, elongations and lengths,
+/// and what pads bear. What is left out is not computed either, where nothing else needs it, and
+/// its arrays are empty. The rest is the same bit for bit.
+struct Recording {
+  bool motion = true;         ///< poses and velocities: of bodies, elastic modes, driven joints
+  bool rope_forces = true;    ///< of ropes on their ends and on edges
+  bool accelerations = true;  ///< and forces: loads on bodies, of drives and loops
+  bool energy = true;         ///< kinetic and stored
+
+  /// Does it take accelerations and the loads of all force elements?
+  bool takes_dynamics() const { return accelerations || energy; }
+  /// Positions, velocities and what ropes and pads bear at them.
+  static Recording tensions() { return {false, false, false, false}; }
+};
+
 /// What is known of a body at each sample; a row a sample.
 struct BodyHistory {
   using Rows7 = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
@@ -105,7 +120,9 @@ struct EnergyHistory {
 /// system; the world is body 0 in the system and is left out here, so that bodies[i - 1] is body i.
 class History {
  public:
-  History(const LiftSystem& system, Eigen::Index sample_count, bool with_works);
+  /// @param with_works of a time integration; only with the energies of `recording`.
+  History(const LiftSystem& system, Eigen::Index sample_count, bool with_works,
+          const Recording& recording = {});
 
   Eigen::Index sample_count() const { return time.size(); }
 
@@ -125,7 +142,10 @@ class History {
   const RopeHistory& rope(std::string_view name) const;
   const LoopHistory& loop(std::string_view name) const;
 
-  /// Records the instant that the workspace holds: kinematics, loads, accelerations (w.vdot).
+  const Recording& recording() const { return recording_; }
+
+  /// Records the instant that the workspace holds: kinematics, loads of ropes and pads, and, where
+  /// the recording takes them, all loads and accelerations (w.vdot).
   void record(const LiftSystem& system, Eigen::Index sample, double t, LiftWorkspace& w);
   /// Energies done since the start, J, in the order of EnergyRates, at a sample that has been
   /// recorded.
@@ -133,12 +153,17 @@ class History {
 
  private:
   void add_water_inertia(const RadiatedWater& water, const LiftWorkspace& w);
-  void record_bodies(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
-  void record_ropes(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
+  void record_motion(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
+  void record_ropes(Eigen::Index sample, const LiftWorkspace& w);
+  void record_rope_forces(const LiftSystem& system, Eigen::Index sample, LiftWorkspace& w);
+  void record_accelerations(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
+  void record_energy(const LiftSystem& system, Eigen::Index sample, double t,
+                     const LiftWorkspace& w);
   static void record_edges(const RopePath& path, const RopeLoad& load, const RopeSplit& split,
                            Eigen::Index sample, RopeHistory& rope);
   void record_loops(const LiftSystem& system, Eigen::Index sample, const LiftWorkspace& w);
 
+  Recording recording_;
   Eigen::VectorXd buoyancy_in_waves_;  ///< of StoredEnergy, at each sample, J
 
   // Workspaces.

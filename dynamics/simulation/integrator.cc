@@ -42,7 +42,12 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
       roots_(static_cast<std::size_t>(events_.count())),
       sample_times_(samples_of(system, settings)),
       context_(sundials::make_context()),
-      result_{History(system, sample_times_.size(), settings.works), {}, {}, {}, {}, {}} {
+      result_{History(system, sample_times_.size(), settings.works, settings.recording),
+              {},
+              {},
+              {},
+              {},
+              {}} {
   if (!system.operation().steerings().empty()) steersman_.emplace(system);
   if (!(settings.relative_tolerance > 0.0) || settings.relative_tolerance > 0.1) {
     throw ModelError("the relative tolerance is " + std::to_string(settings.relative_tolerance) +
@@ -145,6 +150,21 @@ void Integrator::restart(double t) {
   ++result_.statistics.restarts;
 }
 
+// As much of a sample as is recorded.
+void Integrator::evaluate_sample(double t, ConstVectorRef y) {
+  if (!settings_.recording.takes_dynamics()) {
+    set_state(system_, y, w_);
+    set_drives(system_, t, true, w_);
+    calc_contact_loads(system_, &events_.contacts(), w_);
+    return;
+  }
+  // Multipliers of a sample are the least of all that balance it.
+  std::optional<LoopRows> rows;
+  rows.swap(w_.loop_rows);
+  calc_right_hand_side(system_, t, y, &events_.contacts(), w_, sundials::view(rates_.get()));
+  rows.swap(w_.loop_rows);
+}
+
 void Integrator::record_samples(double up_to) {
   while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
     loaded_time_ = evaluated_time_ = foreseen_time_ = not_a_number;
@@ -156,12 +176,7 @@ void Integrator::record_samples(double up_to) {
     }
     auto y = sundials::view(sample_.get());
     project_state(t, y);
-    // Multipliers of a sample are the least of all that balance it.
-    std::optional<LoopRows> rows;
-    rows.swap(w_.loop_rows);
-    calc_right_hand_side(system_, within_interval(t), y, &events_.contacts(), w_,
-                         sundials::view(rates_.get()));
-    rows.swap(w_.loop_rows);
+    evaluate_sample(within_interval(t), y);
     result_.history.record(system_, next_sample_, t, w_);
     if (settings_.observe) settings_.observe(next_sample_, t, w_);
     if (settings_.works) {

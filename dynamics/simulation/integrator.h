@@ -38,6 +38,7 @@ class Integrator {
   void restart(double t);
   void count_before_restart();
   void record_samples(double up_to);
+  void evaluate_sample(double t, ConstVectorRef y);
   void move_to(double t);
   void change_events(bool at_root);
   void slide_pads(double t);

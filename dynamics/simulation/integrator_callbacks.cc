@@ -44,7 +44,8 @@ int Integrator::right_hand_side(double t, N_Vector y, N_Vector ydot, void* data)
   self.loaded_time_ = self.evaluated_time_ = self.foreseen_time_ = not_a_number;
   return self.guarded([&] {
     calc_right_hand_side(self.system_, self.within_interval(t), sundials::view(y),
-                         &self.events_.contacts(), self.w_, sundials::view(ydot));
+                         &self.events_.contacts(), self.w_, sundials::view(ydot),
+                         DriveForces::unwanted);
     self.evaluated_time_ = t;
     self.events_.foresee(reach_of_errors * self.settings_.relative_tolerance);
     self.foreseen_time_ = t;

@@ -335,7 +335,7 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
   if (system.water()) add_water_forces(*system.water(), t, w);
 }
 
-void calc_accelerations(const LiftSystem& system, LiftWorkspace& w) {
+void calc_accelerations(const LiftSystem& system, LiftWorkspace& w, DriveForces drives) {
   const Mechanism& mechanism = system.mechanism();
   w.joint_force = w.loads.tau;
   if (w.loops || w.tied) {
@@ -345,18 +345,19 @@ void calc_accelerations(const LiftSystem& system, LiftWorkspace& w) {
         w.loops ? *w.loops : *w.tied, w.joint_force, w.vdot, water ? &water->inertia() : nullptr);
   } else {
     compute_forward_dynamics(mechanism, w.kinematics, w.v, w.loads.F_Bo_W, w.dynamics,
-                             w.joint_force, w.vdot);
+                             w.joint_force, w.vdot, drives);
   }
   // What forward dynamics finds at a driven joint includes the springs there.
   for (const int k : mechanism.driven_velocities()) w.joint_force[k] -= w.loads.tau[k];
 }
 
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
-                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot) {
+                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot,
+                          DriveForces drives) {
   set_state(system, y, w);
   set_drives(system, t, true, w);
   calc_loads(system, t, contacts, w);
-  calc_accelerations(system, w);
+  calc_accelerations(system, w, drives);
   system.mechanism().calc_rates(w.q, w.v, w.rates);
   get_state(system, w.rates, w.vdot, ydot);
   const RadiatedWater* water = system.water();

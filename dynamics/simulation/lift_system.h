@@ -215,15 +215,17 @@ void calc_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w);
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w,
                 HullForces hulls = HullForces::evaluated);
 /// Accelerations (w.vdot), drive forces (driven entries of w.joint_force) and multipliers of loops
-/// of what calc_loads has left.
-void calc_accelerations(const LiftSystem& system, LiftWorkspace& w);
+/// of what calc_loads has left. Drive forces that are unwanted may be left out.
+void calc_accelerations(const LiftSystem& system, LiftWorkspace& w,
+                        DriveForces drives = DriveForces::wanted);
 
 /// dy/dt at (t, y): the right-hand side. Leaves accelerations (w.vdot), drive forces
-/// (driven entries of w.joint_force), rope loads and multipliers of loops in the workspace. Does
-/// not allocate.
+/// (driven entries of w.joint_force; if unwanted they may be left out), rope loads and multipliers
+/// of loops in the workspace. Does not allocate.
 /// @throws ModelError or SimulationError where the geometry is degenerate or the pose singular.
 void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
-                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot);
+                          const Contacts* contacts, LiftWorkspace& w, VectorRef ydot,
+                          DriveForces drives = DriveForces::wanted);
 
 /// For each one-sided element a value (kN) that is positive where it acts and negative where it
 /// does not, continuous between, of the instant that calc_loads or calc_contact_loads has just

@@ -49,6 +49,8 @@ struct IntegrationSettings {
   double relative_tolerance = 1e-6;
   double sample_interval = 0.05;  ///< s
   bool works = true;              ///< accumulate the works of drives, winches, wind and dissipation
+  /// Of each sample. The works go with the energies, and are left out with them.
+  Recording recording = {};
   /// Nor may a hundredth of them bring it less than a hundredth of the way.
   long largest_step_count = 50'000'000;
   /// The water's surface to be marched beside (MarchedSurface), from calm; null: none. The system's
@@ -66,7 +68,8 @@ struct IntegrationSettings {
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
   /// Called at each sample with its number and time (s) and the workspace of that instant:
-  /// accelerations, loads and multipliers are those of the sample. May be empty.
+  /// positions, velocities, loads of ropes and pads, and, where the recording takes dynamics, all
+  /// loads, accelerations and multipliers are those of the sample. May be empty.
   std::function<void(Eigen::Index, double, const LiftWorkspace&)> observe = {};
 };
 
@@ -117,9 +120,10 @@ struct IntegrationResult {
 /// Steps end at stage changes and wherever a motion is not smooth, and at each instant at which a
 /// rope goes slack or taut or a pad is loaded or lifts off: which of them act is fixed during a
 /// step, so that no step crosses a change, and the integration starts anew behind it. Samples come
-/// from the method's own interpolation; accelerations, tensions and drive forces are computed anew
-/// from the interpolated state, so that each sample is consistent in itself. Largest loads are
-/// those of the samples.
+/// from the method's own interpolation; tensions and, where they are recorded, accelerations and
+/// drive forces are computed anew from the interpolated state, so that each sample is consistent in
+/// itself. Largest loads are those of the samples. The motion is the same bit for bit, whatever is
+/// recorded.
 ///
 /// Ropes with friction at sheaves or edges begin with one tension all along, as in equilibrium, and
 /// stick. Where one begins to slip, or ceases to, is an event too (RopeSplit).

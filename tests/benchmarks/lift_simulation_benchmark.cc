@@ -118,6 +118,21 @@ void turn_over_in_time(benchmark::State& state) {
 }
 BENCHMARK(turn_over_in_time)->Unit(benchmark::kMillisecond);
 
+// As a study's member whose figures are tensions.
+void turn_over_in_time_for_its_tensions(benchmark::State& state) {
+  const LiftSystem lift = samples::two_goliaths();
+  EquilibriumSolver solver(lift);
+  Eigen::VectorXd q = lift.q_start();
+  solver.solve(0.0, q);
+  IntegrationSettings settings;
+  settings.works = false;
+  settings.recording = Recording::tensions();
+  IntegrationStatistics cost;
+  for (auto _ : state) cost = integrate(lift, q, lift.v_start(), settings).statistics;
+  report(state, lift, cost);
+}
+BENCHMARK(turn_over_in_time_for_its_tensions)->Unit(benchmark::kMillisecond);
+
 void turn_over_static_sweep(benchmark::State& state) {
   const LiftSystem lift = samples::two_goliaths();
   const Eigen::VectorXd times = sample_times(lift.operation().duration(), 1.0);

@@ -162,6 +162,24 @@ TEST_P(RandomTree, HybridDynamicsAgreesWithInverseDynamics) {
   EXPECT_LT((s.inverse(vdot) - tau).norm(), 1e-12 * (tau.norm() + s.inverse(0 * vdot).norm()));
 }
 
+// Leaving the forces of drives out changes not a bit of the accelerations.
+TEST_P(RandomTree, AccelerationsDoNotDependOnWhetherDriveForcesAreWanted) {
+  MovingTree s(GetParam(), true);
+  const Eigen::VectorXd given_tau = s.random.values(s.mechanism.nv(), 10);
+  const Eigen::VectorXd given_vdot = s.random.values(s.mechanism.nv(), 3);
+  ForwardDynamicsWorkspace wanted(s.mechanism), unwanted(s.mechanism);
+  Eigen::VectorXd tau = given_tau, vdot = given_vdot;
+  compute_forward_dynamics(s.mechanism, s.kinematics, s.v, s.forces, wanted, tau, vdot);
+  Eigen::VectorXd other_tau = given_tau, other_vdot = given_vdot;
+  compute_forward_dynamics(s.mechanism, s.kinematics, s.v, s.forces, unwanted, other_tau,
+                           other_vdot, DriveForces::unwanted);
+  EXPECT_EQ(other_vdot, vdot);
+  for (std::size_t b = 0; b < wanted.A_WB.size(); ++b) {
+    EXPECT_EQ(unwanted.A_WB[b].linear, wanted.A_WB[b].linear);
+    EXPECT_EQ(unwanted.A_WB[b].angular, wanted.A_WB[b].angular);
+  }
+}
+
 // Rate of kinetic energy = power of joint forces, external forces and gravity, less the damping.
 TEST_P(RandomTree, PowerBalances) {
   MovingTree s(GetParam());
