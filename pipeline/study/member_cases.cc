@@ -28,13 +28,24 @@ std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd&
   return changes;
 }
 
+/// "weight = 870 t".
+std::string describe(const StudyVariable& variable, double value) {
+  return fmt::format("{} = {}", variable.name.value, value_text(variable, value, 6));
+}
+
 /// "weight = 870 t, R1 = 9.98 m".
 std::string describe(const StudyFile& study, const Eigen::VectorXd& values) {
   std::string text;
   for (std::size_t v = 0; v < study.variables.size(); ++v)
-    text += fmt::format("{}{} = {}", v > 0 ? ", " : "", study.variables[v].name.value,
-                        value_text(study.variables[v], values[v], 6));
+    text += (v > 0 ? ", " : "") + describe(study.variables[v], values[v]);
   return text;
+}
+
+/// Where the study says what values a variable takes.
+const Mark& place_of_values(const StudyVariable& variable) {
+  if (variable.law) return variable.law->place;
+  if (!variable.values.empty()) return variable.values.front().mark;
+  return variable.between.front().mark;
 }
 
 /// @throws InputError with what is wrong with the study's case as it stands, before any change.
@@ -65,11 +76,29 @@ LiftCase MemberCases::of(const Eigen::VectorXd& values, const std::vector<int>* 
     return std::move(*lift_case);
   }
   check_unchanged_case(study_);
-  // Complaints name the study's own lines, or those of the case and its models as they were
+  // Complaints name the study's own lines beside those of the case and its models as they were
   // changed.
-  diagnostics.error(study_.place, fmt::format("a member of the study is impossible: {}",
-                                              describe(study_, values)));
+  const std::vector<std::size_t> impossible = find_impossible(values);
+  for (const std::size_t v : impossible)
+    diagnostics.error(place_of_values(study_.variables[v]),
+                      fmt::format("a member of the study is impossible: {}",
+                                  describe(study_.variables[v], values[v])));
+  if (impossible.empty())
+    diagnostics.error(study_.place, fmt::format("a member of the study is impossible: {}",
+                                                describe(study_, values)));
   throw InputError(diagnostics);
+}
+
+std::vector<std::size_t> MemberCases::find_impossible(const Eigen::VectorXd& values) {
+  std::vector<std::size_t> impossible;
+  for (std::size_t v = 0; v < study_.variables.size(); ++v) {
+    Diagnostics diagnostics;
+    const std::vector<int> alone{static_cast<int>(v)};
+    library_.set_changes(changes_of(study_, values, &alone, diagnostics));
+    read_lift_case(study_.case_path(), library_, diagnostics);
+    if (diagnostics.has_errors()) impossible.push_back(v);
+  }
+  return impossible;
 }
 
 }  // namespace blocklift::pipeline

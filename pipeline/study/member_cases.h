@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,11 +18,15 @@ class MemberCases {
       : study_(study), library_(ModelLibrary::of_installation()) {}
 
   /// The case of a member: that of the study with the variables' values.
-  /// @throws InputError with what is wrong, and the values by which it is.
+  /// @throws InputError with what is wrong, and the values by which it is: each at its own line of
+  ///   the study if it alone makes the case impossible, else all of them together.
   /// @param only the places of the variables whose values are taken; null: all are.
   LiftCase of(const Eigen::VectorXd& values, const std::vector<int>* only = nullptr);
 
  private:
+  /// The variables whose values alone make the case impossible.
+  std::vector<std::size_t> find_impossible(const Eigen::VectorXd& values);
+
   const StudyFile& study_;
   ModelLibrary library_;
 };
