@@ -1,7 +1,9 @@
 #include "pipeline/lift/lift_run.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -37,6 +39,16 @@ void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorksp
 
 }  // namespace
 
+RunExtent operator|(const RunExtent& a, const RunExtent& b) {
+  return {a.at_rest || b.at_rest,
+          a.natural_modes || b.natural_modes,
+          a.energy || b.energy,
+          a.righting_height || b.righting_height,
+          a.motion || b.motion,
+          a.rope_forces || b.rope_forces,
+          a.accelerations || b.accelerations};
+}
+
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
                  const RunExtent& extent) {
   const auto report = [&](const char* stage) {
@@ -44,24 +56,29 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
       progress(stage, fraction, fmt::format("t = {:.0f} s", time));
     };
   };
+  if (!extent.at_rest && (extent.natural_modes || extent.righting_height))
+    throw std::invalid_argument("natural modes and righting heights are found on a sweep at rest");
   const dynamics::LiftSystem& system = model.system;
   const dynamics::LiftSystem& at_rest = model.at_rest();
   Stopwatch watch;
-  const Eigen::VectorXd times =
-      dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
+  Eigen::VectorXd times;
+  if (extent.at_rest)
+    times =
+        dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
   // Both histories begin at the same equilibrium.
   Eigen::VectorXd q = system.q_start();
   dynamics::EquilibriumSolver(at_rest).solve(0, q);
-  dynamics::TangentMatrices tangent(at_rest);
   Eigen::VectorXd righting_height =
       Eigen::VectorXd::Constant(times.size(), std::numeric_limits<double>::quiet_NaN());
-  const auto observe = [&](Eigen::Index sample, double time, dynamics::LiftWorkspace& w) {
-    if (extent.righting_height)
+  std::function<void(Eigen::Index, double, dynamics::LiftWorkspace&)> observe;
+  dynamics::TangentMatrices tangent(at_rest);
+  if (extent.righting_height)
+    observe = [&](Eigen::Index sample, double time, dynamics::LiftWorkspace& w) {
       righting_height[sample] =
           dynamics::calc_righting_height(at_rest, time, w, model.load, tangent);
-  };
-  dynamics::History static_history =
-      dynamics::static_sweep(at_rest, times, q, {}, report("static sweep"), observe);
+    };
+  dynamics::History static_history = dynamics::static_sweep(
+      at_rest, times, q, {}, report("static sweep"), observe, extent.recording());
   std::vector<NaturalModes> natural_modes;
   if (extent.natural_modes)
     natural_modes =
@@ -72,6 +89,7 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
   settings.sample_interval = lift_case.dynamics.sample_interval;
   settings.works = extent.energy;
+  settings.recording = extent.recording();
   settings.progress = report("time integration");
   std::optional<LugDisplacement> elastic;
   if (!system.elastic_bodies().empty()) {

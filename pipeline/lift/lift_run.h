@@ -35,23 +35,39 @@ struct LiftRun {
   Eigen::VectorXd righting_height = {};
 
   const dynamics::History& dynamic_history() const { return dynamic_result.history; }
+  /// Was the operation swept at rest? If not, the history at rest has no samples.
+  bool is_swept() const { return static_history.sample_count() > 0; }
   double simulated_s() const { return model.system.operation().duration(); }
 };
 
-/// What a run finds besides the motion and the loads, each at a cost of its own. The motion is the
-/// same bit for bit, whatever is left out.
+/// What a run finds besides the motion and the ropes' tensions, each at a cost of its own. What it
+/// finds is the same bit for bit, whatever else is left out.
 struct RunExtent {
-  /// They cost as much as the sweep at rest.
+  /// The operation's equilibria. Left out: the history at rest has no samples.
+  bool at_rest = true;
+  /// With those at rest alone. They cost as much as the sweep.
   bool natural_modes = true;
-  /// Works of drives, winches and surroundings at every step, as much as a third of the motion.
-  /// Left out: the energy history has no works, and a summary no `energy`.
+  /// Energies at each sample, and works of drives, winches and surroundings at every step, as much
+  /// as a third of the motion. Left out: a summary has no `energy`.
   bool energy = true;
-  /// Left out: not a number at each sample.
+  /// With those at rest alone. Left out: not a number at each sample.
   bool righting_height = true;
+  /// The rest of dynamics::Recording, in both histories.
+  bool motion = true, rope_forces = true, accelerations = true;
+
+  dynamics::Recording recording() const { return {motion, rope_forces, accelerations, energy}; }
+  /// The motion and the ropes' tensions alone.
+  static RunExtent tensions() { return {false, false, false, false, false, false, false}; }
+  /// What loads a block at rest and in motion: BlockLoads.
+  static RunExtent block_loads() { return {true, false, false, false, true, true, true}; }
+  /// What either finds.
+  friend RunExtent operator|(const RunExtent& a, const RunExtent& b);
 };
 
 /// Sweeps the operation at rest, finds the natural modes on the way, then integrates it in time
 /// from the first equilibrium.
+/// @throws std::invalid_argument if the extent has natural modes or righting heights without the
+///   sweep that they are found on.
 /// @throws dynamics::SimulationError when an equilibrium or the integration fails.
 LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& progress,
                  const RunExtent& extent = {});

@@ -57,6 +57,9 @@ dynamics::IntegrationResult run_up_to(const LiftCase& lift_case, const BuiltLift
   dynamics::IntegrationSettings settings;
   settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
   settings.sample_interval = lift_case.dynamics.sample_interval;
+  // What happened on the way up to there nobody asks for.
+  settings.works = false;
+  settings.recording = dynamics::Recording::tensions();
   settings.surface = model.marched.radiation.get();
   settings.surface_step = model.marched.step;
   settings.progress = [&](double, double time) {

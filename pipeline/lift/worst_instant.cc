@@ -196,6 +196,7 @@ class Search {
     settings.relative_tolerance = case_.dynamics.relative_tolerance;
     settings.sample_interval = case_.dynamics.sample_interval;
     settings.works = false;
+    settings.recording = dynamics::Recording::tensions();
     settings.surface = model.marched.radiation.get();
     settings.surface_step = model.marched.step;
     return settings;

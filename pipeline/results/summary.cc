@@ -48,15 +48,29 @@ Json check_json(const Check& check) {
   return json;
 }
 
+struct Peak {
+  double value, time;
+};
+
 /// Largest static and dynamic value of one load with their times.
-Json maxima_json(const std::string& name, double static_value, double static_time,
-                 double dynamic_value, double dynamic_time, const std::string& quantity) {
-  return {{"name", name},
-          {"max_static_" + quantity, static_value},
-          {"time_of_max_static_s", static_time},
-          {"max_dynamic_" + quantity, dynamic_value},
-          {"time_of_max_dynamic_s", dynamic_time},
-          {"dynamic_over_static", json_number(dynamic_value / static_value)}};
+/// @param at_rest none: the lift was not swept at rest.
+Json maxima_json(const std::string& name, const std::optional<Peak>& at_rest, const Peak& in_motion,
+                 const std::string& quantity) {
+  Json json{{"name", name}};
+  if (at_rest) {
+    json["max_static_" + quantity] = at_rest->value;
+    json["time_of_max_static_s"] = at_rest->time;
+  }
+  json["max_dynamic_" + quantity] = in_motion.value;
+  json["time_of_max_dynamic_s"] = in_motion.time;
+  if (at_rest) json["dynamic_over_static"] = json_number(in_motion.value / at_rest->value);
+  return json;
+}
+
+Peak peak_of(const Eigen::VectorXd& values, const Eigen::VectorXd& times) {
+  Eigen::Index at = 0;
+  const double value = values.maxCoeff(&at);
+  return {value, times[at]};
 }
 
 /// The ropes, hoists and cranes of a lift with their largest loads.
@@ -65,7 +79,8 @@ class LoadTables {
   LoadTables(const LiftCase& lift_case, const LiftRun& lift)
       : case_(lift_case),
         lift_(lift),
-        static_maxima_(dynamics::find_largest_tensions(lift.static_history)),
+        static_maxima_(lift.is_swept() ? dynamics::find_largest_tensions(lift.static_history)
+                                       : std::vector<LinkedMaximum>()),
         dynamic_maxima_(dynamics::find_largest_tensions(lift.dynamic_history())) {}
 
   Json ropes() const {
@@ -76,13 +91,13 @@ class LoadTables {
       if (!rope.hoist.empty()) row["hoist"] = rope.hoist;
       row["breaking_load_N"] = rope.breaking_load;
       if (const RopeInCase& in_case = *case_.find_rope(rope.name);
-          in_case.rope.diameter && find_bend(in_case, lift_))
+          in_case.rope.diameter && knows_bend(in_case) && find_bend(in_case, lift_))
         row["bend_efficiency"] = bend_efficiency(in_case, lift_);
       if (const auto& rope_of = lift_.model.system.ropes()[rope.rope];
           rope_of.definition().tension_law)
         row["largest_strain"] = rope_of.definition().tension_law->find_strain(
             row["max_dynamic_tension_N"].get<double>());
-      row["linked_static_N"] = linked(static_maxima_, rope.rope);
+      if (lift_.is_swept()) row["linked_static_N"] = linked(static_maxima_, rope.rope);
       row["linked_dynamic_N"] = linked(dynamic_maxima_, rope.rope);
       rows.push_back(row);
     }
@@ -97,7 +112,8 @@ class LoadTables {
       row["breaking_load_N"] = hoist.breaking_load;
       row["capacity_N"] = hoist.capacity;
       const auto& history = lift_.dynamic_history().ropes[hoist.rope];
-      row["max_swing_rad"] = swing_angles(hook_pull(history, hoist.hook_is_first)).maxCoeff();
+      if (lift_.dynamic_history().recording().rope_forces)
+        row["max_swing_rad"] = swing_angles(hook_pull(history, hoist.hook_is_first)).maxCoeff();
       rows.push_back(row);
     }
     return rows;
@@ -106,13 +122,13 @@ class LoadTables {
   Json cranes() const {
     Json rows = Json::array();
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) {
-      Eigen::Index static_at = 0, dynamic_at = 0;
-      const double at_rest = crane_load(lift_.model, lift_.static_history, i).maxCoeff(&static_at);
-      const double in_motion =
-          crane_load(lift_.model, lift_.dynamic_history(), i).maxCoeff(&dynamic_at);
+      const auto peak = [&](const dynamics::History& history) {
+        return peak_of(crane_load(lift_.model, history, i), history.time);
+      };
+      std::optional<Peak> at_rest;
+      if (lift_.is_swept()) at_rest = peak(lift_.static_history);
       Json row =
-          maxima_json(case_.cranes[i].name.value, at_rest, lift_.static_history.time(static_at),
-                      in_motion, lift_.dynamic_history().time(dynamic_at), "load_N");
+          maxima_json(case_.cranes[i].name.value, at_rest, peak(lift_.dynamic_history()), "load_N");
       if (case_.cranes[i].model->capacity) row["capacity_N"] = *case_.cranes[i].model->capacity;
       rows.push_back(row);
     }
@@ -182,11 +198,18 @@ class LoadTables {
     return (1 - s) * values[i - 1] + s * values[i];
   }
 
+  /// Which edges a rope touches stands beside its forces on them.
+  bool knows_bend(const RopeInCase& rope) const {
+    return rope.edges.empty() || lift_.dynamic_history().recording().rope_forces;
+  }
+
   Json rope_row(const std::string& name, int rope) const {
-    const LinkedMaximum& at_rest = static_maxima_[rope];
-    const LinkedMaximum& in_motion = dynamic_maxima_[rope];
-    return maxima_json(name, at_rest.tension, at_rest.time, in_motion.tension, in_motion.time,
-                       "tension_N");
+    const auto peak = [rope](const std::vector<LinkedMaximum>& maxima) {
+      return Peak{maxima[rope].tension, maxima[rope].time};
+    };
+    std::optional<Peak> at_rest;
+    if (lift_.is_swept()) at_rest = peak(static_maxima_);
+    return maxima_json(name, at_rest, peak(dynamic_maxima_), "tension_N");
   }
 
   Json linked(const std::vector<LinkedMaximum>& maxima, int rope) const {
@@ -421,18 +444,23 @@ Json comparison_json(const LiftCase& lift_case, const LiftRun* lift) {
   return json;
 }
 
-void add_loads(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
-  const LoadTables tables(lift_case, lift);
-  summary["ropes"] = tables.ropes();
-  summary["hoists"] = tables.hoists();
-  summary["cranes"] = tables.cranes();
+void add_loads(const LiftCase& lift_case, const LiftRun& lift, const WantedParts& wanted,
+               Json& summary) {
+  if (wanted("ropes") || wanted("hoists") || wanted("cranes")) {
+    const LoadTables tables(lift_case, lift);
+    if (wanted("ropes")) summary["ropes"] = tables.ropes();
+    if (wanted("hoists")) summary["hoists"] = tables.hoists();
+    if (wanted("cranes")) summary["cranes"] = tables.cranes();
+  }
+  if (!wanted("loops")) return;
   if (Json loops = loops_json(lift); !loops.empty()) summary["loops"] = std::move(loops);
 }
 
 /// Loads stage by stage, and measures.
-void add_watched(const LiftRun& lift, const std::vector<LiftMeasure>& measures, Json& summary) {
-  summary["stages"] = stages_json(lift);
-  summary["measures"] = measures_json(lift, measures);
+void add_watched(const LiftRun& lift, const std::vector<LiftMeasure>& measures,
+                 const WantedParts& wanted, Json& summary) {
+  if (wanted("stages")) summary["stages"] = stages_json(lift);
+  if (wanted("measures")) summary["measures"] = measures_json(lift, measures);
   if (Json parted = parted_json(lift); !parted.empty()) summary["parted"] = std::move(parted);
   if (Json worst = worst_instant_json(lift); !worst.is_null())
     summary["worst_instant"] = std::move(worst);
@@ -443,17 +471,22 @@ void add_doubts(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
     summary["warnings"].push_back(std::move(doubt));
 }
 
-void add_motion(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
-  summary["natural_periods"] =
-      natural_periods_json(lift.model.system.mechanism(), lift.natural_modes);
+void add_motion(const LiftCase& lift_case, const LiftRun& lift, const WantedParts& wanted,
+                Json& summary) {
+  if (wanted("natural_periods"))
+    summary["natural_periods"] =
+        natural_periods_json(lift.model.system.mechanism(), lift.natural_modes);
   summary["flexibility"] = flexibility_json(lift_case.dynamics, lift);
-  const RadiationRecord radiation = record_radiation(lift.model, lift.dynamic_history());
-  add_radiation(radiation, summary);
+  if (wanted("radiation"))
+    add_radiation(record_radiation(lift.model, lift.dynamic_history()), summary);
   // A member of a study may have left its works out.
   if (lift.dynamic_history().energy.drive_work.size() > 0) summary["energy"] = energy_json(lift);
   summary["solver"] =
       solver_json(lift.dynamic_result.statistics, lift.simulated_s(), lift.dynamic_s);
 }
+
+/// An assessment and a simulation that is written have all parts.
+bool all_parts(std::string_view) { return true; }
 
 Json document_json(const DocumentInCase& document) {
   Json json = Json::object();
@@ -487,19 +520,31 @@ Json make_summary(const Assessment& assessment) {
   if (assessment.standard) summary["standard"] = standard_json(*assessment.standard);
   const LiftRun* lift = assessment.lift ? &*assessment.lift : nullptr;
   if (lift) {
-    add_loads(assessment.lift_case, *lift, summary);
-    add_watched(*lift, assessment.measures, summary);
+    add_loads(assessment.lift_case, *lift, all_parts, summary);
+    add_watched(*lift, assessment.measures, all_parts, summary);
   }
   if (assessment.sling_lengths)
     summary["sling_lengths"] = sling_lengths_json(*assessment.sling_lengths);
   if (assessment.lift_case.compare)
     summary["comparison"] = comparison_json(assessment.lift_case, lift);
   if (assessment.block.model) summary["structure"] = structure_json(assessment);
-  if (lift) add_motion(assessment.lift_case, *lift, summary);
+  if (lift) add_motion(assessment.lift_case, *lift, all_parts, summary);
   summary["timing"] = timing_json(assessment);
   if (lift) add_doubts(assessment.lift_case, *lift, summary);
   summary["assumptions"] = list_assumptions(assessment);
   return summary;
+}
+
+Json make_simulation_figures(const LiftCase& lift_case, const LiftRun& lift,
+                             const std::vector<LiftMeasure>& measures, const WantedParts& wanted) {
+  Json figures = Json::object();
+  add_loads(lift_case, lift, wanted, figures);
+  add_watched(lift, measures, wanted, figures);
+  if (lift_case.compare && wanted("comparison"))
+    figures["comparison"] = comparison_json(lift_case, &lift);
+  add_motion(lift_case, lift, wanted, figures);
+  figures["timing"] = dynamics_timing(lift);
+  return figures;
 }
 
 Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift,
@@ -510,11 +555,7 @@ Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift,
                {"document", document_json(lift_case.document)},
                {"program_version", program_version},
                {"created", creation_time()}};
-  add_loads(lift_case, lift, summary);
-  add_watched(lift, measures, summary);
-  if (lift_case.compare) summary["comparison"] = comparison_json(lift_case, &lift);
-  add_motion(lift_case, lift, summary);
-  summary["timing"] = dynamics_timing(lift);
+  summary.update(make_simulation_figures(lift_case, lift, measures, all_parts));
   add_doubts(lift_case, lift, summary);
   return summary;
 }

@@ -77,11 +77,12 @@ void require_no_verdict(const std::filesystem::path& folder) {
   throw InputError(diagnostics);
 }
 
-LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
+LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress,
+                             const RunExtent& extent) {
   if (!lift_case.has_structure()) {
     BuiltLift model = prepare_lift(lift_case, load_mass(lift_case.load.vessel->model), progress);
     require_memory(lift_case, model);
-    LiftRun run = run_lift(lift_case, std::move(model), progress);
+    LiftRun run = run_lift(lift_case, std::move(model), progress, extent);
     std::vector<structure::LiftingPoint> lugs = vessel_lugs(lift_case.load);
     return {std::move(lift_case), std::move(lugs), std::move(run)};
   }
@@ -99,7 +100,7 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress) {
   return simulate_lift(
       std::move(lift_case),
       {load_mass(block->mass_properties()), block->mesh().lifting_points, std::move(flexibility)},
-      progress);
+      progress, extent);
 }
 
 LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,

@@ -27,7 +27,8 @@ void require_no_verdict(const std::filesystem::path& folder);
 /// Static sweep and time integration of a lift case. The load's mass is that of its mesh, as for
 /// `assess`.
 /// @throws InputError if the block cannot be meshed, dynamics::SimulationError as the stages do.
-LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress);
+LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress,
+                             const RunExtent& extent = {});
 
 /// What the motion of a lift takes from its block.
 struct KnownBlock {

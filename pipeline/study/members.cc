@@ -17,6 +17,7 @@
 #include "pipeline/measures/measure.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
+#include "pipeline/study/asked_figures.h"
 #include "pipeline/study/member_cases.h"
 #include "pipeline/version.h"
 
@@ -79,17 +80,6 @@ void take_figures(const StudyFile& study, const Json& summary, Member& member) {
         member.units.emplace_back(path, std::move(unit));
 }
 
-/// Measures and works cost as much as a third of a motion each, natural modes a tenth: they are
-/// found where a figure is one of them.
-bool asks_for(const StudyFile& study, const char* beginning) {
-  const auto begins_so = [&](const std::string& path) { return path.starts_with(beginning); };
-  const std::vector<const Located<std::string>*> sought = figures_of_search(study);
-  return std::any_of(sought.begin(), sought.end(),
-                     [&](const auto* path) { return begins_so(path->value); }) ||
-         std::any_of(study.figures.begin(), study.figures.end(),
-                     [&](const auto& path) { return begins_so(path.value); });
-}
-
 /// The part of a summary's structure that a study of stress has, at an assessment's places.
 Json stress_json(const LargestChecked& largest) {
   const auto state = [](double stress, double time, const structure::Vector3& place) {
@@ -103,36 +93,53 @@ Json stress_json(const LargestChecked& largest) {
             {"stress_increase_percent", largest.increase_percent()}}}};
 }
 
+/// What a member that ran has of what is asked.
+Json figures_of_run(const StudyFile& study, const AskedFigures& asked,
+                    const LiftSimulation& simulation, const Eigen::VectorXd& values,
+                    StudyBlocks& blocks) {
+  // Measures cost as much as a third of a motion.
+  const std::vector<LiftMeasure> measures =
+      asked.is_in("measures") ? find_measures(simulation.lift_case, simulation.run)
+                              : std::vector<LiftMeasure>{};
+  Json figures = make_simulation_figures(
+      simulation.lift_case, simulation.run, measures,
+      [&](std::string_view part) { return asked.is_among_all() || asked.is_in(part); });
+  if (study.run == StudyRun::stress && asked.is_in("structure"))
+    figures["structure"] =
+        stress_json(blocks.find_stress(simulation.lift_case, simulation.run, values));
+  return figures;
+}
+
+/// Runs a member as far as figures are asked for.
+/// @param full where its whole results go, if all is asked for; null: nowhere.
+Json run_as_far(const StudyFile& study, const AskedFigures& asked, const Eigen::VectorXd& values,
+                StudyBlocks& blocks, const std::optional<fs::path>& full) {
+  LiftCase lift_case = blocks.cases().of(values);
+  const Progress& progress = blocks.progress();
+  std::optional<KnownBlock> block;
+  if (lift_case.has_structure()) block = blocks.of(lift_case, values);
+  const LiftSimulation simulation =
+      block ? simulate_lift(std::move(lift_case), std::move(*block), progress, asked.extent())
+            : simulate_lift(std::move(lift_case), progress, asked.extent());
+  if (full) write_lift_simulation(simulation, *full, false);
+  return figures_of_run(study, asked, simulation, values, blocks);
+}
+
 Json summary_of(const StudyFile& study, const Eigen::VectorXd& values, StudyBlocks& blocks,
                 const std::optional<fs::path>& full) {
-  const Progress& progress = blocks.progress();
-  LiftCase lift_case = blocks.cases().of(values);
   if (study.run == StudyRun::assess || (full && study.run == StudyRun::stress)) {
-    const Assessment assessment = assess(std::move(lift_case), progress);
+    const Assessment assessment = assess(blocks.cases().of(values), blocks.progress());
     if (full) write_results(assessment, *full);
     return make_summary(assessment);
   }
-  // Without a list of figures natural periods and energies are among the usual ones.
-  const bool needs_all = full || study.figures.empty();
-  RunExtent extent;
-  if (!needs_all && !asks_for(study, "natural_periods")) extent.natural_modes = false;
-  extent.energy = needs_all || asks_for(study, "energy");
-  extent.righting_height = needs_all || asks_for(study, "measures.");
-  const bool has_block = lift_case.has_structure();
-  std::optional<KnownBlock> block;
-  if (has_block) block = blocks.of(lift_case, values);
-  const LiftSimulation simulation =
-      block ? simulate_lift(std::move(lift_case), std::move(*block), progress, extent)
-            : simulate_lift(std::move(lift_case), progress);
-  if (full) write_lift_simulation(simulation, *full, false);
-  const std::vector<LiftMeasure> measures =
-      asks_for(study, "measures.") ? find_measures(simulation.lift_case, simulation.run)
-                                   : std::vector<LiftMeasure>{};
-  Json summary = make_simulation_summary(simulation.lift_case, simulation.run, measures);
-  if (study.run == StudyRun::stress)
-    summary["structure"] =
-        stress_json(blocks.find_stress(simulation.lift_case, simulation.run, values));
-  return summary;
+  const AskedFigures asked(study);
+  if (full) return run_as_far(study, asked.among_all(), values, blocks, full);
+  Json figures = run_as_far(study, asked, values, blocks, full);
+  const bool has_all = std::ranges::all_of(
+      asked.paths(), [&](const std::string& path) { return has_figure(figures, path); });
+  if (has_all || asked.is_among_all()) return figures;
+  // A figure that is missing is looked for, and its nearest name, among all that there are.
+  return run_as_far(study, asked.among_all(), values, blocks, full);
 }
 
 }  // namespace

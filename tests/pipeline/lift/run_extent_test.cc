@@ -28,8 +28,25 @@ TEST(RunExtent, LeavesTheMotionAsItIs) {
   EXPECT_TRUE(least.natural_modes.empty());
   EXPECT_EQ(whole.dynamic_history().energy.winch_work.size(), whole.dynamic_history().time.size());
   EXPECT_EQ(least.dynamic_history().energy.winch_work.size(), 0);
+  EXPECT_EQ(least.dynamic_history().energy.kinetic.size(), 0);
   EXPECT_FALSE(whole.righting_height.hasNaN());
   EXPECT_TRUE(least.righting_height.array().isNaN().all());
+}
+
+TEST(RunExtent, MayBeTheTensionsAlone) {
+  const test::TemporaryFolder folder;
+  test::SampleLift().write(folder);
+  const LiftCase lift_case = read_lift_case("case.yaml");
+  const LiftRun whole = run_sample(lift_case);
+  const LiftRun least = run_sample(lift_case, RunExtent::tensions());
+  for (std::size_t i = 0; i < whole.dynamic_history().ropes.size(); ++i)
+    EXPECT_EQ(least.dynamic_history().ropes[i].tension, whole.dynamic_history().ropes[i].tension);
+  EXPECT_TRUE(whole.is_swept());
+  EXPECT_FALSE(least.is_swept());
+  EXPECT_EQ(least.dynamic_history().bodies[0].pose.rows(), 0);
+  RunExtent impossible = RunExtent::tensions();
+  impossible.natural_modes = true;
+  EXPECT_THROW(run_sample(lift_case, impossible), std::invalid_argument);
 }
 
 }  // namespace

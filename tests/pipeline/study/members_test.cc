@@ -1,0 +1,107 @@
+// Members run no farther than their figures ask, and their figures are those of a whole run.
+#include "pipeline/study/members.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/study/asked_figures.h"
+#include "pipeline/study/study_design.h"
+#include "pipeline/study/study_run.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+class Members : public ::testing::Test {
+ protected:
+  Members() {
+    std::filesystem::copy(BLOCKLIFT_SMALL_LIFT, "lift", std::filesystem::copy_options::recursive);
+  }
+
+  StudyFile study_of(const std::string& figures, const std::string& run = "simulate") const {
+    folder_.write("study.yaml", "study: small\ncase: lift\ndesign: grid\nrun: " + run +
+                                    (figures.empty() ? "" : "\nfigures: [" + figures + "]") +
+                                    "\nvary: {w: {keys: ['block:mass'], values: [8.1 t]}}\n");
+    return read_study("study.yaml");
+  }
+  static Member run(const StudyFile& study) {
+    StudyBlocks blocks(study, "members");
+    std::filesystem::create_directories("members");
+    Member member = run_member(study, make_design(study).row(0), 0, blocks);
+    EXPECT_EQ(member.failure, "");
+    return member;
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+// A part of which nothing is known beside a figure makes the whole run of it. The same operations
+// in the same order give the same bits: nothing is tolerated.
+TEST_F(Members, HaveTheFiguresOfAWholeRun) {
+  const std::vector<std::string> paths = {
+      "ropes.R1.max_dynamic_tension_N",
+      "ropes.R2.time_of_max_dynamic_s",
+      "ropes.R1.linked_dynamic_N.R3",
+      "ropes.R1.dynamic_over_static",
+      "hoists.C1.left.max_dynamic_tension_N",
+      "hoists.C1.left.max_swing_rad",
+      "cranes.C1.max_static_load_N",
+      "cranes.C1.max_dynamic_load_N",
+      "stages.carry.load.max_dynamic_tension_N",
+      "'measures.load: tilt.dynamic'",
+      "'measures.load: righting height.static'",
+      "energy.relative_imbalance",
+      "solver.steps",
+  };
+  std::string all = "timing.simulated_s";
+  for (const std::string& path : paths) all += ", " + path;
+  const StudyFile whole_study = study_of(all);
+  EXPECT_TRUE(AskedFigures(whole_study).is_among_all());
+  const Member whole = run(whole_study);
+  EXPECT_TRUE(whole.unknown.empty());
+  ASSERT_EQ(whole.figures.size(), paths.size() + 1);
+  for (const std::string& path : paths) {
+    const StudyFile study = study_of(path);
+    EXPECT_FALSE(AskedFigures(study).is_among_all()) << path;
+    const Member member = run(study);
+    ASSERT_EQ(member.figures.size(), 1U) << path;
+    const auto& [name, value] = member.figures.front();
+    EXPECT_EQ(value, whole.figure(name)) << path;
+    EXPECT_EQ(member.unit(name), whole.unit(name)) << path;
+  }
+}
+
+TEST_F(Members, HaveTheStressOfAWholeRun) {
+  const std::string stress = "structure.history.dynamic.checked_von_mises_Pa";
+  const std::string increase = "structure.history.stress_increase_percent";
+  const Member part = run(study_of(stress + ", " + increase, "stress"));
+  const Member whole = run(study_of(stress + ", " + increase + ", timing.simulated_s", "stress"));
+  EXPECT_GT(part.figure(stress), 1e6);
+  EXPECT_EQ(part.figure(stress), whole.figure(stress));
+  EXPECT_EQ(part.figure(increase), whole.figure(increase));
+}
+
+TEST_F(Members, FindNothingThatIsNotAskedFor) {
+  const auto extent = [&](const std::string& figures) {
+    return AskedFigures(study_of(figures)).extent();
+  };
+  const RunExtent tension = extent("ropes.R1.max_dynamic_tension_N, cranes.C1.max_dynamic_load_N");
+  EXPECT_FALSE(tension.at_rest || tension.natural_modes || tension.energy || tension.motion ||
+               tension.rope_forces || tension.accelerations || tension.righting_height);
+  EXPECT_TRUE(extent("ropes.R1.max_static_tension_N").at_rest);
+  EXPECT_TRUE(extent("hoists.C1.left.max_swing_rad").rope_forces);
+  const RunExtent energy = extent("energy.relative_imbalance");
+  EXPECT_TRUE(energy.energy);
+  EXPECT_FALSE(energy.at_rest || energy.motion || energy.rope_forces);
+  // The usual figures have loads at rest and in motion, and natural periods.
+  const RunExtent usual = extent("");
+  EXPECT_TRUE(usual.at_rest && usual.natural_modes);
+  EXPECT_FALSE(usual.energy || usual.accelerations);
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
