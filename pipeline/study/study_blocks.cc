@@ -136,13 +136,14 @@ void require_balance(const structure::LoadCase& load_case, const MassProperties&
 void find_largest(const structure::StressBasis& basis, const BlockAttachment& attachment,
                   const BlockHistory& history, const MassProperties& mass, double& stress,
                   double& time, Vector3& place) {
-  Eigen::MatrixXd factors(basis.components().cols(), history.sample_count());
+  const structure::StressOfBlock block(basis, mass, attachment.lugs.size());
+  Eigen::MatrixXd factors(block.unit_loads(), history.sample_count());
   for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample) {
     const structure::LoadCase load_case = map_instant(history, sample, attachment, mass);
     require_balance(load_case, mass, attachment);
-    factors.col(sample) = basis.factors(load_case, mass);
+    factors.col(sample) = block.factors(load_case);
   }
-  const structure::LargestValue largest = find_largest_checked(basis, factors, 1);
+  const structure::LargestValue largest = find_largest_checked(block, factors, 1);
   if (largest.point < 0) throw std::runtime_error("the block has no plating");
   stress = largest.value;
   time = history.motion.time[largest.instant];
@@ -219,7 +220,7 @@ structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) {
   const LiftRun run = run_lift(lift_case,
                                prepare_lift(lift_case, load_mass(model->mass_properties()),
                                             progress_, flexibility ? &*flexibility : nullptr),
-                               progress_);
+                               progress_, RunExtent::block_loads());
   const auto factors = [&](const structure::ElasticModel& of, structure::UnitResponses& of_mesh) {
     BlockLoads loads(run.model, run.static_history, run.dynamic_history(),
                      of.mesh().lifting_points);

@@ -62,23 +62,52 @@ StressBasis::StressBasis(std::vector<Square> squares, Eigen::MatrixXd components
         return StressBasis(std::move(squares), {kept->data(), kept->rows(), kept->cols()}, kept);
       }()) {}
 
-Eigen::VectorXd StressBasis::factors(const LoadCase& load_case, const MassProperties& mass) const {
+StressOfBlock::StressOfBlock(const StressBasis& basis, const MassProperties& mass, std::size_t lugs)
+    : basis_(basis),
+      lug_forces_(static_cast<Eigen::Index>(3 * lugs)),
+      density_(mass.factor_alpha, mass.factor_beta.x(), mass.factor_beta.y(),
+               mass.factor_beta.z()) {
+  const Eigen::VectorXd& unit = basis.weights();
+  const Eigen::Index added = unit.size() - lug_forces_ - densities * fields;
+  if (added < 0)
+    throw ModelError(
+        fmt::format("a basis of stress of {} unit loads is not one of {} lugs", unit.size(), lugs));
+  const auto of_densities =
+      unit.segment<densities * fields>(lug_forces_).reshaped(fields, densities);
+  weights_.resize(lug_forces_ + fields + added);
+  weights_.head(lug_forces_) = unit.head(lug_forces_);
+  weights_.segment<fields>(lug_forces_) = (of_densities * density_.asDiagonal()).rowwise().norm();
+  weights_.tail(added) = unit.tail(added);
+}
+
+Eigen::VectorXd StressOfBlock::factors(const LoadCase& load_case) const {
   const auto lug_forces = static_cast<Eigen::Index>(3 * load_case.lug_forces_B.size());
-  if (columns_ != lug_forces + densities * fields + load_case.added.size())
+  const Eigen::Index added = load_case.added.size();
+  if (lug_forces != lug_forces_ || unit_loads() != lug_forces + fields + added)
     throw ModelError(
         fmt::format("load case \"{}\" has {} lug forces and {} added loads; the block's basis has "
-                    "{} forces and added loads in all",
-                    load_case.name, load_case.lug_forces_B.size(), load_case.added.size(),
-                    columns_ - densities * fields));
-  Eigen::VectorXd all(columns_);
+                    "{} and {}",
+                    load_case.name, load_case.lug_forces_B.size(), added, lug_forces_ / 3,
+                    unit_loads() - fields - lug_forces_));
+  Eigen::VectorXd all(unit_loads());
   for (std::size_t lug = 0; lug < load_case.lug_forces_B.size(); ++lug)
     all.segment<3>(3 * lug) = load_case.lug_forces_B[lug];
-  const Eigen::Matrix<double, fields, 1> field = load_case.field.coefficients();
-  all.segment<fields>(lug_forces) = mass.factor_alpha * field;
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-    all.segment<fields>(lug_forces + (1 + axis) * fields) = mass.factor_beta[axis] * field;
-  all.tail(load_case.added.size()) = load_case.added;
+  all.segment<fields>(lug_forces) = load_case.field.coefficients();
+  all.tail(added) = load_case.added;
   return all;
+}
+
+Eigen::MatrixXd StressOfBlock::components(int first_square, int count) const {
+  const auto of_all = basis_.components().middleRows(3L * first_square, 3L * count);
+  const Eigen::Index added = unit_loads() - lug_forces_ - fields;
+  Eigen::MatrixXd result(3L * count, unit_loads());
+  result.leftCols(lug_forces_) = of_all.leftCols(lug_forces_);
+  result.rightCols(added) = of_all.rightCols(added);
+  auto own = result.middleCols<fields>(lug_forces_);
+  own = density_[0] * of_all.middleCols<fields>(lug_forces_);
+  for (Eigen::Index density = 1; density < densities; ++density)
+    own += density_[density] * of_all.middleCols<fields>(lug_forces_ + density * fields);
+  return result;
 }
 
 StressBasis make_stress_basis(const UnitResponses& responses, std::vector<Square> squares,
@@ -113,13 +142,11 @@ void add_loads(const UnitResponses& responses, Eigen::MatrixXd loads, StressBasi
   basis = StressBasis(basis.squares(), std::move(all));
 }
 
-LargestValue find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
+LargestValue find_largest_checked(const StressOfBlock& block, const Eigen::MatrixXd& factors,
                                   int threads) {
-  const auto unit_stress = [&](int first, int count) -> Eigen::MatrixXd {
-    return basis.components().middleRows(3L * first, 3L * count);
-  };
-  return find_largest_in_plane(LoadHistory(factors, basis.weights()),
-                               static_cast<int>(basis.squares().size()), unit_stress, threads);
+  const auto unit_stress = [&](int first, int count) { return block.components(first, count); };
+  return find_largest_in_plane(LoadHistory(factors, block.weights()),
+                               static_cast<int>(block.squares().size()), unit_stress, threads);
 }
 
 }  // namespace blocklift::structure

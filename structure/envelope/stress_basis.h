@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -35,15 +36,37 @@ class StressBasis {
   /// Root mean square of each unit load's components, Pa.
   const Eigen::VectorXd& weights() const { return weights_; }
 
-  /// Factors of the unit loads for a load case of a block of some mass, which is in balance.
-  /// @throws ModelError if the number of lug forces or added loads is not that of the basis.
-  Eigen::VectorXd factors(const LoadCase& load_case, const MassProperties& mass) const;
-
  private:
   std::vector<Square> squares_;
   std::shared_ptr<const void> keeper_;  ///< of the components
   const double* first_ = nullptr;
   Eigen::Index rows_ = 0, columns_ = 0;
+  Eigen::VectorXd weights_;
+};
+
+/// The basis of one block, whose mass is known: of each inertia field its own density's stress in
+/// place of those of four densities, which are put together a batch of squares at a time.
+class StressOfBlock {
+ public:
+  /// @param basis outlives this.
+  /// @throws ModelError if the basis has fewer unit loads than so many lugs and the fields.
+  StressOfBlock(const StressBasis& basis, const MassProperties& mass, std::size_t lugs);
+
+  const std::vector<Square>& squares() const { return basis_.squares(); }
+  /// Factors of the unit loads, three a lug, the twelve fields, those that were added, for a load
+  /// case that is in balance.
+  /// @throws ModelError if the number of lug forces or added loads is not that of the basis.
+  Eigen::VectorXd factors(const LoadCase& load_case) const;
+  Eigen::Index unit_loads() const { return weights_.size(); }
+  /// Components (11, 22, 12 a square) of each unit load, Pa.
+  Eigen::MatrixXd components(int first_square, int count) const;
+  /// About the root mean square of each unit load's components, Pa.
+  const Eigen::VectorXd& weights() const { return weights_; }
+
+ private:
+  const StressBasis& basis_;
+  Eigen::Index lug_forces_;
+  Eigen::Vector4d density_;  ///< as a sum of the four
   Eigen::VectorXd weights_;
 };
 
@@ -58,8 +81,8 @@ void add_loads(const UnitResponses& responses, Eigen::MatrixXd loads, StressBasi
                int threads = 0);
 
 /// The largest checked stress over squares and instants, Pa.
-/// @param factors StressBasis::factors, a column an instant.
-LargestValue find_largest_checked(const StressBasis& basis, const Eigen::MatrixXd& factors,
+/// @param factors StressOfBlock::factors, a column an instant.
+LargestValue find_largest_checked(const StressOfBlock& block, const Eigen::MatrixXd& factors,
                                   int threads = 0);
 
 }  // namespace blocklift::structure
