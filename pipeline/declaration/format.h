@@ -44,7 +44,7 @@ class ValueReader {
   const SharedReader& erased() const { return reader_; }
 
  private:
-  // One type of pointer for all readers: one for each took a third of its tables' compilation.
+  // One type of pointer for all readers, which else is compiled for each of them.
   using Owned = std::unique_ptr<const ErasedReader>;
 
   template <class Read>
