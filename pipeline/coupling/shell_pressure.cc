@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <tuple>
 
-#include "algebra/decompositions.h"
+#include "dynamics/algebra/dense_algebra.h"
+#include "dynamics/algebra/row_products.h"
 #include "dynamics/marine/hull/wet_triangle.h"
+#include "parallel/threads.h"
 
 namespace blocklift::pipeline {
 
@@ -38,18 +39,45 @@ void find_water(const WaveField& waves, bool in_waves, double time, const Pose& 
   }
 }
 
-// Wrenches of a history, a column a sample.
-Eigen::MatrixXd wrenches_of(const ShellPressure& pressure, Eigen::Index rows, const HullForce& hull,
-                            const dynamics::History& history) {
+/// Wrenches of a history at those samples at which water presses on the hull.
+struct WetSamples {
+  std::vector<Eigen::Index> samples;  ///< ascending
+  Eigen::MatrixXd wrenches;           ///< a column each
+};
+
+WetSamples wet_samples_of(const ShellPressure& pressure, Eigen::Index rows, const HullForce& hull,
+                          const dynamics::History& history) {
+  constexpr int batch = 64;
   const HullForce::Definition& definition = hull.definition();
   const dynamics::BodyHistory& body = history.bodies[definition.body - 1];
   const bool in_waves = definition.wave_loading == dynamics::WaveLoading::froude_krylov &&
                         !definition.sea->waves.is_still();
-  Eigen::MatrixXd wrenches(rows, history.sample_count());
-  for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample)
-    pressure.calc_wrenches(*definition.sea, in_waves, history.time(sample), body.X_WB(sample),
-                           wrenches.col(sample));
-  return wrenches;
+  const int count = static_cast<int>(history.sample_count());
+  std::vector<WetSamples> parts(static_cast<std::size_t>((count + batch - 1) / batch));
+  parallel::in_batches(count, batch, 0, [&](int first, int some) {
+    WetSamples& part = parts[static_cast<std::size_t>(first / batch)];
+    Eigen::MatrixXd wrenches(rows, some);
+    Eigen::Index wet = 0;
+    for (int sample = first; sample < first + some; ++sample) {
+      pressure.calc_wrenches(*definition.sea, in_waves, history.time(sample), body.X_WB(sample),
+                             wrenches.col(wet));
+      if (wrenches.col(wet).isZero(0)) continue;
+      part.samples.push_back(sample);
+      ++wet;
+    }
+    part.wrenches = wrenches.leftCols(wet);
+  });
+  WetSamples all;
+  for (const WetSamples& part : parts)
+    all.samples.insert(all.samples.end(), part.samples.begin(), part.samples.end());
+  all.wrenches.resize(rows, static_cast<Eigen::Index>(all.samples.size()));
+  Eigen::Index next = 0;
+  for (WetSamples& part : parts) {
+    all.wrenches.middleCols(next, part.wrenches.cols()) = part.wrenches;
+    next += part.wrenches.cols();
+    part.wrenches.resize(0, 0);
+  }
+  return all;
 }
 
 // Force and moment about Bo of regions' wrenches, a column each.
@@ -66,28 +94,68 @@ Eigen::MatrixXd resultants_of(const structure::ShellRegions& shell,
   return sum;
 }
 
-// The fewest modes (columns of `modes`, most important first) that leave no more than the tolerance
-// of the largest column, and what they leave.
-std::pair<Eigen::Index, double> count_modes(const Eigen::MatrixXd& modes,
-                                            const Eigen::MatrixXd& columns, double tolerance) {
+/// Modes of columns, most important first, as many as leave no more than the tolerance.
+struct ColumnModes {
+  Eigen::MatrixXd modes;    ///< orthonormal columns
+  Eigen::MatrixXd factors;  ///< of the columns, a row a mode
+  double error = 0;         ///< largest of what is left of a column, over the largest column
+};
+
+ColumnModes find_modes(const Eigen::MatrixXd& columns, double tolerance) {
+  constexpr Eigen::Index together = 16;
+  Eigen::MatrixXd ascending = dynamics::row_products(columns);
+  dynamics::decompose_symmetric(ascending);
   Eigen::VectorXd left = columns.colwise().squaredNorm();
   const double largest = left.maxCoeff();
+  ColumnModes found;
+  found.modes = ascending.rowwise().reverse();
   Eigen::Index count = 0;
-  while (count < modes.cols() && left.maxCoeff() > tolerance * tolerance * largest) {
-    left -= (modes.col(count).transpose() * columns).colwise().squaredNorm().transpose();
+  while (count < found.modes.cols() && left.maxCoeff() > tolerance * tolerance * largest) {
+    if (count == found.factors.rows()) {
+      const Eigen::Index more = std::min(together, found.modes.cols() - count);
+      found.factors.conservativeResize(count + more, columns.cols());
+      found.factors.bottomRows(more) = found.modes.middleCols(count, more).transpose() * columns;
+    }
+    left -= found.factors.row(count).cwiseAbs2().transpose();
     ++count;
   }
-  return {count, std::sqrt(std::max(0.0, left.maxCoeff()) / largest)};
+  found.modes.conservativeResize(Eigen::NoChange, count);
+  found.factors.conservativeResize(count, columns.cols());
+  found.error = std::sqrt(std::max(0.0, left.maxCoeff()) / largest);
+  return found;
+}
+
+/// The rows that are not zero throughout.
+std::vector<Eigen::Index> rows_in_use(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd largest = matrix.cwiseAbs().rowwise().maxCoeff();
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index row = 0; row < largest.size(); ++row)
+    if (largest[row] > 0) rows.push_back(row);
+  return rows;
+}
+
+/// Factors at all samples of a history from those of some, a column each; elsewhere they are zero.
+Eigen::MatrixXd at_all_samples(const Eigen::MatrixXd& factors,
+                               const std::vector<Eigen::Index>& samples, Eigen::Index count) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(factors.rows(), count);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    all.col(samples[i]) = factors.col(static_cast<Eigen::Index>(i));
+  return all;
 }
 
 }  // namespace
 
 ShellPressure::ShellPressure(const dynamics::Hull& hull, const structure::ShellRegions& shell)
     : points_B_(hull.vertices()) {
+  std::vector<int> region_of(static_cast<std::size_t>(hull.panel_count()));
+  parallel::in_batches(hull.panel_count(), 64, 0, [&](int first, int count) {
+    for (int panel = first; panel < first + count; ++panel)
+      region_of[static_cast<std::size_t>(panel)] =
+          shell.nearest(hull.panel_midpoint(panel), hull.panel_area_vector(panel).normalized());
+  });
   for (int panel = 0; panel < hull.panel_count(); ++panel) {
     const auto corners = hull.panel(panel);
-    const int region =
-        shell.nearest(hull.panel_midpoint(panel), hull.panel_area_vector(panel).normalized());
+    const int region = region_of[static_cast<std::size_t>(panel)];
     for (std::size_t i = 2; i < corners.size(); ++i)
       panels_.push_back({{corners[0], corners[i - 1], corners[i]}, region});
   }
@@ -135,30 +203,35 @@ std::optional<PressureBasis> find_pressure_basis(const structure::ElasticModel& 
   const structure::ShellRegions shell(model, settings.region_size);
   const ShellPressure pressure(in_motion.definition().hull->hull(), shell);
   const auto regions = static_cast<Eigen::Index>(shell.regions().size());
-  const Eigen::Index static_count = static_history.sample_count();
-  Eigen::MatrixXd wrenches(6 * regions, static_count + dynamic_history.sample_count());
-  wrenches << wrenches_of(pressure, 6 * regions, at_rest, static_history),
-      wrenches_of(pressure, 6 * regions, in_motion, dynamic_history);
-  if (wrenches.isZero(0)) return {};
-
+  const WetSamples still = wet_samples_of(pressure, 6 * regions, at_rest, static_history),
+                   moving = wet_samples_of(pressure, 6 * regions, in_motion, dynamic_history);
+  const Eigen::Index still_count = still.wrenches.cols(), moving_count = moving.wrenches.cols();
+  if (still_count + moving_count == 0) return {};
+  Eigen::MatrixXd scaled(6 * regions, still_count + moving_count);
+  scaled.leftCols(still_count) = still.wrenches;
+  scaled.rightCols(moving_count) = moving.wrenches;
+  // Most of the shell stays dry, and nothing of a mode is there.
+  const std::vector<Eigen::Index> wet = rows_in_use(scaled);
+  if (wet.empty()) return {};
+  scaled = scaled(wet, Eigen::all).eval();
   Eigen::VectorXd scale(6 * regions);
   scale.reshaped(6, regions).topRows<3>().setOnes();
   scale.reshaped(6, regions).bottomRows<3>().setConstant(2 / settings.region_size);
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * wrenches;
-  const auto system = algebra::symmetric_eigensystem<Eigen::Dynamic>(scaled * scaled.transpose());
-  const Eigen::MatrixXd modes = system.vectors.rowwise().reverse();
-  const auto [count, error] = count_modes(modes, scaled, settings.tolerance);
+  scaled.array().colwise() *= scale(wet).array();
+  const ColumnModes found = find_modes(scaled, settings.tolerance);
 
   PressureBasis basis;
   basis.regions = static_cast<int>(regions);
-  basis.error = error;
-  const Eigen::MatrixXd factors = modes.leftCols(count).transpose() * scaled;
-  const Eigen::MatrixXd fields = scale.cwiseInverse().asDiagonal() * modes.leftCols(count);
+  basis.error = found.error;
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(6 * regions, found.modes.cols());
+  fields(wet, Eigen::all) = scale(wet).cwiseInverse().asDiagonal() * found.modes;
   basis.loads = shell.loads(fields);
   basis.resultants = resultants_of(shell, fields);
-  basis.static_factors = factors.leftCols(static_count);
-  basis.dynamic_factors = factors.rightCols(dynamic_history.sample_count());
-  basis.largest_force = (basis.resultants.topRows<3>() * factors).colwise().norm().maxCoeff();
+  basis.static_factors = at_all_samples(found.factors.leftCols(still_count), still.samples,
+                                        static_history.sample_count());
+  basis.dynamic_factors = at_all_samples(found.factors.rightCols(moving_count), moving.samples,
+                                         dynamic_history.sample_count());
+  basis.largest_force = (basis.resultants.topRows<3>() * found.factors).colwise().norm().maxCoeff();
   return basis;
 }
 

@@ -6,7 +6,9 @@
 #include <limits>
 #include <map>
 
+#include "parallel/threads.h"
 #include "structure/error.h"
+#include "structure/index.h"
 #include "structure/mesh/shell_tree.h"
 #include "structure/system/matter.h"
 
@@ -39,6 +41,26 @@ std::vector<int> shells_without_lugs(const Mesh& mesh) {
   return shells;
 }
 
+/// For each cell whether it looks outwards against its normal, and along it.
+std::vector<std::array<bool, 2>> outward_sides(const Space& space) {
+  const Mesh& mesh = space.mesh();
+  const ShellTree tree(mesh, shells_without_lugs(mesh));
+  const int cells = static_cast<int>(space.shells().size());
+  std::vector<std::array<bool, 2>> sides(at(cells), {false, false});
+  parallel::in_batches(cells, 64, 0, [&](int first, int count) {
+    for (int cell = first; cell < first + count; ++cell) {
+      if (is_lug(mesh, space.shells()[cell].shell)) continue;
+      const Vector3 area = area_vector(space, cell), place = space.place(cell, middle);
+      // The tree's triangles of a curved shell lie a little off the place that a ray starts from.
+      const double own_shell = 5e-3 * std::sqrt(area.norm()) / space.shells()[cell].size;
+      for (const int side : {-1, 1})
+        sides[at(cell)][side < 0 ? 0 : 1] =
+            !tree.is_hit(place, side * area.normalized(), own_shell);
+    }
+  });
+  return sides;
+}
+
 }  // namespace
 
 ShellRegions::ShellRegions(const ElasticModel& model, double size) : model_(model) {
@@ -51,17 +73,14 @@ ShellRegions::ShellRegions(const ElasticModel& model, double size) : model_(mode
 void ShellRegions::divide(double size) {
   const Mesh& mesh = model_.mesh();
   const Space& space = model_.space();
-  const ShellTree tree(mesh, shells_without_lugs(mesh));
+  const std::vector<std::array<bool, 2>> looks_out = outward_sides(space);
   std::map<std::array<int, 5>, int> found;  // plate, side, axis, place along two others
   for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell) {
     const int shell = space.shells()[cell].shell;
-    if (is_lug(mesh, shell)) continue;
     const Vector3 area = area_vector(space, cell), place = space.place(cell, middle);
-    // The tree's triangles of a curved shell lie a little off the place that a ray starts from.
-    const double own_shell = 5e-3 * std::sqrt(area.norm()) / space.shells()[cell].size;
     for (const int side : {-1, 1}) {
+      if (!looks_out[at(cell)][side < 0 ? 0 : 1]) continue;
       const Vector3 outward = side * area.normalized();
-      if (tree.is_hit(place, outward, own_shell)) continue;
       const int axis = main_axis(outward);
       const auto band = [&](int along) {
         return static_cast<int>(std::floor(place[along] / size));

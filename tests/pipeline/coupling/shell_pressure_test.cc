@@ -153,11 +153,13 @@ TEST(ShellPressure, PressureOfAHalfSubmergedBoxDoesTheWorkOfThatOnItsFaces) {
 }
 
 /// A box that is lowered into the water, heeling, at a number of instants.
-dynamics::History lowering(const dynamics::LiftSystem& system, int instants, double roll) {
+/// @param height of its middle at first, m; it is dry above 2.
+dynamics::History lowering(const dynamics::LiftSystem& system, int instants, double roll,
+                           double height = 3) {
   dynamics::History history(system, instants, false);
   for (int k = 0; k < instants; ++k) {
     const double s = static_cast<double>(k) / (instants - 1);
-    const Pose X_WB = pose(roll * std::sin(20 * s), 0.02 * std::cos(15 * s), 3 - 3 * s);
+    const Pose X_WB = pose(roll * std::sin(20 * s), 0.02 * std::cos(15 * s), height * (1 - s));
     history.time(k) = 100 * s;
     history.bodies[0].pose.row(k).head<3>() = X_WB.p;
     history.bodies[0].pose.row(k).tail<4>() = dynamics::quaternion_from_rotation(X_WB.R);
@@ -165,16 +167,43 @@ dynamics::History lowering(const dynamics::LiftSystem& system, int instants, dou
   return history;
 }
 
-TEST(ShellPressure, FewFieldsMakeUpThePressureOfEveryInstant) {
-  const structure::ElasticModel model = box_model(3, 1);
+/// A box in a wave.
+dynamics::LiftSystem box_in_waves() {
   dynamics::ForceElements elements;
   std::get<std::vector<HullForce>>(elements).push_back(
       hull_force(box_hull(4), WaveField(deep, {{0.3, 0.9, 0.7, 0}})));
   const dynamics::Mechanism mechanism = dynamics::testing::OneBody::make();
-  const dynamics::LiftSystem system({.mechanism = mechanism,
-                                     .elements = std::move(elements),
-                                     .operation = dynamics::OperationBuilder().build(1.0),
-                                     .q_start = mechanism.zero_configuration()});
+  return dynamics::LiftSystem({.mechanism = mechanism,
+                               .elements = std::move(elements),
+                               .operation = dynamics::OperationBuilder().build(1.0),
+                               .q_start = mechanism.zero_configuration()});
+}
+
+// Whatever hangs in the air adds nothing: neither instants nor plates that stay dry.
+TEST(ShellPressure, DryInstantsHaveNone) {
+  const structure::ElasticModel model = box_model(3, 1);
+  const dynamics::LiftSystem system = box_in_waves();
+  const HullForce* hull = find_hull(system, 1);
+  const HullForce calm = hull_force(box_hull(4), WaveField(deep));
+  const dynamics::History wet = lowering(system, 200, 0.03, 9);
+  const PressureSettings settings{.region_size = 3, .tolerance = 1e-3};
+  dynamics::History high = lowering(system, 10, 0);
+  for (Eigen::Index k = 0; k < high.sample_count(); ++k) high.bodies[0].pose(k, 2) = 9;
+  EXPECT_FALSE(find_pressure_basis(model, calm, high, *hull, high, settings));
+  const auto basis = find_pressure_basis(model, calm, high, *hull, wet, settings);
+  ASSERT_TRUE(basis);
+  EXPECT_EQ(basis->static_factors, Eigen::MatrixXd::Zero(basis->count(), 10));
+  ASSERT_EQ(basis->dynamic_factors.cols(), 200);
+  for (Eigen::Index k = 0; k < 200; ++k) {
+    const double height = 9 * (1 - static_cast<double>(k) / 199);
+    if (height > 3) EXPECT_TRUE(basis->dynamic_factors.col(k).isZero(0)) << k;
+    if (height < 1.5) EXPECT_FALSE(basis->dynamic_factors.col(k).isZero(0)) << k;
+  }
+}
+
+TEST(ShellPressure, FewFieldsMakeUpThePressureOfEveryInstant) {
+  const structure::ElasticModel model = box_model(3, 1);
+  const dynamics::LiftSystem system = box_in_waves();
   const HullForce* hull = find_hull(system, 1);
   ASSERT_NE(hull, nullptr);
   EXPECT_EQ(find_hull(system, 0), nullptr);
