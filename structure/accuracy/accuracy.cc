@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "structure/envelope/block_envelope.h"
+#include "structure/envelope/leading_stress.h"
 #include "structure/stress/squares.h"
 
 namespace blocklift::structure {
@@ -26,18 +27,29 @@ constexpr std::size_t most_centres = 60;
 // another number of threads changes, and their order decides which cells are divided.
 constexpr double equal_shares = 1e-6;
 
-/// Largest stress of each square over all instants.
+/// A stress that one of the squares comes to: the largest at the instant of the largest loads.
+double stress_at_largest_loads(const CheckedStress& checked, const Eigen::MatrixXd& factors,
+                               const Eigen::VectorXd& weights) {
+  const Eigen::MatrixXd weighed = weights.asDiagonal() * factors;
+  Eigen::Index instant = 0;
+  weighed.colwise().squaredNorm().maxCoeff(&instant);
+  return checked.von_mises(factors.col(instant)).maxCoeff();
+}
+
+/// Largest stress of each square over all instants, zero where it is too little to be looked at.
 Eigen::VectorXd largest_of(const CheckedStress& checked, const Eigen::MatrixXd& factors) {
-  const LoadHistory history(factors, response_weights(checked));
-  return find_von_mises_envelope(history, static_cast<int>(checked.squares().size()),
-                                 [&](int first, int count) {
-                                   Eigen::MatrixXd stress(6 * count, factors.rows());
-                                   for (int i = 0; i < count; ++i)
-                                     stress.middleRows<6>(6 * i) =
-                                         unit_stress_of_square(checked, first + i);
-                                   return stress;
-                                 })
-      .value;
+  constexpr double least_share = 0.99 * looked_at_in_corners;
+  const Eigen::VectorXd weights = response_weights(checked);
+  const LoadHistory history(factors, weights);
+  return find_leading_von_mises(
+      history, static_cast<int>(checked.squares().size()),
+      [&](int first, int count) {
+        Eigen::MatrixXd stress(6 * count, factors.rows());
+        for (int i = 0; i < count; ++i)
+          stress.middleRows<6>(6 * i) = unit_stress_of_square(checked, first + i);
+        return stress;
+      },
+      least_share, stress_at_largest_loads(checked, factors, weights));
 }
 
 /// Looks at squares of a model anew.

@@ -11,6 +11,7 @@
 
 #include "parallel/threads.h"
 #include "structure/envelope/envelope_search.h"
+#include "structure/envelope/leading_stress.h"
 #include "structure/error.h"
 
 namespace blocklift::structure {
@@ -19,17 +20,18 @@ namespace {
 
 constexpr int batch_size = 64;  // points: their unit responses stay in the cache
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Rows = SearchTables::Rows;
 
 // Responses of a batch to the history's coordinates, `rows` rows a point.
-Rows responses_of(const LoadHistory& history, const UnitResponsesAt& responses, int first,
+Rows responses_of(const SearchTables& tables, const UnitResponsesAt& responses, int first,
                   int count, int rows) {
+  const LoadHistory& history = tables.history();
   const Eigen::MatrixXd units = responses(first, count);
   if (units.rows() != rows * count || units.cols() != history.modes().rows())
     throw ModelError("unit responses do not fit the history: " + std::to_string(units.rows()) +
                      " x " + std::to_string(units.cols()) + " for " + std::to_string(count) +
                      " points and " + std::to_string(history.modes().rows()) + " unit loads");
-  Rows result = units * history.modes();
+  Rows result = tables.in_coordinates(units);
   if (!result.allFinite())
     throw ModelError("a unit response is not a number, near point " + std::to_string(first));
   return result;
@@ -49,12 +51,12 @@ void keep(PointExtremes& extremes, int point, const Found& found, double sign = 
 StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
                                     const UnitResponsesAt& stress, int threads) {
   StressEnvelope envelope{sized(points), sized(points), sized(points)};
+  const SearchTables tables(history);
   parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
-    const Rows rows = responses_of(history, stress, first, count, 6);
-    SearchWorkspace workspace(history);
+    const Rows rows = responses_of(tables, stress, first, count, 6);
+    SearchWorkspace workspace(tables);
     for (int i = 0; i < count; ++i) {
-      const StressFound found =
-          search_stress(history, rows.data() + 6L * i * rows.cols(), workspace);
+      const StressFound found = search_stress(rows.data() + 6L * i * rows.cols(), workspace);
       keep(envelope.von_mises, first + i, found.von_mises);
       keep(envelope.largest_principal, first + i, found.largest_principal);
       keep(envelope.smallest_principal, first + i, found.minus_smallest_principal, -1);
@@ -66,34 +68,67 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
                                       const UnitResponsesAt& stress, int threads) {
   PointExtremes extremes = sized(points);
+  const SearchTables tables(history);
   parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
-    const Rows rows = responses_of(history, stress, first, count, 6);
-    SearchWorkspace workspace(history);
+    const Rows rows = responses_of(tables, stress, first, count, 6);
+    SearchWorkspace workspace(tables);
     for (int i = 0; i < count; ++i)
-      keep(extremes, first + i,
-           search_von_mises(history, rows.data() + 6L * i * rows.cols(), workspace));
+      keep(extremes, first + i, search_von_mises(rows.data() + 6L * i * rows.cols(), workspace));
   });
   return extremes;
+}
+
+Eigen::VectorXd find_leading_von_mises(const LoadHistory& history, int points,
+                                       const UnitResponsesAt& stress, double share, double known,
+                                       int threads) {
+  constexpr double just_below = 0.999;  // what may yet come to the share is found
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(points);
+  if (points == 0) return values;
+  double largest = known;
+  std::mutex updating;
+  const SearchTables tables(history);
+  parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
+    const Rows rows = responses_of(tables, stress, first, count, 6);
+    SearchWorkspace workspace(tables);
+    double of_these = 0;
+    {
+      const std::lock_guard lock(updating);
+      of_these = largest;
+    }
+    for (int i = 0; i < count; ++i) {
+      const Found found = search_von_mises(rows.data() + 6L * i * rows.cols(), workspace,
+                                           {just_below * share * of_these, -1});
+      if (found.instant < 0) continue;
+      values[first + i] = found.value;
+      of_these = std::max(of_these, found.value);
+    }
+    const std::lock_guard lock(updating);
+    largest = std::max(largest, of_these);
+  });
+  // Whatever the threads have found first.
+  const double least = share * values.maxCoeff();
+  return values.unaryExpr([&](double value) { return value < least ? 0.0 : value; });
 }
 
 void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
                      const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads) {
   const int runs = static_cast<int>(begin.size()) - 1;
+  const SearchTables tables(history);
   parallel::in_batches(runs, 16, threads, [&](int first, int count) {
     const int from = begin[first], points = begin[first + count] - from;
     if (points == 0) return;
-    const Rows rows = responses_of(history, stress, from, points, 6);
-    SearchWorkspace workspace(history);
+    const Rows rows = responses_of(tables, stress, from, points, 6);
+    SearchWorkspace workspace(tables);
     const auto rows_of = [&](int point) { return rows.data() + 6L * (point - from) * rows.cols(); };
     for (int run = first; run < first + count; ++run) {
       // Where the run before had its largest stress, all points of this one are likely to have
       // theirs, and the most stressed of them rules out most others.
       double known = largest[run];
       for (int point = begin[run]; point < begin[run + 1]; ++point)
-        known = std::max(known, likely_von_mises(history, rows_of(point), workspace));
+        known = std::max(known, likely_von_mises(rows_of(point), workspace));
       Found found{known, -1};
       for (int point = begin[run]; point < begin[run + 1]; ++point)
-        found = search_von_mises(history, rows_of(point), workspace, found);
+        found = search_von_mises(rows_of(point), workspace, found);
       largest[run] = found.value;
     }
   });
@@ -123,9 +158,10 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
   LargestStresses all;
   all.von_mises.resize(sets);
   std::mutex updating;
+  const SearchTables tables(history);
   parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
-    const Rows rows = responses_of(history, stress, first, count, 6);
-    SearchWorkspace workspace(history);
+    const Rows rows = responses_of(tables, stress, first, count, 6);
+    SearchWorkspace workspace(tables);
     LargestStresses known;
     {
       const std::lock_guard lock(updating);
@@ -135,8 +171,7 @@ LargestStresses find_largest_stresses(const LoadHistory& history, int points,
       LargestValue& in_set = known.von_mises[set_of(first + i)];
       const StressFound floor{as_floor(in_set), as_floor(known.largest_principal),
                               as_floor(known.smallest_principal)};
-      const StressFound found =
-          search_stress(history, rows.data() + 6L * i * rows.cols(), workspace, floor);
+      const StressFound found = search_stress(rows.data() + 6L * i * rows.cols(), workspace, floor);
       const auto raise = [&](LargestValue& known_one, const Found& one) {
         if (one.instant >= 0) merge(known_one, one, first + i);
       };
@@ -182,14 +217,15 @@ LargestValue find_largest(int points, int threads, const Search& search) {
 
 LargestValue find_largest_in_plane(const LoadHistory& history, int points,
                                    const UnitResponsesAt& stress, int threads) {
+  const SearchTables tables(history);
   return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
-    const Rows in_plane = responses_of(history, stress, first, count, 3);
-    SearchWorkspace workspace(history);
+    const Rows in_plane = responses_of(tables, stress, first, count, 3);
+    SearchWorkspace workspace(tables);
     Rows rows = Rows::Zero(6, in_plane.cols());
     for (int i = 0; i < count; ++i) {
       rows.topRows<2>() = in_plane.middleRows<2>(3L * i);
       rows.row(3) = in_plane.row(3L * i + 2);
-      const Found found = search_von_mises(history, rows.data(), workspace, as_floor(known));
+      const Found found = search_von_mises(rows.data(), workspace, as_floor(known));
       if (found.instant >= 0) merge(known, found, first + i);
     }
   });
@@ -197,12 +233,13 @@ LargestValue find_largest_in_plane(const LoadHistory& history, int points,
 
 LargestValue find_largest_displacement(const LoadHistory& history, int points,
                                        const UnitResponsesAt& displacement, int threads) {
+  const SearchTables tables(history);
   return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
-    const Rows rows = responses_of(history, displacement, first, count, 3);
-    SearchWorkspace workspace(history);
+    const Rows rows = responses_of(tables, displacement, first, count, 3);
+    SearchWorkspace workspace(tables);
     for (int i = 0; i < count; ++i) {
-      const Found found = search_displacement(history, rows.data() + 3L * i * rows.cols(),
-                                              workspace, as_floor(known));
+      const Found found =
+          search_displacement(rows.data() + 3L * i * rows.cols(), workspace, as_floor(known));
       if (found.instant >= 0) merge(known, found, first + i);
     }
   });

@@ -18,6 +18,8 @@ struct Screen {
   const float* rows;   ///< a component, each for unit coordinates
   const float* norms;  ///< |u| for each coordinate
   float margin;        ///< more than all rounding together
+  int leading;         ///< coordinates after which it is seen whether the others are worth while
+  float others;        ///< more than these bring to |u| at any instant
 };
 
 /// Stresses of a point.
@@ -34,6 +36,7 @@ struct PrincipalScreen {
 struct Middle {
   float response[6];
   float margin;
+  float others = 0;  ///< more than the others of Screen::leading bring to a member's norm
 };
 
 /// Bounds of |u| over boxes, or of members of a cluster, and whether one reaches the floor.
@@ -52,6 +55,8 @@ struct Kernel {
                            const float* half_widths, float* bounds);
   void (*screen_principals)(const PrincipalScreen&, int rank, const float* differences,
                             const Middle&, float* bounds);
+  void (*multiply)(const double* A, long rows, int inner, const double* B, int width, int columns,
+                   double* product);
 };
 
 namespace portable {
@@ -93,7 +98,8 @@ const Kernel& kernel() {
 constexpr int members = LoadHistory::cluster_size;
 constexpr int pack = LoadHistory::pack;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unit = 6e-8;  // more than the rounding to single precision, 2^-24
+constexpr double unit = 6e-8;     // more than the rounding to single precision, 2^-24
+constexpr int most_leading = 12;  // coordinates that say where most instants of a cluster lie
 
 // Takes a value that is larger, or as large and earlier.
 void take(Found& found, double value, int instant) {
@@ -144,33 +150,30 @@ const float* of_pack(const std::vector<float>& boxes, const LoadHistory& history
   return boxes.data() + static_cast<std::ptrdiff_t>(number) * history.rank() * pack;
 }
 
-// How far norms of the responses reach from a cluster's middle.
-double reach_from_middle(const LoadHistory& history, const float* norms, int cluster) {
-  double sum = 0;
-  const float* half_widths =
-      of_pack(history.boxes_of_clusters().half_widths, history, cluster / pack) + cluster % pack;
-  for (int k = 0; k < history.rank(); ++k)
-    sum += norms[k] * half_widths[static_cast<std::ptrdiff_t>(k) * pack];
-  return sum;
+using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
+using Array = Eigen::Map<Eigen::ArrayXd>;
+
+ConstArray row_of(const double* rows, int rank, int row) {
+  return {rows + static_cast<std::ptrdiff_t>(row) * rank, rank};
+}
+
+// How far norms of the responses to the coordinates from `begin` on reach from a cluster's middle.
+double reach_from_middle(const SearchTables& tables, const float* norms, int cluster, int begin,
+                         int end) {
+  using ConstFloats = Eigen::Map<const Eigen::VectorXf>;
+  const float sum = ConstFloats(norms + begin, end - begin)
+                        .dot(ConstFloats(tables.half_widths(cluster) + begin, end - begin));
+  return (1 + (end - begin + 2) * unit) * static_cast<double>(sum);
 }
 
 // Responses of a point in the middle of a cluster, in double precision.
 template <int count>
 Eigen::Matrix<double, count, 1> response_in_middle(const LoadHistory& history, const double* rows,
                                                    int cluster) {
-  const int rank = history.rank();
-  const double* y = history.middle(cluster);
-  Eigen::Matrix<double, count, 1> sum = Eigen::Matrix<double, count, 1>::Zero();
-  for (int c = 0; c < count; ++c)
-    for (int k = 0; k < rank; ++k) sum[c] += rows[c * rank + k] * y[k];
+  const Eigen::Map<const Eigen::VectorXd> y(history.middle(cluster), history.rank());
+  Eigen::Matrix<double, count, 1> sum;
+  for (int c = 0; c < count; ++c) sum[c] = row_of(rows, history.rank(), c).matrix().dot(y);
   return sum;
-}
-
-using ConstArray = Eigen::Map<const Eigen::ArrayXd>;
-using Array = Eigen::Map<Eigen::ArrayXd>;
-
-ConstArray row_of(const double* rows, int rank, int row) {
-  return {rows + static_cast<std::ptrdiff_t>(row) * rank, rank};
 }
 
 // The largest that a single coordinate brings to each of `count` components.
@@ -216,7 +219,11 @@ class NormSearch {
     norm = norm.sqrt();
     Eigen::Map<Eigen::ArrayXf>(norms, rank) = norm.cast<float>();
     reach_ = norm.matrix().dot(history.reach());
-    screen_ = {rows, norms, rounding_ + static_cast<float>(2 * (2 * rank + 20) * unit * reach_)};
+    const int leading = std::min(rank, most_leading);
+    const double others =
+        norm.tail(rank - leading).matrix().dot(history.reach().tail(rank - leading));
+    screen_ = {rows, norms, rounding_ + static_cast<float>(2 * (2 * rank + 20) * unit * reach_),
+               leading, static_cast<float>((1 + 2 * unit) * others)};
   }
 
   /// @param exact the value of a member of a cluster, exactly.
@@ -299,8 +306,13 @@ class NormSearch {
     Middle middle{};
     const Eigen::Matrix<double, count, 1> u = response_in_middle<count>(history_, matrix_, cluster);
     for (int c = 0; c < count; ++c) middle.response[c] = static_cast<float>(u[c]);
-    const double spread = reach_from_middle(history_, screen_.norms, cluster);
-    middle.margin = rounding_ + static_cast<float>((2 * history_.rank() + 20) * unit * spread +
+    const int rank = history_.rank(), leading = screen_.leading;
+    const double others =
+        reach_from_middle(workspace_.tables, screen_.norms, cluster, leading, rank);
+    middle.others = static_cast<float>((1 + 4 * unit) * others);
+    const double spread =
+        reach_from_middle(workspace_.tables, screen_.norms, cluster, 0, leading) + others;
+    middle.margin = rounding_ + static_cast<float>((2 * rank + 20) * unit * spread +
                                                    16 * unit * (u.norm() + spread));
     return middle;
   }
@@ -406,12 +418,12 @@ class PrincipalSearch {
     Middle middle{};
     const Eigen::Matrix<double, 6, 1> s = scale_ * response_in_middle<6>(history_, rows_, cluster);
     for (int c = 0; c < 6; ++c) middle.response[c] = static_cast<float>(s[c]);
+    const int rank = history_.rank();
     const double spread =
-        2 * (reach_from_middle(history_, screen_.norms, cluster) +
-             reach_from_middle(history_, screen_.norms + 2L * history_.rank(), cluster));
+        2 * (reach_from_middle(workspace_.tables, screen_.norms, cluster, 0, rank) +
+             reach_from_middle(workspace_.tables, screen_.norms + 2L * rank, cluster, 0, rank));
     const double size = frobenius_of(s) + spread;
-    middle.margin =
-        static_cast<float>((2 * history_.rank() + 20) * unit * spread + 128 * unit * size);
+    middle.margin = static_cast<float>((2 * rank + 20) * unit * spread + 128 * unit * size);
     return middle;
   }
 
@@ -463,14 +475,36 @@ Found search_von_mises_of(const LoadHistory& history, const double* rows, double
 
 }  // namespace
 
-SearchWorkspace::SearchWorkspace(const LoadHistory& history)
-    : matrix(5 * static_cast<std::size_t>(history.rank())),
-      norms(static_cast<std::size_t>(history.rank())),
-      rows(15 * static_cast<std::size_t>(history.rank())),
-      bounds(2 * static_cast<std::size_t>(history.packs()) * pack) {}
+SearchTables::SearchTables(const LoadHistory& history)
+    : history_(history),
+      modes_(Rows::Zero(history.modes().rows(), (history.rank() + 7) / 8 * 8)),
+      half_widths_(static_cast<std::size_t>(history.clusters()) *
+                   static_cast<std::size_t>(history.rank())) {
+  modes_.leftCols(history.rank()) = history.modes();
+  auto to = half_widths_.begin();
+  for (int cluster = 0; cluster < history.clusters(); ++cluster) {
+    const float* of_box =
+        of_pack(history.boxes_of_clusters().half_widths, history, cluster / pack) + cluster % pack;
+    for (int k = 0; k < history.rank(); ++k, ++to) *to = of_box[k * pack];
+  }
+}
 
-Found search_von_mises(const LoadHistory& history, const double* rows, SearchWorkspace& workspace,
-                       const Found& floor) {
+SearchTables::Rows SearchTables::in_coordinates(const Eigen::MatrixXd& units) const {
+  Rows rows(units.rows(), history_.rank());
+  kernel().multiply(units.data(), units.rows(), static_cast<int>(units.cols()), modes_.data(),
+                    static_cast<int>(modes_.cols()), history_.rank(), rows.data());
+  return rows;
+}
+
+SearchWorkspace::SearchWorkspace(const SearchTables& of_history)
+    : tables(of_history),
+      matrix(5 * static_cast<std::size_t>(tables.history().rank())),
+      norms(static_cast<std::size_t>(tables.history().rank())),
+      rows(15 * static_cast<std::size_t>(tables.history().rank())),
+      bounds(2 * static_cast<std::size_t>(tables.history().packs()) * pack) {}
+
+Found search_von_mises(const double* rows, SearchWorkspace& workspace, const Found& floor) {
+  const LoadHistory& history = workspace.tables.history();
   const Eigen::Array<double, 6, 1> sizes = sizes_of<6>(history, rows);
   const double size = sizes.maxCoeff();
   if (!(size > 0)) {  // nothing at all instants
@@ -483,23 +517,23 @@ Found search_von_mises(const LoadHistory& history, const double* rows, SearchWor
              : search_von_mises_of<3>(history, rows, 1 / size, workspace, floor);
 }
 
-double likely_von_mises(const LoadHistory& history, const double* rows,
-                        const SearchWorkspace& workspace) {
+double likely_von_mises(const double* rows, const SearchWorkspace& workspace) {
   if (workspace.likely_cluster < 0) return -infinity;
-  return von_mises_at(history, rows, workspace.likely_cluster, workspace.likely_member);
+  return von_mises_at(workspace.tables.history(), rows, workspace.likely_cluster,
+                      workspace.likely_member);
 }
 
-StressFound search_stress(const LoadHistory& history, const double* rows,
-                          SearchWorkspace& workspace, const StressFound& floor) {
-  const Found von_mises = search_von_mises(history, rows, workspace, floor.von_mises);
-  PrincipalSearch search(history, rows, workspace, floor.largest_principal,
+StressFound search_stress(const double* rows, SearchWorkspace& workspace,
+                          const StressFound& floor) {
+  const Found von_mises = search_von_mises(rows, workspace, floor.von_mises);
+  PrincipalSearch search(workspace.tables.history(), rows, workspace, floor.largest_principal,
                          floor.minus_smallest_principal);
   search.run();
   return {von_mises, search.largest(), search.minus_smallest()};
 }
 
-Found search_displacement(const LoadHistory& history, const double* rows,
-                          SearchWorkspace& workspace, const Found& floor) {
+Found search_displacement(const double* rows, SearchWorkspace& workspace, const Found& floor) {
+  const LoadHistory& history = workspace.tables.history();
   const double scale = scale_of(sizes_of<3>(history, rows).maxCoeff());
   double* matrix = workspace.matrix.data();
   for (int i = 0; i < 3 * history.rank(); ++i) matrix[i] = rows[i] * scale;

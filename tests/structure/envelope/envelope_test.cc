@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "structure/envelope/block_envelope.h"
+#include "structure/envelope/leading_stress.h"
 #include "structure/error.h"
 #include "structure/stress_tensor.h"
 #include "tests/structure/block_models.h"
@@ -129,6 +130,19 @@ TEST(Envelope, PacksOfClustersLeaveNothingOut) {
   expect_brute_force(units, testing::noise_history(8, 1300, 24));
   expect_brute_force(units, Eigen::MatrixXd::Zero(8, 1300));
   expect_brute_force(units, Eigen::MatrixXd::Ones(8, 1300));
+}
+
+// More coordinates than those that most clusters are passed over by, of which the others matter
+// little, a little, and as much as these.
+TEST(Envelope, LaterCoordinatesAreNotForgotten) {
+  Eigen::MatrixXd units = testing::random_responses(6 * 40, 29, 41);
+  for (int p = 20; p < 40; ++p) units.middleRows<2>(6 * p + 4).setZero();
+  for (const double last : {1e-4, 0.1, 1.0}) {
+    const Eigen::VectorXd sizes =
+        Eigen::VectorXd::LinSpaced(29, 0, 1).unaryExpr([&](double x) { return std::pow(last, x); });
+    expect_brute_force(units, sizes.asDiagonal() * testing::lift_like_history(29, 9000, 42));
+    expect_brute_force(units, sizes.asDiagonal() * testing::noise_history(29, 1300, 43));
+  }
 }
 
 // What points before have found is where a point is looked at first, and changes nothing.
@@ -253,6 +267,25 @@ TEST(Envelope, LargestOfRunsAreThoseOfTheirPoints) {
       expected[run] = std::max(expected[run], each.value[point]);
   raise_von_mises(history, begin, responses, largest, 2);
   EXPECT_EQ(largest, expected);
+}
+
+// What is known changes what is searched, and nothing of what is found.
+TEST(Envelope, LeadingPointsAreThoseThatComeToAShareOfTheLargest) {
+  const Eigen::MatrixXd units = testing::random_responses(6 * 300, 12, 31) *
+                                Eigen::VectorXd::LinSpaced(12, 2, 0.01).asDiagonal();
+  const LoadHistory history(testing::lift_like_history(12, 2500, 32), Eigen::VectorXd::Ones(12));
+  const auto responses = [&](int first, int count) {
+    return units.middleRows(6 * first, 6 * count);
+  };
+  const PointExtremes each = find_von_mises_envelope(history, 300, responses, 2);
+  const double largest = each.value.maxCoeff();
+  const Eigen::VectorXd expected =
+      each.value.unaryExpr([&](double value) { return value < 0.6 * largest ? 0.0 : value; });
+  ASSERT_EQ(expected.maxCoeff(), largest);
+  ASSERT_EQ(expected.minCoeff(), 0);
+  for (const double known : {0.0, 0.7 * largest, largest})
+    EXPECT_EQ(find_leading_von_mises(history, 300, responses, 0.6, known, 2), expected) << known;
+  EXPECT_EQ(find_leading_von_mises(history, 0, responses, 0.6, 0, 1).size(), 0);
 }
 
 TEST(Envelope, WhatIsNotANumberIsRefused) {
