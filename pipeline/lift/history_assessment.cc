@@ -359,9 +359,11 @@ double HistoryAssessment::deformation_increase_percent() const {
 Eigen::MatrixXd factors_of(const structure::UnitResponses& responses,
                            const BlockAttachment& attachment, const BlockHistory& history) {
   Eigen::MatrixXd factors(responses.count(), history.sample_count());
-  for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample)
-    factors.col(sample) = responses.coefficients(
-        map_instant(history, sample, attachment, responses.model().mass_properties()));
+  parallel::in_batches(static_cast<int>(history.sample_count()), 256, 0, [&](int first, int count) {
+    for (Eigen::Index sample = first; sample < first + count; ++sample)
+      factors.col(sample) = responses.coefficients(
+          map_instant(history, sample, attachment, responses.model().mass_properties()));
+  });
   return factors;
 }
 

@@ -176,20 +176,27 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& mo
   const Orientation orientation(model);
   const Points points(space, orientation.fields);
 
+  const int batch = std::max(32, cells / 64), per_cell = space.nodes_per_shell();
   Resultants recovered = Resultants::Zero(6, points.count());
-  ShellOperator accurate(space, square_rule(p).topRows<2>());
+  Resultants at_nodes(6, static_cast<Eigen::Index>(per_cell) * cells);
   const Eigen::MatrixXd carry = to_nodes(p);
-  for (int cell = 0; cell < cells; ++cell) {
-    const Resultants at_nodes = resultants_of(model, orientation, accurate, cell, motion) * carry;
-    for (int i = 0; i < space.nodes_per_shell(); ++i)
-      recovered.col(points.of(cell, i)) += at_nodes.col(i) / points.share(points.of(cell, i));
-  }
+  parallel::in_batches(cells, batch, threads, [&](int first, int count) {
+    ShellOperator accurate(space, square_rule(p).topRows<2>());
+    for (int cell = first; cell < first + count; ++cell)
+      at_nodes.middleCols(static_cast<Eigen::Index>(per_cell) * cell, per_cell) =
+          resultants_of(model, orientation, accurate, cell, motion) * carry;
+  });
+  for (int cell = 0; cell < cells; ++cell)
+    for (int i = 0; i < per_cell; ++i)
+      recovered.col(points.of(cell, i)) +=
+          at_nodes.col(static_cast<Eigen::Index>(per_cell) * cell + i) /
+          points.share(points.of(cell, i));
 
   const Eigen::Matrix3Xd rule = square_rule(p + 1);
   Eigen::MatrixXd values(space.nodes_per_shell(), rule.cols());
   for (Eigen::Index q = 0; q < rule.cols(); ++q)
     values.col(q) = space.shell_values(rule.col(q).head<2>());
-  parallel::in_batches(cells, std::max(32, cells / 64), threads, [&](int first, int count) {
+  parallel::in_batches(cells, batch, threads, [&](int first, int count) {
     ShellOperator own(space, rule.topRows<2>());
     Resultants smooth(6, space.nodes_per_shell());
     for (int cell = first; cell < first + count; ++cell) {
