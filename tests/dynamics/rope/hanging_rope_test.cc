@@ -10,11 +10,12 @@
 #include "dynamics/simulation/jacobian.h"
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"
+#include "tests/dynamics/simulation/sample_lifts.h"
 
 namespace blocklift::dynamics {
 namespace {
 
-constexpr double g = 9.81;
+using samples::g;
 
 Mechanism one_load(double mass = 10e3) {
   MechanismBuilder builder;

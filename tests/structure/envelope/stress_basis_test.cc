@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -65,16 +66,25 @@ TEST_F(OtherMass, HasTheStressOfItsOwnSolution) {
   const LoadCase lift = spun_lift(alone_);
   const Eigen::VectorXd own = checked.von_mises(alone_responses_.coefficients(lift));
   const StressBasis basis = make_stress_basis(responses_, checked.squares());
-  const LargestValue largest =
-      find_largest_checked(basis, basis.factors(lift, other_->mass_properties()));
+  const StressOfBlock other(basis, other_->mass_properties(), lift.lug_forces_B.size());
+  const LargestValue largest = find_largest_checked(other, other.factors(lift));
   Eigen::Index place = 0;
   EXPECT_NEAR(largest.value, own.maxCoeff(&place), 1e-9 * own.maxCoeff());
   EXPECT_EQ(largest.point, place);
   EXPECT_EQ(largest.instant, 0);
   // The mass matters: with the first block's density the stress is another.
-  const double of_first_density =
-      find_largest_checked(basis, basis.factors(lift, model_.mass_properties())).value;
+  const StressOfBlock first(basis, model_.mass_properties(), lift.lug_forces_B.size());
+  const double of_first_density = find_largest_checked(first, first.factors(lift)).value;
   EXPECT_GT(std::abs(of_first_density / own.maxCoeff() - 1), 1e-4);
+}
+
+TEST_F(OtherMass, IsOfAsManyLugsAsItsBasis) {
+  const CheckedStress checked(alone_, alone_responses_.displacements());
+  const StressBasis basis = make_stress_basis(responses_, checked.squares());
+  EXPECT_THROW(StressOfBlock(basis, other_->mass_properties(), 5), ModelError);
+  const StressOfBlock other(basis, other_->mass_properties(), 4);
+  const std::vector<Vector3> three(3, Vector3::Zero());
+  EXPECT_THROW(other.factors({"three lugs", three, {}}), ModelError);
 }
 
 }  // namespace
