@@ -61,10 +61,16 @@ std::optional<RunExtent> needs_of(std::string_view path) {
 
 }  // namespace
 
-AskedFigures::AskedFigures(const StudyFile& study) {
+std::vector<const Located<std::string>*> figures_of_search(const StudyFile& study) {
+  std::vector<const Located<std::string>*> figures;
   for (const auto* goal : {&study.minimise, &study.maximise})
-    if (*goal) paths_.push_back((*goal)->value);
-  for (const FigureBound& bound : study.subject_to) paths_.push_back(bound.figure.value);
+    if (*goal) figures.push_back(&**goal);
+  for (const FigureBound& bound : study.subject_to) figures.push_back(&bound.figure);
+  return figures;
+}
+
+AskedFigures::AskedFigures(const StudyFile& study) {
+  for (const Located<std::string>* path : figures_of_search(study)) paths_.push_back(path->value);
   for (const Located<std::string>& path : study.figures) paths_.push_back(path.value);
   std::vector<std::string> needed = paths_;
   if (study.figures.empty())

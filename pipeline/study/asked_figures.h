@@ -11,6 +11,9 @@
 
 namespace blocklift::pipeline {
 
+/// The goal of a search and what is subject to bounds.
+std::vector<const Located<std::string>*> figures_of_search(const StudyFile& study);
+
 /// What the figures of a study need: of a member's run, and of its summary. Parts of the summary of
 /// which it is not known that they need less take everything.
 class AskedFigures {

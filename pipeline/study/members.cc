@@ -29,15 +29,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* identity_file = "identity";
 
-/// The goal of a search and what is subject to bounds.
-std::vector<const Located<std::string>*> figures_of_search(const StudyFile& study) {
-  std::vector<const Located<std::string>*> figures;
-  for (const auto* goal : {&study.minimise, &study.maximise})
-    if (*goal) figures.push_back(&**goal);
-  for (const FigureBound& bound : study.subject_to) figures.push_back(&bound.figure);
-  return figures;
-}
-
 /// The figures that are looked at, of a summary.
 std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
                                                        const Json& summary) {

@@ -105,31 +105,25 @@ void block_hoisted_on_six_ropes(benchmark::State& state) {
 }
 BENCHMARK(block_hoisted_on_six_ropes)->Unit(benchmark::kMillisecond);
 
-void turn_over_in_time(benchmark::State& state) {
+void integrate_turn_over(benchmark::State& state, const IntegrationSettings& settings) {
   const LiftSystem lift = samples::two_goliaths();
   EquilibriumSolver solver(lift);
   Eigen::VectorXd q = lift.q_start();
   solver.solve(0.0, q);
   IntegrationStatistics cost;
-  for (auto _ : state) {
-    cost = integrate(lift, q, lift.v_start(), {.relative_tolerance = 1e-6}).statistics;
-  }
+  for (auto _ : state) cost = integrate(lift, q, lift.v_start(), settings).statistics;
   report(state, lift, cost);
+}
+
+void turn_over_in_time(benchmark::State& state) {
+  integrate_turn_over(state, {.relative_tolerance = 1e-6});
 }
 BENCHMARK(turn_over_in_time)->Unit(benchmark::kMillisecond);
 
 // As a study's member whose figures are tensions.
 void turn_over_in_time_for_its_tensions(benchmark::State& state) {
-  const LiftSystem lift = samples::two_goliaths();
-  EquilibriumSolver solver(lift);
-  Eigen::VectorXd q = lift.q_start();
-  solver.solve(0.0, q);
-  IntegrationSettings settings;
-  settings.works = false;
-  settings.recording = Recording::tensions();
-  IntegrationStatistics cost;
-  for (auto _ : state) cost = integrate(lift, q, lift.v_start(), settings).statistics;
-  report(state, lift, cost);
+  integrate_turn_over(
+      state, {.relative_tolerance = 1e-6, .works = false, .recording = Recording::tensions()});
 }
 BENCHMARK(turn_over_in_time_for_its_tensions)->Unit(benchmark::kMillisecond);
 

@@ -69,40 +69,53 @@ HydrodynamicDatabase make_empty_database(const PanelModel& model,
   return database;
 }
 
-double negligible_force(const Eigen::VectorXd& reactance, const std::vector<int>& modes,
-                        Eigen::Index mode) {
+Eigen::VectorXd largest_share(const std::vector<int>& modes, const MatrixXcd& forces,
+                              const MatrixXd& amounts) {
+  constexpr double negligible = 1e-3;
   const auto way_of = [&](Eigen::Index m) { return modes[static_cast<std::size_t>(m)] / 3; };
-  double largest = 0.0;
-  for (Eigen::Index m = 0; m < reactance.size(); ++m) {
-    if (way_of(m) == way_of(mode)) largest = std::max(largest, reactance[m]);
-  }
-  return 1e-3 * largest;
-}
-
-Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const MatrixXd& amounts) {
-  Eigen::VectorXd shares = Eigen::VectorXd::Zero(database.mode_count());
-  std::vector<int> modes(static_cast<std::size_t>(shares.size()));
-  std::iota(modes.begin(), modes.end(), 0);
-  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-    const Eigen::VectorXd reactance = database.frequencies[k] * database.added_mass[k].diagonal();
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(forces.rows());
+  for (Eigen::Index k = 0; k < forces.cols(); ++k) {
     for (Eigen::Index m = 0; m < shares.size(); ++m) {
-      const double force = std::hypot(database.damping[k](m, m), reactance[m]);
-      if (force < negligible_force(reactance, modes, m)) continue;
-      shares[m] = std::max(shares[m], amounts(m, static_cast<Eigen::Index>(k)) / force);
+      double largest = 0.0;
+      for (Eigen::Index n = 0; n < shares.size(); ++n) {
+        if (way_of(n) == way_of(m)) largest = std::max(largest, forces(n, k).imag());
+      }
+      const double force = std::abs(forces(m, k));
+      if (force < negligible * largest) continue;
+      shares[m] = std::max(shares[m], amounts(m, k) / force);
     }
   }
   return shares;
 }
 
+namespace {
+
+/// B + i w A of each mode on itself, modes x frequencies.
+MatrixXcd forces_on_themselves(const HydrodynamicDatabase& database) {
+  MatrixXcd forces(database.mode_count(), static_cast<Eigen::Index>(database.frequencies.size()));
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    auto column = forces.col(static_cast<Eigen::Index>(k));
+    column.real() = database.damping[k].diagonal();
+    column.imag() = database.frequencies[k] * database.added_mass[k].diagonal();
+  }
+  return forces;
+}
+
+}  // namespace
+
+Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const MatrixXd& amounts) {
+  std::vector<int> modes(static_cast<std::size_t>(database.mode_count()));
+  std::iota(modes.begin(), modes.end(), 0);
+  return largest_share(modes, forces_on_themselves(database), amounts);
+}
+
 Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
                                const std::vector<MatrixXcd>& coarser) {
-  MatrixXd changes(database.mode_count(), static_cast<Eigen::Index>(coarser.size()));
+  MatrixXcd changes = forces_on_themselves(database);
   for (std::size_t k = 0; k < coarser.size(); ++k) {
-    const MatrixXcd forces =
-        database.damping[k] + Complex(0.0, database.frequencies[k]) * database.added_mass[k];
-    changes.col(static_cast<Eigen::Index>(k)) = (coarser[k] - forces).diagonal().cwiseAbs();
+    changes.col(static_cast<Eigen::Index>(k)) -= coarser[k].diagonal();
   }
-  return largest_share(database, changes);
+  return largest_share(database, changes.cwiseAbs());
 }
 
 MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity, double frequency,

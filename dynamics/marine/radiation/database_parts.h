@@ -13,19 +13,18 @@ void check_frequencies(const DatabaseSettings& settings);
 /// for.
 HydrodynamicDatabase make_empty_database(const PanelModel& model, const DatabaseSettings& settings);
 
-/// Below it a mode's radiation force on itself is next to none, as that of a round body that turns
-/// about its axis: a thousandth of the largest with which the modes resist that move the same body
-/// in the same way, along axes or about them.
-/// @param reactance w A of each mode on itself. @param modes their numbers. @param mode the place of
-/// one among them.
-double negligible_force(const Eigen::VectorXd& reactance, const std::vector<int>& modes,
-                        Eigen::Index mode);
+/// Largest share over the frequencies that amounts are of each mode's force on itself, B + i w A;
+/// all modes x frequencies. Zero for a mode with next to no force, such as the turns of a round body
+/// about its axis: less than a thousandth of the largest w A of those that move the same body in the
+/// same way, along axes or about them.
+/// @param modes their numbers, a row each.
+Eigen::VectorXd largest_share(const std::vector<int>& modes, const Eigen::MatrixXcd& forces,
+                              const Eigen::MatrixXd& amounts);
 
-/// Largest share over the frequencies that amounts (modes x frequencies; as B and w A) are of each
-/// mode's radiation force on itself, |B + i w A|. Zero for a mode with a negligible_force().
+/// The same of all modes of a database.
 Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const Eigen::MatrixXd& amounts);
 
-/// The largest_share() that the forces change by from those of coarser panels, B + i w A.
+/// The largest_share() by which the forces change from those of coarser panels, B + i w A.
 Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
                                const std::vector<Eigen::MatrixXcd>& coarser);
 

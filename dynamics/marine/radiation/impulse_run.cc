@@ -59,16 +59,16 @@ std::complex<double> ImpulseRun::wave(std::size_t frequency, long step) const {
   return std::polar(1.0, -angle * static_cast<double>(step));
 }
 
-void ImpulseRun::accumulate(long step, double reduction) {
+void ImpulseRun::accumulate(long step) {
   if (elevation_.size() == 0) return;
   const auto count = static_cast<Eigen::Index>(frequencies_.size());
   for (Eigen::Index k = 0; k < count; ++k) {
-    const std::complex<double> factor =
-        (step == 0 ? 0.5 : 1.0) * step_ * wave(static_cast<std::size_t>(k), step);
+    const std::complex<double> factor = wave(static_cast<std::size_t>(k), step);
     whole_weights_(waiting_, k) = factor.real();
     whole_weights_(waiting_, count + k) = factor.imag();
   }
-  weights_.row(waiting_) = reduction * whole_weights_.row(waiting_);
+  whole_weights_.row(waiting_) *= weight(step);
+  weights_.row(waiting_) = taper(step, steps_) * whole_weights_.row(waiting_);
   instants_.col(waiting_) = march_.elevation().reshaped();
   if (++waiting_ == instants_together) add_instants();
 }
@@ -102,15 +102,16 @@ long ImpulseRun::run(double step, const RunLength& length,
   const double factor = density_ * gravity_;
   march_.start(q, step);
   for (long k = 0;; ++k) {
-    const double reduction = taper(k, steps_);
     const bool may_go_on = steps_ < length.most * length.steps;
-    if (may_go_on && reduction < 1.0 && whole_elevation_.size() < elevation_.size()) keep_whole();
+    if (may_go_on && taper(k, steps_) < 1.0 && whole_elevation_.size() < elevation_.size())
+      keep_whole();
     forces_.push_back(symmetric_part(factor * (q.transpose() * march_.elevation())));
-    accumulate(k, reduction);
+    accumulate(k);
     if (progress) progress(k, steps_);
     if (k == steps_) {
-      estimate_cut(steps_);
-      const Eigen::VectorXd shares = largest_shares(cut_off_);
+      force_ = integrate(steps_);
+      estimate_cut();
+      const VectorXd shares = largest_shares(cut_off_);
       if (!may_go_on || shares.size() == 0 || shares.maxCoeff() <= length.share) break;
       add_instants();
       elevation_.swap(whole_elevation_);
@@ -128,44 +129,33 @@ MatrixXd ImpulseRun::retardation(long step) const {
   return part_.image_count() * taper(step, steps_) * forces_[static_cast<std::size_t>(step)];
 }
 
-void ImpulseRun::integrate(long steps) {
+double ImpulseRun::weight(long step) const { return (step == 0 ? 0.5 : 1.0) * step_; }
+
+std::vector<MatrixXcd> ImpulseRun::integrate(long steps) const {
   const Eigen::Index modes = part_.surface_columns().cols();
-  force_.assign(frequencies_.size(), MatrixXcd::Zero(modes, modes));
+  std::vector<MatrixXcd> integrals(frequencies_.size(), MatrixXcd::Zero(modes, modes));
   for (long n = 0; n <= steps; ++n) {
-    const double weight = (n == 0 ? 0.5 : 1.0) * step_ * taper(n, steps);
-    for (std::size_t k = 0; k < force_.size(); ++k) {
-      force_[k] += (weight * wave(k, n)) * forces_[static_cast<std::size_t>(n)];
-    }
+    const MatrixXd force = weight(n) * taper(n, steps) * forces_[static_cast<std::size_t>(n)];
+    for (std::size_t k = 0; k < integrals.size(); ++k) integrals[k] += wave(k, n) * force;
   }
+  return integrals;
 }
 
-MatrixXcd ImpulseRun::integrate_diagonals(long steps) const {
-  MatrixXcd sum = MatrixXcd::Zero(part_.surface_columns().cols(),
-                                  static_cast<Eigen::Index>(frequencies_.size()));
-  for (long n = 0; n <= steps; ++n) {
-    const double weight = (n == 0 ? 0.5 : 1.0) * step_ * taper(n, steps);
-    const VectorXd force = weight * forces_[static_cast<std::size_t>(n)].diagonal();
-    for (Eigen::Index k = 0; k < sum.cols(); ++k) {
-      sum.col(k) += wave(static_cast<std::size_t>(k), n) * force;
-    }
+MatrixXd ImpulseRun::change_from(long steps) const {
+  const std::vector<MatrixXcd> shorter = integrate(steps);
+  MatrixXd changes(part_.surface_columns().cols(), static_cast<Eigen::Index>(shorter.size()));
+  for (std::size_t k = 0; k < shorter.size(); ++k) {
+    changes.col(static_cast<Eigen::Index>(k)) =
+        part_.image_count() * scale(k) * (force_[k] - shorter[k]).diagonal().cwiseAbs();
   }
-  return sum;
+  return changes;
 }
 
-void ImpulseRun::estimate_cut(long steps) {
-  integrate(steps);
-  const auto fifths = [](long all) { return static_cast<long>(taper_begin(all)); };
-  const long shorter = fifths(steps), shortest = fifths(shorter);
-  const MatrixXcd integrals = integrate_diagonals(steps);
-  const auto change = [&](long from) {
-    MatrixXd changes = (integrate_diagonals(from) - integrals).cwiseAbs();
-    for (Eigen::Index k = 0; k < changes.cols(); ++k) {
-      changes.col(k) *= part_.image_count() * scale(static_cast<std::size_t>(k));
-    }
-    return changes;
-  };
-  cut_off_ = change(shorter);
-  const VectorXd last = largest_shares(cut_off_), before = largest_shares(change(shortest));
+void ImpulseRun::estimate_cut() {
+  const auto three_fifths = [](long all) { return static_cast<long>(taper_begin(all)); };
+  const long shorter = three_fifths(steps_), shortest = three_fifths(shorter);
+  cut_off_ = change_from(shorter);
+  const VectorXd last = largest_shares(cut_off_), before = largest_shares(change_from(shortest));
   for (Eigen::Index m = 0; m < cut_off_.rows(); ++m) {
     const double q = before[m] > 0.0 ? std::pow(last[m] / before[m], 5.0 / 3.0) : 0.0;
     if (q < 0.5) cut_off_.row(m) *= q / (1.0 - q);
@@ -173,19 +163,14 @@ void ImpulseRun::estimate_cut(long steps) {
 }
 
 VectorXd ImpulseRun::largest_shares(const MatrixXd& amounts) const {
-  const std::vector<int>& modes = part_.modes();
-  VectorXd shares = VectorXd::Zero(amounts.rows());
+  const MatrixXd unmoved = density_ * part_.infinite_frequency_volume();
+  MatrixXcd forces(amounts.rows(), amounts.cols());
   for (std::size_t k = 0; k < frequencies_.size(); ++k) {
-    const VectorXd reactance =
-        frequencies_[k] * (density_ * part_.infinite_frequency_volume() + added_mass(k)).diagonal();
-    const VectorXd resistance = damping(k).diagonal();
-    for (Eigen::Index m = 0; m < shares.size(); ++m) {
-      const double force = std::hypot(resistance[m], reactance[m]);
-      if (force < negligible_force(reactance, modes, m)) continue;
-      shares[m] = std::max(shares[m], amounts(m, static_cast<Eigen::Index>(k)) / force);
-    }
+    auto column = forces.col(static_cast<Eigen::Index>(k));
+    column.real() = damping(k).diagonal();
+    column.imag() = frequencies_[k] * (unmoved + added_mass(k)).diagonal();
   }
-  return shares;
+  return largest_share(part_.modes(), forces, amounts);
 }
 
 double ImpulseRun::scale(std::size_t frequency) const {

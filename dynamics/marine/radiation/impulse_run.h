@@ -61,19 +61,21 @@ class ImpulseRun {
 
  private:
   /// Adds an instant to the integrals of the elevation.
-  void accumulate(long step, double reduction);
+  void accumulate(long step);
   /// Adds the instants that wait to the integrals of the elevation.
   void add_instants();
   /// Keeps the integrals of the elevation as they are without a taper from here on.
   void keep_whole();
   /// e^{-i w t} at a step, by the march's dispersion.
   std::complex<double> wave(std::size_t frequency, long step) const;
-  /// The force's integrals, a row each frequency, of a run that ends after so many of the steps.
-  Eigen::MatrixXcd integrate_diagonals(long steps) const;
-  void integrate(long steps);
-  void estimate_cut(long steps);
-  /// Of each mode's force on itself, with negligible forces left out; the largest over the
-  /// frequencies.
+  /// Of an instant in the integrals without a taper, by the trapezoidal rule, s.
+  double weight(long step) const;
+  /// The force's integrals, one for each frequency, of a run that ends after so many of the steps.
+  std::vector<Eigen::MatrixXcd> integrate(long steps) const;
+  /// What the integrals change by from a shorter run's, as cut_off().
+  Eigen::MatrixXd change_from(long steps) const;
+  void estimate_cut();
+  /// That amounts, as cut_off(), are of each mode's force on itself, over the frequencies.
   Eigen::VectorXd largest_shares(const Eigen::MatrixXd& amounts) const;
   /// The Fourier integral's factor that the leapfrog march asks for.
   double scale(std::size_t frequency) const;
@@ -85,7 +87,7 @@ class ImpulseRun {
   double step_ = not_a_number;
   long steps_ = 0;
   std::vector<Eigen::MatrixXd> forces_;  ///< at each step, without taper and images
-  std::vector<Eigen::MatrixXcd> force_;  ///< their integrals times e^{-i w t}
+  std::vector<Eigen::MatrixXcd> force_;  ///< their integrals times e^{-i w t}, over steps_
   Eigen::MatrixXd cut_off_;
   /// Real parts of the integrals of the elevation for all frequencies, then imaginary ones: a
   /// column each, panels of the first mode first. Empty without elevation.
