@@ -59,9 +59,10 @@ std::string lines_on_stiffener_plates(const BlockModel& block) {
 }
 
 /// Reads one file of whatever kind; what it is, if it is sound.
-std::optional<std::string> validate(const fs::path& path, ModelLibrary& library,
+std::optional<std::string> validate(const fs::path& named, ModelLibrary& library,
                                     Diagnostics& diagnostics,
                                     std::shared_ptr<const BlockModel>& block) {
+  const fs::path path = input_file(named);
   const std::size_t errors_before = diagnostics.error_count();
   const auto if_sound = [&](std::string summary) -> std::optional<std::string> {
     if (diagnostics.error_count() > errors_before) return std::nullopt;

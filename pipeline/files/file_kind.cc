@@ -21,16 +21,22 @@ bool begins_as_xml(const fs::path& path) {
 
 }  // namespace
 
+fs::path input_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return path;
+  for (const char* name : {"case.yaml", "mechanism.yaml", "part.yaml", "study.yaml", "block.yaml",
+                           "crane.yaml", "vessel.yaml", "vessels.yaml"}) {
+    if (fs::exists(path / name, error)) return path / name;
+  }
+  return path;
+}
+
 FileKind kind_of_file(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    const bool mechanism =
-        fs::exists(path / "mechanism.yaml", error) && !fs::exists(path / "case.yaml", error);
-    if (fs::exists(path / "part.yaml", error) && !fs::exists(path / "case.yaml", error))
-      return FileKind::part;
-    if (fs::exists(path / "study.yaml", error) && !fs::exists(path / "case.yaml", error))
-      return FileKind::study;
-    return mechanism ? FileKind::mechanism : FileKind::lift_case;
+    const fs::path file = input_file(path);
+    return file == path || file.filename() == "case.yaml" ? FileKind::lift_case
+                                                          : kind_of_file(file);
   }
   if (fs::is_regular_file(path, error) && (path.extension() == ".urdf" || begins_as_xml(path))) {
     return FileKind::robot;

@@ -20,7 +20,12 @@ enum class FileKind {
   study
 };
 
-/// The kind of a file, or of the file in a folder: a robot description is XML or ends in .urdf, a
+/// The file that a folder stands for: its case.yaml, else what it holds of mechanism.yaml, part.yaml,
+/// study.yaml, block.yaml, crane.yaml, vessel.yaml and vessels.yaml. Of a file, and of a folder
+/// without any of them, the path itself.
+std::filesystem::path input_file(const std::filesystem::path& path);
+
+/// The kind of a file, or of the file that a folder stands for: a robot description is XML or ends in .urdf, a
 /// mechanism has the key `mechanism`, a part the key `part`, a study the key `study`, a model says
 /// its kind. Everything else, unreadable files included, counts as a lift case, whose reader says
 /// what is wrong.

@@ -117,10 +117,9 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
 std::optional<HydrodynamicProblem> read_hydrodynamic_problem(const fs::path& file,
                                                              const ModelLibrary& library,
                                                              Diagnostics& diagnostics) {
-  const fs::path inside = file / "vessel.yaml";
-  if (fs::is_directory(file) && fs::exists(inside)) return read_single(inside, diagnostics);
-  if (kind_of_file(file) == FileKind::vessels) return read_group(file, library, diagnostics);
-  return read_single(file, diagnostics);
+  const fs::path inside = input_file(file);
+  if (kind_of_file(inside) == FileKind::vessels) return read_group(inside, library, diagnostics);
+  return read_single(inside, diagnostics);
 }
 
 }  // namespace blocklift::pipeline

@@ -21,8 +21,11 @@ namespace blocklift::structure {
 
 namespace {
 
-using Resultants = Eigen::Matrix<double, 6, Eigen::Dynamic>;  // membrane forces, moments
+/// Membrane forces and moments: a column for each point, six rows for each motion.
+using Resultants = Eigen::MatrixXd;
 using Law = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Motions = Eigen::Ref<const Eigen::MatrixXd>;
 
 /// Turns (11, 22, 12) of forces and moments from axes at an angle `a` to the field's into the
 /// field's; of a cell whose normal is against the field's moments change their sign.
@@ -96,13 +99,6 @@ class Points {
   std::vector<int> of_cell_, shares_;
 };
 
-Eigen::VectorXd motion_of_cell(const Space& space, int cell, const Eigen::VectorXd& motion) {
-  Eigen::VectorXd local(6 * space.nodes_per_shell());
-  for (int i = 0; i < space.nodes_per_shell(); ++i)
-    local.segment<6>(6 * i) = motion.segment<6>(6 * space.shell_nodes(cell)[i]);
-  return local;
-}
-
 Law law_of(const ElasticModel& model, int cell, double thickness) {
   const Shell& shell = model.mesh().shells[model.space().shells()[cell].shell];
   return shell_stiffness_law(model.mesh().material_of(shell), thickness).topLeftCorner<6, 6>();
@@ -110,15 +106,16 @@ Law law_of(const ElasticModel& model, int cell, double thickness) {
 
 /// Resultants of a cell at an operator's points, in its field's axes.
 Resultants resultants_of(const ElasticModel& model, const Orientation& orientation,
-                         ShellOperator& shell_operator, int cell, const Eigen::VectorXd& motion) {
+                         ShellOperator& shell_operator, int cell, const Motions& motions) {
   shell_operator.reinit(cell);
-  const Eigen::VectorXd local = motion_of_cell(model.space(), cell, motion);
-  Resultants resultants(6, static_cast<Eigen::Index>(shell_operator.points().size()));
+  const Eigen::MatrixXd local = motions_of_cell(model.space(), cell, motions);
+  Resultants resultants(6 * motions.cols(),
+                        static_cast<Eigen::Index>(shell_operator.points().size()));
   for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
     const ShellPoint& point = shell_operator.points()[q];
-    resultants.col(q) =
-        orientation.turn(point, model.space().shells()[cell].shell) *
-        (law_of(model, cell, point.thickness) * (point.strain.topRows<6>() * local));
+    const Law law = orientation.turn(point, model.space().shells()[cell].shell) *
+                    law_of(model, cell, point.thickness);
+    resultants.col(q).reshaped(6, motions.cols()) = law * (point.strain.topRows<6>() * local);
   }
   return resultants;
 }
@@ -145,65 +142,85 @@ Eigen::MatrixXd to_nodes(int degree) {
   return result;
 }
 
-/// |e|^2 and |s_h|^2 of cells or solids, J.
+/// |e|^2 and |s_h|^2 of cells or solids in motions, J.
 struct SquaredNorms {
-  explicit SquaredNorms(Eigen::Index count)
-      : error(Eigen::VectorXd::Zero(count)), norm(Eigen::VectorXd::Zero(count)) {}
-  Eigen::VectorXd error, norm;
+  SquaredNorms(Eigen::Index count, Eigen::Index motions)
+      : error(Eigen::MatrixXd::Zero(count, motions)), norm(Eigen::MatrixXd::Zero(count, motions)) {}
+  Eigen::MatrixXd error, norm;
 };
 
-SquaredNorms norms_of_solids(const Space& space, const Eigen::VectorXd& motion, int threads) {
+SquaredNorms norms_of_solids(const Space& space, const Motions& motions, int threads) {
   const SolidSet solids = solids_of(space);
-  SquaredNorms norms(solids.count());
+  SquaredNorms norms(solids.count(), motions.cols());
   if (solids.count() == 0) return norms;
-  const Eigen::VectorXd displacement =
-      motion.reshaped(6, space.node_count()).topRows<3>().reshaped();
-  SolidError error = estimate_solid_error(solids, find_nodal_points(solids), displacement, threads);
-  norms.error = std::move(error.squared_error);
-  norms.norm = std::move(error.squared_norm);
+  const NodalPoints points = find_nodal_points(solids);
+  for (Eigen::Index m = 0; m < motions.cols(); ++m) {
+    const Eigen::VectorXd displacement =
+        motions.col(m).reshaped(6, space.node_count()).topRows<3>().reshaped();
+    const SolidError error = estimate_solid_error(solids, points, displacement, threads);
+    norms.error.col(m) = error.squared_error;
+    norms.norm.col(m) = error.squared_norm;
+  }
   return norms;
 }
+
+/// Cells that one thread computes at a time.
+int batch_of(int cells) { return std::max(32, cells / 64); }
 
 double relative_error(double error, double norm) {
   return error + norm > 0 ? std::sqrt(error / (error + norm)) : 0;
 }
 
-SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& motion, int threads) {
+/// The recovered resultants at the points where nodes and fields meet.
+Resultants recover(const ElasticModel& model, const Orientation& orientation, const Points& points,
+                   const Motions& motions, int threads) {
   const Space& space = model.space();
-  const int cells = static_cast<int>(space.shells().size()), p = space.degree();
-  SquaredNorms norms(cells);
-  if (cells == 0) return norms;
-  const Orientation orientation(model);
-  const Points points(space, orientation.fields);
-
-  const int batch = std::max(32, cells / 64), per_cell = space.nodes_per_shell();
-  Resultants recovered = Resultants::Zero(6, points.count());
-  Resultants at_nodes(6, static_cast<Eigen::Index>(per_cell) * cells);
-  const Eigen::MatrixXd carry = to_nodes(p);
-  parallel::in_batches(cells, batch, threads, [&](int first, int count) {
-    ShellOperator accurate(space, square_rule(p).topRows<2>());
+  const int cells = static_cast<int>(space.shells().size()), per_cell = space.nodes_per_shell();
+  Resultants at_nodes(6 * motions.cols(), static_cast<Eigen::Index>(per_cell) * cells);
+  const Eigen::MatrixXd carry = to_nodes(space.degree());
+  parallel::in_batches(cells, batch_of(cells), threads, [&](int first, int count) {
+    ShellOperator accurate(space, square_rule(space.degree()).topRows<2>());
     for (int cell = first; cell < first + count; ++cell)
       at_nodes.middleCols(static_cast<Eigen::Index>(per_cell) * cell, per_cell) =
-          resultants_of(model, orientation, accurate, cell, motion) * carry;
+          resultants_of(model, orientation, accurate, cell, motions) * carry;
   });
+  Resultants recovered = Resultants::Zero(6 * motions.cols(), points.count());
   for (int cell = 0; cell < cells; ++cell)
     for (int i = 0; i < per_cell; ++i)
       recovered.col(points.of(cell, i)) +=
           at_nodes.col(static_cast<Eigen::Index>(per_cell) * cell + i) /
           points.share(points.of(cell, i));
+  return recovered;
+}
 
+/// Adds what a point of a cell has to |e|^2 and |s_h|^2 of the motions.
+void add_point(const Law& compliance, double area, const Eigen::Ref<const Eigen::VectorXd>& smooth,
+               const Eigen::Ref<const Eigen::VectorXd>& s_h, int cell, SquaredNorms& norms) {
+  for (Eigen::Index m = 0; m < norms.error.cols(); ++m) {
+    const Vector6 own = s_h.segment<6>(6 * m), difference = smooth.segment<6>(6 * m) - own;
+    norms.error(cell, m) += area * difference.dot(compliance * difference);
+    norms.norm(cell, m) += area * own.dot(compliance * own);
+  }
+}
+
+SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orientation,
+                            const Points& points, const Motions& motions, int threads) {
+  const Space& space = model.space();
+  const int cells = static_cast<int>(space.shells().size()), p = space.degree();
+  SquaredNorms norms(cells, motions.cols());
+  const Resultants recovered = recover(model, orientation, points, motions, threads);
   const Eigen::Matrix3Xd rule = square_rule(p + 1);
   Eigen::MatrixXd values(space.nodes_per_shell(), rule.cols());
   for (Eigen::Index q = 0; q < rule.cols(); ++q)
     values.col(q) = space.shell_values(rule.col(q).head<2>());
-  parallel::in_batches(cells, batch, threads, [&](int first, int count) {
+  parallel::in_batches(cells, batch_of(cells), threads, [&](int first, int count) {
     ShellOperator own(space, rule.topRows<2>());
-    Resultants smooth(6, space.nodes_per_shell());
+    Resultants at_nodes(6 * motions.cols(), space.nodes_per_shell());
     for (int cell = first; cell < first + count; ++cell) {
-      const Resultants s_h = resultants_of(model, orientation, own, cell, motion);
+      const Resultants s_h = resultants_of(model, orientation, own, cell, motions);
       for (int i = 0; i < space.nodes_per_shell(); ++i)
-        smooth.col(i) = recovered.col(points.of(cell, i));
-      const Resultants difference = smooth * values - s_h;
+        at_nodes.col(i) = recovered.col(points.of(cell, i));
+      const Resultants smooth = at_nodes * values;
       Law compliance = Law::Zero();
       double thickness = 0;  // that it is of
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
@@ -211,12 +228,29 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Eigen::VectorXd& mo
           thickness = own.points()[q].thickness;
           compliance = algebra::inverse_of<6>(law_of(model, cell, thickness));
         }
-        const double area = rule(2, q) * own.points()[q].area;
-        norms.error[cell] += area * difference.col(q).dot(compliance * difference.col(q));
-        norms.norm[cell] += area * s_h.col(q).dot(compliance * s_h.col(q));
+        add_point(compliance, rule(2, q) * own.points()[q].area, smooth.col(q), s_h.col(q), cell,
+                  norms);
       }
     }
   });
+  return norms;
+}
+
+/// The same of any number of motions: the operators of the cells are made once for some of them.
+SquaredNorms norms_of_cells(const ElasticModel& model, const Motions& motions, int threads) {
+  constexpr Eigen::Index together = 8;  // what is held of each at all nodes of all cells is large
+  const Space& space = model.space();
+  SquaredNorms norms(static_cast<Eigen::Index>(space.shells().size()), motions.cols());
+  if (space.shells().empty()) return norms;
+  const Orientation orientation(model);
+  const Points points(space, orientation.fields);
+  for (Eigen::Index first = 0; first < motions.cols(); first += together) {
+    const Eigen::Index count = std::min(together, motions.cols() - first);
+    const SquaredNorms some =
+        norms_of_cells(model, orientation, points, motions.middleCols(first, count), threads);
+    norms.error.middleCols(first, count) = some.error;
+    norms.norm.middleCols(first, count) = some.norm;
+  }
   return norms;
 }
 
@@ -225,47 +259,63 @@ Vector3 centre_of(const Mesh& mesh, const Solid& solid) {
   return places_of(mesh, solid).leftCols(topology_of(solid.shape).corners).rowwise().mean();
 }
 
-}  // namespace
-
-BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& motion,
-                                int threads) {
+/// What the norms of one motion say.
+BlockError sum_up(const ElasticModel& model, const Eigen::Ref<const Eigen::VectorXd>& cell_errors,
+                  const Eigen::Ref<const Eigen::VectorXd>& cell_norms,
+                  const Eigen::Ref<const Eigen::VectorXd>& solid_errors,
+                  const Eigen::Ref<const Eigen::VectorXd>& solid_norms) {
   const Space& space = model.space();
   const Mesh& mesh = model.mesh();
-  SquaredNorms cells = norms_of_cells(model, motion, threads);
-  const SquaredNorms solids = norms_of_solids(space, motion, threads);
-
   std::vector<double> e(mesh.groups.size(), 0), s(mesh.groups.size(), 0);
-  const auto add = [&](const SquaredNorms& norms, const auto& region_of) {
-    for (int i = 0; i < norms.error.size(); ++i) {
+  const auto add = [&](const auto& errors, const auto& norms, const auto& region_of) {
+    for (int i = 0; i < errors.size(); ++i) {
       const std::size_t group = at(mesh.regions[region_of(i)].group);
-      e[group] += norms.error[i];
-      s[group] += norms.norm[i];
+      e[group] += errors[i];
+      s[group] += norms[i];
     }
   };
   const auto region_of_cell = [&](int cell) {
     return mesh.shells[space.shells()[cell].shell].region;
   };
-  add(cells, region_of_cell);
-  add(solids, [&](int solid) { return mesh.solids[solid].region; });
+  add(cell_errors, cell_norms, region_of_cell);
+  add(solid_errors, solid_norms, [&](int solid) { return mesh.solids[solid].region; });
 
   BlockError result;
   result.relative =
-      relative_error(cells.error.sum() + solids.error.sum(), cells.norm.sum() + solids.norm.sum());
+      relative_error(cell_errors.sum() + solid_errors.sum(), cell_norms.sum() + solid_norms.sum());
   for (std::size_t g = 0; g < e.size(); ++g) result.of_groups.push_back(relative_error(e[g], s[g]));
   Eigen::Index worst = 0;
   double largest = 0;
-  if (cells.error.size() > 0) {
-    largest = cells.error.maxCoeff(&worst);
+  if (cell_errors.size() > 0) {
+    largest = cell_errors.maxCoeff(&worst);
     result.worst_part = mesh.regions[region_of_cell(static_cast<int>(worst))].name;
     result.worst_point = space.place(static_cast<int>(worst), {0.5, 0.5});
   }
-  if (solids.error.size() > 0 && solids.error.maxCoeff(&worst) > largest) {
+  if (solid_errors.size() > 0 && solid_errors.maxCoeff(&worst) > largest) {
     const Solid& solid = mesh.solids[worst];
     result.worst_part = mesh.regions[solid.region].name;
     result.worst_point = centre_of(mesh, solid);
   }
-  result.of_cells = std::move(cells.error);
+  result.of_cells = cell_errors;
   return result;
+}
+
+}  // namespace
+
+std::vector<BlockError> estimate_block_errors(const ElasticModel& model, const Motions& motions,
+                                              int threads) {
+  const SquaredNorms cells = norms_of_cells(model, motions, threads);
+  const SquaredNorms solids = norms_of_solids(model.space(), motions, threads);
+  std::vector<BlockError> errors;
+  for (Eigen::Index m = 0; m < motions.cols(); ++m)
+    errors.push_back(sum_up(model, cells.error.col(m), cells.norm.col(m), solids.error.col(m),
+                            solids.norm.col(m)));
+  return errors;
+}
+
+BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& motion,
+                                int threads) {
+  return std::move(estimate_block_errors(model, motion, threads).front());
 }
 
 }  // namespace blocklift::structure

@@ -29,7 +29,12 @@ struct BlockError {
   Eigen::VectorXd of_cells;               ///< |e|^2 of each of Space::shells(), J
 };
 
-/// @param motion six a node.
+/// Of each motion, a column: what belongs to the cells alone is computed once for several.
+/// @param motions six a node.
+std::vector<BlockError> estimate_block_errors(const ElasticModel& model,
+                                              const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                              int threads = 0);
+/// The same of one.
 BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& motion,
                                 int threads = 0);
 

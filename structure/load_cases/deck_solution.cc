@@ -165,7 +165,6 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     check_energy(system, diagonal, acting.col(column), unknowns.col(column) - unloaded, [&] {
       refuse_loose(space, deck.load_cases[cases[c]], most_moved_freedom(space, solution.motion));
     });
-    solution.estimated_error = estimate_block_error(model, solution.motion, threads).relative;
     sum_up(space, loads.col(column), solution);
   }
 }
@@ -223,11 +222,13 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
   const auto count = static_cast<Eigen::Index>(result.cases.size());
   Eigen::MatrixXd motions(model.freedoms(), count);
   for (Eigen::Index c = 0; c < count; ++c) motions.col(c) = result.cases[c].motion;
+  const std::vector<BlockError> errors = estimate_block_errors(model, motions, threads);
   std::vector<LoadCaseResult> stresses =
       MotionStress(model, motions, {}).evaluate(Eigen::MatrixXd::Identity(count, count), motions);
   for (std::size_t c = 0; c < stresses.size(); ++c) {
     stresses[c].name = name_of(deck.load_cases[result.cases[c].load_case]);
     result.cases[c].stress = std::move(stresses[c]);
+    result.cases[c].estimated_error = errors[c].relative;
   }
   return result;
 }

@@ -305,6 +305,20 @@ TEST(BlockErrorEstimate, IsOfTheTrueErrorsSizeAndFallsWithTheDegree) {
   EXPECT_LT(estimate[1], estimate[0]);
 }
 
+// More motions than are computed together.
+TEST(BlockErrorEstimate, OfManyMotionsIsThatOfEach) {
+  const ElasticModel model = small_model(2);
+  const Eigen::MatrixXd motions = 1e-3 * Eigen::MatrixXd::Random(model.freedoms(), 11);
+  const std::vector<BlockError> errors = estimate_block_errors(model, motions);
+  ASSERT_EQ(errors.size(), 11U);
+  for (Eigen::Index m = 0; m < motions.cols(); ++m) {
+    const BlockError alone = estimate_block_error(model, motions.col(m));
+    EXPECT_DOUBLE_EQ(errors[m].relative, alone.relative);
+    EXPECT_EQ(errors[m].worst_part, alone.worst_part);
+    EXPECT_NEAR((errors[m].of_cells - alone.of_cells).norm(), 0, 1e-12 * alone.of_cells.norm());
+  }
+}
+
 // Pressure on the bottom joins the basis: superposed it is what a solution of its own gives, with
 // or without lug forces and a spin beside it, and nothing reacts.
 TEST_F(SmallBlock, AddedLoadsAreSuperposedLikeAllOthers) {
