@@ -63,11 +63,11 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
     assessment.model = std::make_unique<structure::ElasticModel>(
         mesh_of(deck, assessment.is_massless, mark),
         structure::Resolution{degree.value_or(own_degree(deck)), {}});
+    assessment.mesh_s = watch.lap();
     assessment.solution = structure::solve_deck(*assessment.model, deck);
   } catch (const structure::ModelError& error) {
     refuse(mark, error.what());
   }
-  assessment.solution_s = watch.lap();
   if (assessment.solution.cases.empty())
     refuse(
         mark,

@@ -19,9 +19,9 @@ struct DeckAssessment {
   std::string name;  ///< of the block's file
   std::unique_ptr<structure::ElasticModel> model;
   structure::DeckSolution solution;
-  bool is_massless =
-      false;              ///< the deck has no mass, as those for forces alone; the model's is none
-  double solution_s = 0;  ///< wall-clock time
+  /// The deck has no mass, as those for forces alone; the model's is none.
+  bool is_massless = false;
+  double mesh_s = 0;  ///< of the model, wall-clock time
 
   const structure::Deck& deck() const { return *block->mesh->deck; }
   /// Of the deck, kg.

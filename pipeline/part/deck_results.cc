@@ -104,7 +104,12 @@ Json make_summary(const DeckAssessment& assessment) {
                                   {"reason", skipped.is_held ? "no loads" : "no supports"}});
   }
   summary["left_out"] = left_out_of_cases(deck);
-  summary["timing"] = {{"solution_s", assessment.solution_s}};
+  const structure::DeckTimes& times = assessment.solution.times;
+  summary["timing"] = {{"mesh_s", assessment.mesh_s},
+                       {"assembly_s", times.assembly},
+                       {"factorisation_s", times.factorisation},
+                       {"solve_s", times.solve},
+                       {"recovery_s", times.recovery}};
   return summary;
 }
 

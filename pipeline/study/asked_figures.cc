@@ -1,6 +1,7 @@
 #include "pipeline/study/asked_figures.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 
@@ -16,12 +17,15 @@ struct PartOfSummary {
   RunExtent needs;
 };
 
-RunExtent with_rest(RunExtent extent) {
-  extent.at_rest = true;
+/// The ropes' tensions and what is named beside them.
+RunExtent tensions_and(std::initializer_list<bool RunExtent::*> others) {
+  RunExtent extent = RunExtent::tensions();
+  for (bool RunExtent::*const other : others) extent.*other = true;
   return extent;
 }
 
 const std::vector<PartOfSummary>& known_parts() {
+  using Extent = RunExtent;
   static const RunExtent least = RunExtent::tensions();
   static const std::vector<PartOfSummary> parts{
       {"ropes", least},
@@ -31,12 +35,13 @@ const std::vector<PartOfSummary>& known_parts() {
       {"flexibility", least},
       {"worst_instant", least},
       {"solver", least},
-      {"comparison", with_rest(least)},
-      {"stages", {true, false, false, false, false, true, false}},
+      {"comparison", tensions_and({&Extent::at_rest})},
+      {"stages", tensions_and({&Extent::at_rest, &Extent::rope_forces})},
       {"structure", RunExtent::block_loads()},
-      {"measures", {true, false, false, true, true, true, true}},
-      {"natural_periods", {true, true, false, false, false, false, false}},
-      {"energy", {false, false, true, false, false, false, false}},
+      {"measures", tensions_and({&Extent::at_rest, &Extent::righting_height, &Extent::motion,
+                                 &Extent::rope_forces, &Extent::accelerations})},
+      {"natural_periods", tensions_and({&Extent::at_rest, &Extent::natural_modes})},
+      {"energy", tensions_and({&Extent::energy})},
   };
   return parts;
 }

@@ -17,6 +17,7 @@
 #include "structure/load_cases/deck_supports.h"
 #include "structure/response/loose_block.h"
 #include "structure/space/freedom_text.h"
+#include "structure/stopwatch.h"
 #include "structure/system/assembly.h"
 #include "structure/system/held_sums.h"
 #include "structure/system/matter.h"
@@ -131,6 +132,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   const std::vector<HeldDirection> directions =
       find_held_directions(space, supports_of(deck, sets));
   const std::vector<HeldSum> sums = as_sums(space, directions);
+  Stopwatch watch;
   Eigen::VectorXd diagonal;
   const auto assemble = [&] {
     SparseLower stiffness = assemble_stiffness(space, threads);
@@ -138,6 +140,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     return stiffness;
   };
   HeldSystem system(assemble(), sums);
+  result.times.assembly += watch.lap();
   try {
     system.factorise();
   } catch (const LooseUnknown& loose) {
@@ -147,10 +150,12 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     }
     refuse_loose(space, deck.load_cases[cases.front()], sums, loose.unknown, threads);
   }
+  result.times.factorisation += watch.lap();
   Eigen::MatrixXd loads(model.freedoms(), static_cast<Eigen::Index>(cases.size()));
   for (std::size_t c = 0; c < cases.size(); ++c)
     loads.col(c) = load_of(model, deck, deck.load_cases[cases[c]]);
   const Eigen::MatrixXd acting = space.reduce(loads);
+  result.times.assembly += watch.lap();
   const Eigen::MatrixXd unknowns = system.solve(acting);
   const Eigen::VectorXd unloaded = system.solve(Eigen::VectorXd::Zero(acting.rows()));
   const Eigen::MatrixXd forces = system.reactions(unknowns, acting);
@@ -167,6 +172,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     });
     sum_up(space, loads.col(column), solution);
   }
+  result.times.solve += watch.lap();
 }
 
 CasesOfSupports sort_cases(const Deck& deck, DeckSolution& result) {
@@ -219,6 +225,7 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
             [](const auto& a, const auto& b) { return a.load_case < b.load_case; });
   find_idle_supports(model, deck, result);
   if (result.cases.empty()) return result;
+  Stopwatch watch;
   const auto count = static_cast<Eigen::Index>(result.cases.size());
   Eigen::MatrixXd motions(model.freedoms(), count);
   for (Eigen::Index c = 0; c < count; ++c) motions.col(c) = result.cases[c].motion;
@@ -230,6 +237,7 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
     result.cases[c].stress = std::move(stresses[c]);
     result.cases[c].estimated_error = errors[c].relative;
   }
+  result.times.recovery = watch.lap();
   return result;
 }
 

@@ -40,10 +40,19 @@ struct SkippedCase {
   bool is_held = false;
 };
 
+/// Wall-clock times of a deck's solution, s.
+struct DeckTimes {
+  double assembly = 0;       ///< stiffness and loads, supports put into them
+  double factorisation = 0;  ///< its analysis and, on several processes, dealing out among it
+  double solve = 0;          ///< motions and reactions of all cases
+  double recovery = 0;       ///< stresses and the estimates of their error
+};
+
 struct DeckSolution {
   std::vector<DeckCaseSolution> cases;  ///< in the deck's order
   std::vector<SkippedCase> skipped;
   std::vector<int> idle_supports;  ///< vertices that are held and that nothing is joined to
+  DeckTimes times;
 };
 
 /// Solves the load cases of a deck as it states them: its supports hold, its loads act. Cases with
