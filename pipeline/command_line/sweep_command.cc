@@ -177,7 +177,8 @@ void print_study(const StudyResults& results, const fs::path& folder, std::optio
   if (is_quiet()) return;
   const StudyFile& study = results.study;
   fmt::print("{}\n\n{}", study.title.empty() ? study.name : study.title, study_text(results));
-  fmt::print("\n{} members, {} failed\n", results.members.size(), results.failed());
+  fmt::print("\n{} member{}, {} failed\n", results.members.size(),
+             results.members.size() == 1 ? "" : "s", results.failed());
   if (worst)
     print_wrapped(fmt::format("member {} has the worst {}: {}", *worst,
                               results.spreads[results.leading.front()].path,
@@ -251,7 +252,8 @@ int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
   if (!is_quiet()) {
     fmt::print("{}\n\n{}", results.study.title.empty() ? results.study.name : results.study.title,
                search_text(results));
-    fmt::print("\n{} members, {} failed\n", results.members.size(), results.failed());
+    fmt::print("\n{} member{}, {} failed\n", results.members.size(),
+               results.members.size() == 1 ? "" : "s", results.failed());
     fmt::print("page: {}\n", (folder / "study.html").string());
   }
   if (!whole.failure.empty())

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "pipeline/hydrodynamics/line_chart.h"
 #include "pipeline/report/html.h"
+#include "pipeline/study/study_design.h"
 #include "pipeline/study/study_results.h"
 #include "pipeline/terminal/text_table.h"
 
@@ -27,8 +29,10 @@ constexpr const char* style =
     "svg .title{font-weight:600;font-size:11px}svg path{fill:none;stroke-width:1.4}"
     "svg .grid{stroke:#ddd}"
     ".range{display:inline-block;position:relative;width:16em;height:.8em;"
-    "background:linear-gradient(#8888,#8888) center/1px 100% no-repeat}"
-    ".bar{position:absolute;top:0;height:100%;background:#2f6db3}.bar.minus{background:#c2571a}"
+    "background:linear-gradient(#888,#888) center/1px 100% no-repeat}"
+    ".bar{position:absolute;top:.1em;height:.6em;background:#2f6db3}.bar.minus{background:#c2571a}"
+    ".figure{display:inline-block;width:3.4em}td{font-variant-numeric:tabular-nums}"
+    ".words td,.words th{text-align:left}"
     ".note{color:#5a6675}.scroll{overflow-x:auto}.even{table-layout:fixed}"
     "@media (prefers-color-scheme:dark){body{color:#e3e8ee;background:#14191f}"
     "th,td{border-color:#38424d}svg{background:#fff}.note{color:#a9b4c0}}";
@@ -55,6 +59,16 @@ std::string name_with_unit(const StudyResults& results, const std::string& path)
   return escape_html(figure.name + (figure.unit.empty() ? "" : ", " + figure.unit));
 }
 
+/// As many decimals as the mean has, or three digits where it is so small.
+std::string deviation_text(double scale, const Spread& spread) {
+  const double deviation = scale * spread.deviation, mean = scale * spread.mean;
+  const int more = std::abs(mean) > deviation && deviation > 0
+                       ? static_cast<int>(std::floor(std::log10(std::abs(mean)))) -
+                             static_cast<int>(std::floor(std::log10(deviation)))
+                       : 0;
+  return format_figure(deviation, std::max(3, 4 - more));
+}
+
 std::string leading_table(const StudyResults& results) {
   std::string text =
       "<div class=\"scroll\"><table>\n" +
@@ -68,7 +82,7 @@ std::string leading_table(const StudyResults& results) {
     };
     text += cells(
         {name_with_unit(results, spread.path), format_figure(scale * spread.mean),
-         format_figure(scale * spread.deviation, 3), quantile(0.5), quantile(0.95), quantile(0.99),
+         deviation_text(scale, spread), quantile(0.5), quantile(0.95), quantile(0.99),
          format_figure(scale * spread.worst()) + (spread.worse_when_smaller ? " (smallest)" : ""),
          std::to_string(spread.member_of_worst())},
         "td");
@@ -84,7 +98,7 @@ std::string leading_table(const StudyResults& results) {
 /// Share of the members above a value, or below it where small values are bad.
 std::string exceedance(const StudyResults& results, const Spread& spread) {
   const ShownFigure figure = results.shown(spread.path);
-  std::vector<double> values = results.values_of(spread.path);
+  std::vector<double> values = results.sample_of(spread.path);
   std::sort(values.begin(), values.end());
   Curve curve{"", {}, {}};
   const auto count = static_cast<double>(values.size());
@@ -113,15 +127,72 @@ std::string extremes_table(const StudyResults& results) {
   if (rows.empty()) return "";
   return "<h2>Extremes</h2>\n<div class=\"scroll\"><table>\n" +
          cells({"figure", "law", "share of better", "value", "p of Kolmogorov-Smirnov"}, "th") +
-         rows + "</table></div>\n";
+         rows +
+         "</table></div>\n<p class=\"note\">A law of extremes that was fitted to the members, and "
+         "the "
+         "value that so many lifts stay on the better side of by it; in brackets the interval of "
+         "95 % by the bootstrap. p: how often a sample of the law itself differs as much from its "
+         "own fit. Where p is small the law does not hold. A law knows nothing of what bounds a "
+         "figure, such as the weight of the load.</p>\n";
+}
+
+std::string of_which_members(const StudyResults& results) {
+  if (results.study.design != StudyDesign::sensitivity) return "";
+  return fmt::format(
+      "<p class=\"note\">All but the worst is of the first {} lifts, which were drawn "
+      "independently "
+      "of each other. The others, for Sobol' indices, repeat their values.</p>\n",
+      results.independent());
 }
 
 /// What a sample says of all such lifts.
 std::string spreads(const StudyResults& results) {
-  std::string text =
-      "<h2>Leading figures</h2>\n" + leading_table(results) + "<div class=\"charts\">\n";
+  std::string text = "<h2>Leading figures</h2>\n" + leading_table(results) +
+                     of_which_members(results) + "<div class=\"charts\">\n";
   for (const std::size_t i : results.leading) text += exceedance(results, results.spreads[i]);
   return text + "</div>\n" + extremes_table(results);
+}
+
+std::string law_text(const StudyVariable& variable) {
+  static constexpr const char* names[] = {"normal",     "lognormal", "uniform",
+                                          "triangular", "Gumbel",    "Weibull"};
+  const SpreadLaw& law = *variable.law;
+  std::string text = names[static_cast<std::size_t>(law.kind)];
+  const auto add = [&](const char* name, const std::optional<Located<Measure>>& value) {
+    if (value) text += fmt::format(", {} {}", name, value_text(variable, value->value.value, 6));
+  };
+  add("mean", law.mean);
+  add("deviation", law.deviation);
+  add("mode", law.mode);
+  add("from", law.lowest);
+  add("to", law.highest);
+  return text;
+}
+
+std::string values_text(const StudyVariable& variable) {
+  if (variable.law) return law_text(variable);
+  const bool is_range = !variable.between.empty();
+  std::string text;
+  for (const Located<Measure>& value : is_range ? variable.between : variable.values)
+    text += (text.empty() ? ""
+             : is_range   ? " to "
+                          : "; ") +
+            value_text(variable, value.value.value, 6);
+  return text;
+}
+
+/// What the members differ in, in SI units as in study.csv.
+std::string what_varies(const StudyFile& study) {
+  std::string text = "<h2>What varies</h2>\n<div class=\"scroll\"><table class=\"words\">\n" +
+                     cells({"value", "key", "takes"}, "th");
+  for (const StudyVariable& variable : study.variables) {
+    std::string keys;
+    for (const Located<std::string>& key : variable.keys)
+      keys += (keys.empty() ? "" : "<br>") + escape_html(key.value);
+    text +=
+        cells({escape_html(variable.name.value), keys, escape_html(values_text(variable))}, "td");
+  }
+  return text + "</table></div>\n";
 }
 
 /// From the middle to the right for what is positive, to the left for what is negative.
@@ -129,7 +200,7 @@ std::string bar(double share) {
   const double percent = 50 * std::min(1.0, std::abs(share));
   return fmt::format(
       "<span class=\"range\"><span class=\"bar{}\" style=\"left:{:.1f}%;width:{:.1f}%\"></span>"
-      "</span> {:+.2f}",
+      "</span> <span class=\"figure\">{:+.2f}</span>",
       share < 0 ? " minus" : "", share < 0 ? 50 - percent : 50.0, percent, share);
 }
 
@@ -181,7 +252,7 @@ std::string limiting_table(const LimitingSeas& seas) {
                                             : "limiting height, m");
   std::string text = "<div class=\"scroll\"><table>\n" + cells(head, "th");
   for (std::size_t p = 0; p < seas.periods.size(); ++p) {
-    std::vector<std::string> row{format_figure(seas.periods[p])};
+    std::vector<std::string> row{fmt::format("{:.4g}", seas.periods[p])};
     for (std::size_t h = 0; h < seas.headings.size(); ++h) {
       const LimitingHeight& limit = seas.at(p, h);
       row.push_back(limit.kind == LimitKind::found        ? format_figure(limit.height, 3)
@@ -206,8 +277,9 @@ std::string operability_text(const StudyResults& results) {
   text += fmt::format("<p>Of the forecast {} is workable with alpha {:g}:</p>\n<ul>\n",
                       share(results.in_forecast->share), alpha);
   for (const Operability::Window& window : results.in_forecast->windows)
-    text += fmt::format("<li>{} h to {} h</li>\n", format_figure(window.begin),
-                        format_figure(window.end));
+    text += window.begin < window.end
+                ? fmt::format("<li>{:.6g} h to {:.6g} h</li>\n", window.begin, window.end)
+                : fmt::format("<li>at {:.6g} h alone</li>\n", window.begin);
   return text + "</ul>\n";
 }
 
@@ -247,11 +319,32 @@ std::string all_figures(const StudyResults& results) {
   for (const Spread& spread : results.spreads) {
     const double scale = results.shown(spread.path).scale;
     text += cells({name_with_unit(results, spread.path), format_figure(scale * spread.smallest),
-                   format_figure(scale * spread.mean), format_figure(scale * spread.deviation, 3),
+                   format_figure(scale * spread.mean), deviation_text(scale, spread),
                    format_figure(scale * spread.largest)},
                   "td");
   }
   return text + "</table></div>\n";
+}
+
+/// The whole report of the worst member stands beside the page.
+std::string link_to_worst(const StudyResults& results) {
+  if (results.search || results.leading.empty()) return "";
+  const Spread& spread = results.spreads[results.leading.front()];
+  return fmt::format(
+      " <a href=\"worst/report.html\">The report of member {}</a>, the worst by: {}.",
+      spread.member_of_worst(), escape_html(results.shown(spread.path).name));
+}
+
+/// How far from zero a rank correlation of so many independent members lies once in twenty: its
+/// deviation is 1 / sqrt(n - 1).
+std::string by_chance(const StudyResults& results) {
+  const auto count = static_cast<double>(
+      std::count_if(results.members.begin(), results.members.end(), [&](const Member& member) {
+        return member.failure.empty() && member.number < results.independent();
+      }));
+  if (results.study.design == StudyDesign::grid || count < 4) return "";
+  return fmt::format(" With {:g} lifts what lies within ±{:.2f} may be chance.", count,
+                     std::min(1.0, 1.96 / std::sqrt(count - 1)));
 }
 
 }  // namespace
@@ -262,21 +355,24 @@ std::string study_page(const StudyResults& results) {
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>{0}</title><style>{1}</style></head><body>\n"
-      "<h1>{0}</h1>\n<p>{2} lifts of {3}{4}. Each is a row of study.csv.</p>\n",
+      "<h1>{0}</h1>\n<p>{2} lift{5} of the case {3}{4}. Each is a row of study.csv.{6}</p>\n",
       title, style, results.members.size(), escape_html(name_of_case(study)),
-      results.failed() > 0 ? fmt::format("; {} failed and are left out", results.failed()) : "");
+      results.failed() > 0 ? fmt::format("; {} failed and are left out", results.failed()) : "",
+      results.members.size() == 1 ? "" : "s", link_to_worst(results));
   // What a search tries is no sample: it has no quantiles.
   if (results.search)
-    return page + search_section(results) + all_figures(results) + "</body></html>\n";
+    return page + search_section(results) + what_varies(study) + all_figures(results) +
+           "</body></html>\n";
   page += limiting_seas(results);
   // Nor are seas that were laid out on a grid: each is run as often as the others.
   if (!results.limits) page += spreads(results);
   page += sensitivities(results);
   page +=
       "<h2>What they depend on</h2>\n<p class=\"note\">Rank correlation (Spearman) of each "
-      "figure with each variable.</p>\n";
+      "figure with each value that varies." +
+      by_chance(results) + "</p>\n";
   for (const std::size_t i : results.leading) page += tornado(results, results.spreads[i]);
-  return page + all_figures(results) + "</body></html>\n";
+  return page + what_varies(study) + all_figures(results) + "</body></html>\n";
 }
 
 }  // namespace blocklift::pipeline

@@ -251,6 +251,7 @@ ShownFigure shown_figure(const std::string& path, const std::string& unit) {
   }
   std::string name;
   for (const char c : figure.name) name += c == '.' ? ", " : std::string(1, c == '_' ? ' ' : c);
+  if (const auto at = name.find("von mises"); at != std::string::npos) name[at + 4] = 'M';
   figure.name = std::move(name);
   return figure;
 }
@@ -282,21 +283,55 @@ std::vector<double> StudyResults::values_of(const std::string& path) const {
   return values;
 }
 
+int StudyResults::independent() const {
+  const auto all = static_cast<int>(members.size());
+  return study.design == StudyDesign::sensitivity ? std::min(2 * study.members.value(), all) : all;
+}
+
+std::vector<double> StudyResults::sample_of(const std::string& path) const {
+  std::vector<double> values;
+  for (const Member& member : members)
+    if (member.number < independent())
+      for (const auto& [name, value] : member.figures)
+        if (name == path) values.push_back(value);
+  return values;
+}
+
+namespace {
+
+/// Spread of a figure over the independent members. The smallest and the largest are of all: they
+/// ran, and are looked at.
+Spread spread_of(const StudyResults& results, const std::string& path) {
+  std::vector<int> numbers, drawn;
+  for (const Member& member : results.members) {
+    if (!member.failure.empty()) continue;
+    numbers.push_back(member.number);
+    if (member.number < results.independent()) drawn.push_back(member.number);
+  }
+  const std::vector<double> all = results.values_of(path);
+  if (drawn.empty()) drawn = numbers;
+  const bool is_all = drawn.size() == numbers.size();
+  Spread spread = find_spread(path, is_all ? all : results.sample_of(path), drawn, results.design,
+                              results.is_worse_when_smaller(path));
+  const auto smallest = std::min_element(all.begin(), all.end());
+  const auto largest = std::max_element(all.begin(), all.end());
+  spread.smallest = *smallest;
+  spread.largest = *largest;
+  spread.member_of_smallest = numbers[static_cast<std::size_t>(smallest - all.begin())];
+  spread.member_of_largest = numbers[static_cast<std::size_t>(largest - all.begin())];
+  return spread;
+}
+
+}  // namespace
+
 StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members) {
   StudyResults results{
       std::move(study), std::move(design), std::move(members), {}, {}, {}, {}, {}, {}, {}};
-  std::vector<int> numbers;
-  for (const Member& member : results.members)
-    if (member.failure.empty()) numbers.push_back(member.number);
-  if (numbers.empty())
+  if (results.failed() == static_cast<int>(results.members.size()))
     throw std::runtime_error("no member of the study ran; the first says: " +
                              (results.members.empty() ? "" : results.members.front().failure));
-  for (std::string& path : common_paths(results.members)) {
-    const std::vector<double> values = results.values_of(path);
-    const bool worse_when_smaller = results.is_worse_when_smaller(path);
-    results.spreads.push_back(
-        find_spread(std::move(path), values, numbers, results.design, worse_when_smaller));
-  }
+  for (const std::string& path : common_paths(results.members))
+    results.spreads.push_back(spread_of(results, path));
   find_limits(results);
   results.leading = choose_leading(results.study, results.spreads);
   if (results.study.design == StudyDesign::sensitivity && results.failed() == 0) {
@@ -348,7 +383,7 @@ std::string limiting_text(const LimitingSeas& seas) {
         {seas.headings.size() > 1 ? fmt::format("{:.4g}°", heading / degree) : "height, m", 3});
   TextTable table(std::move(columns));
   for (std::size_t p = 0; p < seas.periods.size(); ++p) {
-    std::vector<TextTable::Cell> row{format_figure(seas.periods[p])};
+    std::vector<TextTable::Cell> row{fmt::format("{:.4g}", seas.periods[p])};
     for (std::size_t h = 0; h < seas.headings.size(); ++h) {
       const LimitingHeight& limit = seas.at(p, h);
       const std::string height = fmt::format("{:.2f}", limit.height);

@@ -46,6 +46,11 @@ struct StudyResults {
   bool is_worse_when_smaller(const std::string& path) const;
   /// Values of a figure, of the members that ran.
   std::vector<double> values_of(const std::string& path) const;
+  /// The first so many members were drawn independently of each other. For Sobol' indices these are
+  /// the two samples; what follows puts columns of the one into the other.
+  int independent() const;
+  /// Values of a figure, of the independent members that ran.
+  std::vector<double> sample_of(const std::string& path) const;
 };
 
 /// @throws std::runtime_error if no member ran.

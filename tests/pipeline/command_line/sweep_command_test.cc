@@ -65,7 +65,7 @@ TEST_F(SweepCommand, LoadsAtRestSpreadAsTheWeight) {
     EXPECT_TRUE(fs::is_regular_file(fs::path("out") / file)) << file;
   const std::string page = text_of_file("out/study.html");
   EXPECT_THAT(page, HasSubstr("<svg"));
-  EXPECT_THAT(page, HasSubstr("24 lifts of lift"));
+  EXPECT_THAT(page, HasSubstr("24 lifts of the case lift"));
   // Two tables show it, both in kN: some 20 kN are the weight's at each of four slings.
   const auto rows = std::regex("ropes, R1, max static tension, kN</td><td>1?[0-9]{2}\\.");
   EXPECT_EQ(

@@ -98,6 +98,15 @@ TEST(Spread, GumbelOfItsOwnSample) {
   EXPECT_GT(fit.high, inverse(0.999));
 }
 
+// Kolmogorov's own table, for a law that is known, says 0.23 of these values and the Gumbel law that
+// was fitted to them.
+TEST(Spread, GumbelDoesNotFitWhatIsSpreadEvenly) {
+  const Spread spread = find_spread("x", even_sample(100, [](double share) { return share; }),
+                                    numbers(100), Eigen::MatrixXd(100, 0));
+  ASSERT_FALSE(spread.extremes.empty());
+  EXPECT_LT(spread.extremes.front().p_value, 0.05);
+}
+
 // The excesses of an exponential law over any threshold are exponential: Pareto's with shape 0.
 TEST(Spread, ParetoOfAnExponentialTail) {
   const auto inverse = [](double share) { return -3 * std::log(1 - share); };
