@@ -41,8 +41,17 @@ int expect(const ExpectOptions& options) {
                *options.file);
     return exit_code::wrong_input;
   }
-  const std::string text =
-      expected_figures_text(expect_figures(read_compared_result(options.result).summary));
+  const std::vector<ExpectedFigure> figures =
+      expect_figures(read_compared_result(options.result).summary);
+  if (figures.empty()) {
+    fmt::print(
+        stderr,
+        "{}: error: these results have no figures of a lift\n    those of a part alone cannot "
+        "be expected\n",
+        options.result);
+    return exit_code::wrong_input;
+  }
+  const std::string text = expected_figures_text(figures);
   if (!options.file) {
     fmt::print("{}", text);
     return exit_code::done;

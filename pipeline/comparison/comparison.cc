@@ -183,18 +183,17 @@ bool is_beyond(const ComparedFigure& figure, std::size_t result, const Tolerance
 }
 
 /// The last tolerance that means a figure counts.
-std::vector<MovedFigure> find_moved(const ResultComparison& comparison) {
-  std::vector<MovedFigure> moved;
+void find_moved(ResultComparison& comparison) {
   for (std::size_t f = 0; f < comparison.figures.size(); ++f) {
     const ComparedFigure& figure = comparison.figures[f];
     std::size_t t = comparison.tolerances.size();
     while (t > 0 && !concerns(comparison.tolerances[t - 1], figure)) --t;
     if (t == 0) continue;
+    ++comparison.held;
     for (std::size_t result = 1; result < figure.values.size(); ++result)
       if (is_beyond(figure, result, comparison.tolerances[t - 1]))
-        moved.push_back({f, result, t - 1});
+        comparison.moved.push_back({f, result, t - 1});
   }
-  return moved;
 }
 
 }  // namespace
@@ -218,7 +217,7 @@ ResultComparison compare_results(std::vector<ComparedResult> results,
   check_tolerances(tolerances, comparison.figures, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   comparison.tolerances = std::move(tolerances);
-  comparison.moved = find_moved(comparison);
+  find_moved(comparison);
   return comparison;
 }
 

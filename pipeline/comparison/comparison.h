@@ -44,6 +44,7 @@ struct ResultComparison {
   std::vector<ComparedFigure> figures;  ///< by groups
   std::vector<Tolerance> tolerances;
   std::vector<MovedFigure> moved;
+  std::size_t held = 0;  ///< figures that have a tolerance
 };
 
 /// Holds results against the first of them.

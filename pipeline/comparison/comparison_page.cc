@@ -75,7 +75,9 @@ std::string figures_table(const ResultComparison& comparison) {
 
 std::string tolerance_list(const ResultComparison& comparison) {
   if (comparison.tolerances.empty()) return {};
-  if (comparison.moved.empty()) return "<p>No figure moved beyond its tolerance.</p>\n";
+  if (comparison.moved.empty())
+    return fmt::format("<p>No figure moved beyond its tolerance; figures that have one: {}.</p>\n",
+                       comparison.held);
   std::string html = "<h2>Beyond tolerance</h2>\n<ul>\n";
   for (const MovedFigure& moved : comparison.moved)
     html += fmt::format("<li>{}</li>\n", escape_html(shown_move(comparison, moved)));

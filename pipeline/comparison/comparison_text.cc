@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <sstream>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -44,12 +47,40 @@ std::string without_trailing_blanks(std::string line) {
   return line + '\n';
 }
 
+/// Stands for a blank at which no line is broken.
+constexpr char unbroken_blank = '\x01';
+
+/// A label broken at blanks, its later lines indented: what tells figures apart may stand at its
+/// end. A word that is too long alone is cut.
+std::vector<std::string> label_lines(const std::string& label, std::size_t indent,
+                                     std::size_t width) {
+  std::vector<std::string> lines;
+  std::string line(indent, ' ');
+  std::istringstream words(label);
+  for (std::string word; words >> word;) {
+    const bool is_first = line.find_first_not_of(' ') == std::string::npos;
+    if (!is_first && letters(line) + 1 + letters(word) > width) {
+      lines.push_back(std::move(line));
+      line = std::string(indent + 2, ' ') + word;
+    } else {
+      line += (is_first ? "" : " ") + word;
+    }
+  }
+  lines.push_back(std::move(line));
+  for (std::string& one : lines) {
+    std::replace(one.begin(), one.end(), unbroken_blank, ' ');
+    one = cut(one, width);
+  }
+  return lines;
+}
+
 std::string name_of_file(const std::string& file) { return file.empty() ? "the case file" : file; }
 
 /// Differing keys, each with its values below one another: they may be long.
 std::string input_text(const ResultComparison& comparison) {
   const bool all_have_models =
       std::all_of(comparison.results.begin(), comparison.results.end(),
+                  // Results of a part alone hold no input at all.
                   [](const ComparedResult& result) { return result.has_models; });
   std::string text = comparison.input.empty() ? "input: no key differs\n" : "input that differs\n";
   std::size_t name_width = 0;
@@ -67,8 +98,7 @@ std::string input_text(const ResultComparison& comparison) {
           fmt::format("    {}  {}", to_the_left(comparison.results[i].name, name_width),
                       cut(difference.values[i].value_or("-"), line_width - 6 - name_width)));
   }
-  if (!all_have_models)
-    text += " (models are not compared: results of an older version do not hold them)\n";
+  if (!all_have_models) text += " (models are not compared: not all results hold them)\n";
   return text;
 }
 
@@ -93,12 +123,14 @@ std::string figures_text(const ResultComparison& comparison, std::size_t begin) 
     const SummaryFigure& one = figure.figure;
     if ((!group || *group != one.group) && one.group != "verdict") text += one.group + '\n';
     group = &one.group;
-    const std::string unit = one.unit.empty() ? "" : ", " + one.unit;
+    std::string unit = one.unit.empty() ? "" : ", " + one.unit;
+    std::replace(unit.begin(), unit.end(), ' ', unbroken_blank);
     const std::size_t indent = one.group == "verdict" ? 0 : 1;
-    const std::string label =
-        std::string(indent, ' ') + cut(one.label, label_width - 2 - unit.size()) + unit;
+    // A blank stays between label and value.
+    std::vector<std::string> label = label_lines(one.label + unit, indent, label_width - 1);
+    for (std::size_t i = 0; i + 1 < label.size(); ++i) text += label[i] + '\n';
     text += line(
-        label, [&](std::size_t i) { return shown_value(figure, figure.values[i]); },
+        label.back(), [&](std::size_t i) { return shown_value(figure, figure.values[i]); },
         [&](std::size_t i) { return shown_change(figure, i); });
   }
   return text;
@@ -111,8 +143,10 @@ std::string comparison_text(const ResultComparison& comparison) {
   for (std::size_t begin = 1; begin < comparison.results.size(); begin += others_in_a_line)
     text += figures_text(comparison, begin);
   if (comparison.tolerances.empty()) return text;
-  text += comparison.moved.empty() ? "\nno figure moved beyond its tolerance\n"
-                                   : "\nbeyond tolerance\n";
+  text += comparison.moved.empty()
+              ? fmt::format("\nno figure moved beyond its tolerance; figures that have one: {}\n",
+                            comparison.held)
+              : "\nbeyond tolerance\n";
   for (const MovedFigure& moved : comparison.moved)
     text += fmt::format(" {}\n", shown_move(comparison, moved));
   return text;

@@ -66,26 +66,33 @@ double allowed_difference(const ExpectedFigure& figure) {
 /// What is wrong with a figure, in words; nothing if it is held.
 std::optional<std::string> complaint_about(const ExpectedFigure& figure, const Json* found) {
   if (!found) return "is not in the summary";
-  const auto differs = [&](const std::string& wanted) {
-    // Ten digits: what the tightest tolerance in use asks for.
-    const std::string is =
-        found->is_number() ? fmt::format("{:.10g}", found->get<double>()) : found->dump();
+  const auto is_instead = [](const std::string& is, const std::string& wanted) {
     return fmt::format("is {} instead of {}", is, wanted);
   };
   if (figure.equals) {
     if (text_of_value(*found) == *figure.equals) return std::nullopt;
-    return differs(*figure.equals);
+    return is_instead(
+        found->is_number() ? fmt::format("{:.10g}", found->get<double>()) : found->dump(),
+        *figure.equals);
   }
-  if (!found->is_number()) return differs("a number");
+  if (!found->is_number()) return is_instead(found->dump(), "a number");
   const auto number = found->get<double>();
+  // Six digits read well; what is off by less is written to the ten that the tightest tolerance in
+  // use asks for.
+  const auto differs = [&](double from, const std::string& wanted) {
+    const bool is_close = std::abs(number - from) < 1e-4 * std::abs(from);
+    return is_instead(fmt::format("{:.{}g}", number, is_close ? 10 : 6), wanted);
+  };
   if (figure.at_least && !(number >= *figure.at_least))
-    return differs(fmt::format("at least {}", *figure.at_least));
+    return differs(*figure.at_least, fmt::format("at least {}", *figure.at_least));
   if (figure.at_most && !(number <= *figure.at_most))
-    return differs(fmt::format("at most {}", *figure.at_most));
+    return differs(*figure.at_most, fmt::format("at most {}", *figure.at_most));
   if (figure.magnitude_at_most && !(std::abs(number) <= *figure.magnitude_at_most))
-    return differs(fmt::format("at most {} either way", *figure.magnitude_at_most));
+    return differs(std::copysign(*figure.magnitude_at_most, number),
+                   fmt::format("at most {} either way", *figure.magnitude_at_most));
   if (figure.value && !(std::abs(number - *figure.value) <= allowed_difference(figure)))
-    return differs(fmt::format("{} within {:.4g}", *figure.value, allowed_difference(figure)));
+    return differs(*figure.value,
+                   fmt::format("{} within {:.4g}", *figure.value, allowed_difference(figure)));
   return std::nullopt;
 }
 

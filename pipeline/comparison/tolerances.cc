@@ -105,6 +105,10 @@ bool matches_figure(std::string_view name, std::string_view path) {
 
 std::vector<Tolerance> read_tolerances(const std::string& given) {
   Diagnostics diagnostics;
+  if (trimmed(given).empty())
+    diagnostics.error({std::make_shared<const std::string>("--tolerance"), 0, 0}, "it is empty",
+                      {"figure=tolerance, or a file of such lines, is due"});
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
   std::vector<Tolerance> tolerances = given.find('=') == std::string::npos
                                           ? read_file(given, diagnostics)
                                           : parse_list(given, diagnostics);

@@ -106,6 +106,7 @@ TEST_F(ComparedFolders, RefuseTolerancesThatFitNoFigure) {
               HasSubstr("did you mean \"stress_increase\"?"));
   EXPECT_THAT(refusal_of({"before", "after"}, "ropes.R1.max_static_tension=1 MPa"),
               HasSubstr("ropes.R1.max_static_tension_N is in N"));
+  EXPECT_THAT(refusal_of({"before", "after"}, " "), HasSubstr("--tolerance: error: it is empty"));
 }
 
 TEST_F(ComparedFolders, AFigureThatOnlyOneHasHasMoved) {
@@ -130,7 +131,9 @@ TEST_F(ComparedFolders, GiveATableOfEightyColumns) {
     EXPECT_THAT(text, HasSubstr("+1.00 pt"));
   }
   EXPECT_THAT(comparison_text(compare("ropes=20%")),
-              HasSubstr("no figure moved beyond its tolerance"));
+              HasSubstr("no figure moved beyond its tolerance; figures that have one: 6\n"));
+  // What tells figures apart stands at the end of their labels.
+  EXPECT_THAT(comparison_text(comparison), HasSubstr(" largest rope load: stress\n   increase, %"));
 }
 
 TEST_F(ComparedFolders, GiveJsonInTheSummarysUnits) {

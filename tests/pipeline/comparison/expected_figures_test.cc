@@ -71,6 +71,19 @@ TEST(ExpectedFigures, AreHeldUpToTheirToleranceAndNoFurther) {
   EXPECT_EQ(outcome_of(R"("figure": "nothing", "at_most": 3)"), "is not in the summary");
 }
 
+TEST(ExpectedFigures, AreToldToSixDigitsOrToWhatTheyAreOffBy) {
+  const nlohmann::ordered_json summary{{"share", 0.3934303697}};
+  const auto complaint = [&](double value, double tolerance) {
+    ExpectedFigure figure;
+    figure.path = "share";
+    figure.value = value;
+    figure.tolerance = tolerance;
+    return find_broken_figures({figure}, summary).at(0).complaint;
+  };
+  EXPECT_EQ(complaint(0.375905, 0.02), "is 0.39343 instead of 0.375905 within 0.007518");
+  EXPECT_EQ(complaint(0.39343, 1e-7), "is 0.3934303697 instead of 0.39343 within 3.934e-08");
+}
+
 TEST(ExpectedFigures, SayWithTheirLineWhatIsWrongInTheirFile) {
   const std::string refusal = refusal_of(R"([
   {"figure": "a", "reason": "none"},
