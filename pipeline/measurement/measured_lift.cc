@@ -5,7 +5,10 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -140,6 +143,25 @@ void share_ropes(const TimeWindow& window, MeasuredLift& lift) {
   for (std::size_t i = 0; i < ropes.size(); ++i) ropes[i]->sharing = shares[i];
 }
 
+/// Of two oscillations that beat one fit finds a damping of its own, even below zero. The computed
+/// motion has no noise: what one oscillation leaves of it are others.
+void doubt_beats(MeasuredLift& lift) {
+  constexpr double rules_alone = 0.98;
+  std::vector<std::string> names;
+  for (const HeldChannel& channel : lift.channels) {
+    const auto& ours = channel.measured_decay;
+    const auto& theirs = channel.computed_decay;
+    if ((ours && ours->damping_ratio < -2 * ours->damping_deviation) ||
+        (theirs && theirs->explained < rules_alone))
+      names.push_back(channel.name);
+  }
+  if (names.empty()) return;
+  lift.doubts.push_back(fmt::format(
+      "more than one oscillation is in {}: the period and the damping of one that was fitted are "
+      "farther off than their deviations say",
+      list_of_names(names)));
+}
+
 void identify_decays(const TimeWindow& window, MeasuredLift& lift) {
   lift.looked_for_decay = true;
   for (HeldChannel& channel : lift.channels) {
@@ -151,6 +173,7 @@ void identify_decays(const TimeWindow& window, MeasuredLift& lift) {
     lift.doubts.push_back(
         fmt::format("in no measured quantity does one free oscillation rule from {:g} s to {:g} s",
                     window.from, window.to));
+  doubt_beats(lift);
 }
 
 /// A quantity of the case file whose key ends so; none where it is not there, or an expression.
@@ -179,6 +202,35 @@ bool has_unreadable_gravity(const ComparedResult& result) {
          !input_quantity(result, ".gravity", Dimension::acceleration);
 }
 
+/// What the block's own file says, of results without stress.
+void take_stated_mass(MeasuredLift& lift) {
+  const auto value_of = [](const std::string& yaml, const std::string& key) -> std::string {
+    for (const InputValue& value : list_input_values(yaml))
+      if (value.key == key) return value.value;
+    return {};
+  };
+  const std::vector<InputText>& input = lift.result.input;
+  if (input.empty()) return;
+  const std::string model = value_of(input.front().yaml, "load.model");
+  const auto block = std::find_if(input.begin() + 1, input.end(),
+                                  [&](const InputText& one) { return one.name == model; });
+  if (model.empty() || block == input.end()) return;
+  try {
+    if (const std::string mass = value_of(block->yaml, "mass"); !mass.empty())
+      lift.weight->computed_mass = parse_quantity(mass, Dimension::mass);
+    std::string list = value_of(block->yaml, "centre_of_mass");
+    std::erase_if(list, [](char c) { return c == '[' || c == ']'; });
+    std::istringstream parts(list);
+    std::vector<double> centre;
+    for (std::string part; std::getline(parts, part, ',');)
+      centre.push_back(parse_quantity(part, Dimension::length));
+    if (centre.size() == 3)
+      lift.weight->computed_centre_B = Eigen::Vector3d(centre[0], centre[1], centre[2]);
+  } catch (const QuantityError&) {
+    // An expression: what it comes to is not known here.
+  }
+}
+
 void weigh_load(const ResultsReader& results, const MeasurementSettings& settings,
                 MeasuredLift& lift) {
   const TimeWindow& window = *settings.rest;
@@ -200,8 +252,10 @@ void weigh_load(const ResultsReader& results, const MeasurementSettings& setting
                              .value_or(newton_per_tonne / 1000);
   const auto weighing =
       weigh(weighing_instants(results, tensions, window), gravity, settings.cell_accuracy);
-  if (!weighing) refuse(place, "all records have less than 20 instants in common there");
+  if (!weighing)
+    refuse(place, "the records of all ropes have less than 20 instants in common there");
   lift.weight = HeldWeight{*weighing, window, std::nullopt, std::nullopt};
+  take_stated_mass(lift);
   const nlohmann::ordered_json& summary = lift.result.summary;
   if (summary.contains("structure") && summary["structure"].contains("mass")) {
     const auto& block = summary["structure"]["mass"];

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
 #include "pipeline/formats/json_values.h"
 #include "pipeline/measurement/measured_lift.h"
 
@@ -60,12 +64,17 @@ Json channel_json(const HeldChannel& channel, bool looked_for_decay) {
 
 Json weight_json(const HeldWeight& weight) {
   const Weighing& ours = weight.measured;
+  // Along what stays open nothing is known.
+  Json deviation = json_point(ours.centre_deviation);
+  for (Eigen::Index k = 0; ours.open_direction_B && k < 3; ++k)
+    if (std::abs((*ours.open_direction_B)[k]) > 0.7)
+      deviation[static_cast<std::size_t>(k)] = nullptr;
   return {{"from_s", weight.window.from},
           {"to_s", weight.window.to},
           {"mass_kg", ours.mass},
           {"mass_deviation_kg", json_number(ours.mass_deviation)},
           {"centre_of_mass_m", json_point(ours.centre_of_mass_B)},
-          {"centre_deviation_m", json_point(ours.centre_deviation)},
+          {"centre_deviation_m", std::move(deviation)},
           {"open_direction", ours.open_direction_B ? json_point(*ours.open_direction_B) : Json()},
           {"force_residual_N", ours.force_residual},
           {"computed_mass_kg", weight.computed_mass ? Json(*weight.computed_mass) : Json()},

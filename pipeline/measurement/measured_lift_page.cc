@@ -32,10 +32,8 @@ std::string table_html(const MeasuredTable& table) {
   return html_table(table.caption, columns, {rows});
 }
 
-std::string sentences_html(const MeasuredLift& lift) {
+std::string doubts_html(const MeasuredLift& lift) {
   std::string html;
-  if (const std::string remark = weighing_remark(lift); !remark.empty())
-    html += fmt::format("<p>{}.</p>\n", escape_html(remark));
   for (const std::string& doubt : lift.doubts)
     html += fmt::format("<p><strong>Warning:</strong> {}.</p>\n", escape_html(doubt));
   return html;
@@ -64,8 +62,10 @@ Json curves(const MeasuredLift& lift) {
 }  // namespace
 
 std::string measured_page(const MeasuredLift& lift) {
-  std::string content = sentences_html(lift);
+  std::string content = doubts_html(lift);
   for (const MeasuredTable& table : measured_tables(lift)) content += table_html(table);
+  if (const std::string remark = weighing_remark(lift); !remark.empty())
+    content += fmt::format("<p>{}.</p>\n", escape_html(remark));
   return fill_page(curves_page_template(),
                    {{"%TITLE%", escape_html(lift.result.name) + " – measured and computed"},
                     {"%HEADING%", "Measured and computed"},

@@ -13,8 +13,9 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 MeasuredTable clocks_table(const MeasuredLift& lift) {
   MeasuredTable table{"Clocks", {{"record"}, {"shift s", 5}, {"correlation", 3}, {"how"}}, {}};
+  // To a millisecond however long ago a clock began: --shift takes it as it stands.
   for (const AlignedRecord& record : lift.records)
-    table.rows.push_back({record.file, record.shift,
+    table.rows.push_back({record.file, fmt::format("{:.3f}", record.shift),
                           record.found ? record.found->correlation : unknown,
                           std::string(record.found ? "found" : "given")});
   return table;
@@ -69,10 +70,10 @@ MeasuredTable decays_table(const MeasuredLift& lift) {
   MeasuredTable table{"Free oscillation: periods and damping, with standard deviations",
                       {{"quantity"},
                        {"period s", 4},
-                       {"+-", 2},
+                       {"±", 2},
                        {"computed s", 4},
                        {"damping %", 3},
-                       {"+-", 2},
+                       {"±", 2},
                        {"computed %", 3}},
                       {}};
   if (!lift.looked_for_decay) return table;
@@ -98,7 +99,7 @@ std::vector<TextTable::Cell> weight_row(const char* name, double measured, doubl
 
 MeasuredTable weight_table(const MeasuredLift& lift) {
   MeasuredTable table{"Weight and centre of mass by the load cells, with standard deviations",
-                      {{"figure"}, {"measured", 5}, {"+-", 2}, {"computed with", 5}},
+                      {{"figure"}, {"measured", 5}, {"±", 2}, {"computed with", 5}},
                       {}};
   if (!lift.weight) return table;
   const HeldWeight& weight = *lift.weight;
@@ -156,7 +157,7 @@ std::string weighing_remark(const MeasuredLift& lift) {
   const Eigen::Vector3d& along = *lift.weight->measured.open_direction_B;
   const Eigen::Vector3d& point = lift.weight->measured.centre_of_mass_B;
   return fmt::format(
-      "the load keeps its attitude, so that the height of its centre of mass stays open: it lies "
+      "The load keeps its attitude, so that the height of its centre of mass stays open: it lies "
       "on the line through ({:.3f}, {:.3f}, {:.3f}) m along ({:.3f}, {:.3f}, {:.3f})",
       point.x(), point.y(), point.z(), along.x(), along.y(), along.z());
 }

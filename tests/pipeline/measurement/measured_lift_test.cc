@@ -110,6 +110,22 @@ TEST_F(MeasuredLifts, HaveTheirPeriodAndDampingIdentified) {
   }
 }
 
+// A swing that grows is no free one: two that beat, or one that is driven.
+TEST_F(MeasuredLifts, DoubtADampingBelowZero) {
+  std::string cells = "time [s],ropes.R1 [kN]\n";
+  for (int i = 0; i <= 500; ++i) {
+    const double t = 5 + 0.1 * i;
+    const double swing = std::exp(0.003 * (t - 12)) * std::sin(std::acos(-1.0) / 2 * (t - 10));
+    cells += fmt::format("{:.3f},{:.9g}\n", t, 47 * (1 + 0.05 * (t < 10 ? 0 : swing)));
+  }
+  folder_.write("cells.csv", cells);
+  MeasurementSettings settings;
+  settings.shifts = {0};
+  settings.decay = TimeWindow{12, 50};
+  EXPECT_THAT(hold(settings).doubts,
+              ElementsAre(HasSubstr("more than one oscillation is in ropes.R1")));
+}
+
 TEST_F(MeasuredLifts, SayWhereNothingSwings) {
   MeasurementSettings settings;
   settings.decay = TimeWindow{5.5, 9.5};
@@ -130,12 +146,17 @@ TEST_F(MeasuredLifts, AreWeighed) {
   EXPECT_NEAR(weighing.centre_of_mass_B.x(), 0, 1e-9);
   ASSERT_TRUE(weighing.open_direction_B);
   EXPECT_NEAR(std::abs(weighing.open_direction_B->z()), 1, 1e-12);
+  // What the block's file says.
+  EXPECT_EQ(lift.weight->computed_mass, 8000);
+  ASSERT_TRUE(lift.weight->computed_centre_B);
+  EXPECT_EQ(*lift.weight->computed_centre_B, Eigen::Vector3d(0, 0.8, 0.25));
 }
 
 TEST_F(MeasuredLifts, AreRefusedWhereSettingsDoNotFit) {
   MeasurementSettings settings;
   settings.rest = TimeWindow{500, 600};
-  EXPECT_THAT(refusal_of(settings), HasSubstr("--rest 500:600: error: all records have less"));
+  EXPECT_THAT(refusal_of(settings),
+              HasSubstr("--rest 500:600: error: the records of all ropes have less"));
   settings = {};
   settings.shifts = {1, 2};
   EXPECT_THAT(refusal_of(settings), HasSubstr("there are 2 shifts for 1 records"));
@@ -161,12 +182,14 @@ TEST_F(MeasuredLifts, AreShownInEightyColumnsAsJsonAndAsAPage) {
   const MeasuredLift lift = hold_against_measurements("lift", {"cells.csv", "wind.csv"}, settings);
   const std::string text = measured_text(lift);
   EXPECT_THAT(text, AllOf(HasSubstr("ropes.R1"), HasSubstr("mass t"), HasSubstr("damping %"),
-                          HasSubstr("significant height")));
+                          HasSubstr("-123.400"), HasSubstr("significant height")));
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   const nlohmann::ordered_json json = measured_json(lift);
   EXPECT_NEAR(json["records"][0]["shift_s"].get<double>(), -123.4, 2e-3);
   EXPECT_NEAR(json["weight"]["mass_kg"].get<double>(), 8144, 1e-3);
+  EXPECT_TRUE(json["weight"]["centre_deviation_m"][1].is_number());
+  EXPECT_TRUE(json["weight"]["centre_deviation_m"][2].is_null());
   EXPECT_EQ(json["channels"][0]["name"], "ropes.R1");
   EXPECT_EQ(json["wind"]["computed_mean_m_s"], 8);
   EXPECT_EQ(json["waves"]["computed_significant_height_m"], 0.5);

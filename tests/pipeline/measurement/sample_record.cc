@@ -51,8 +51,13 @@ void write_sample_lift(const std::filesystem::path& folder) {
   file.write_attribute(layout::case_group, layout::run, "1");
   file.write_text(layout::case_yaml,
                   "case: two-slings\ngravity: 9.80665 m/s^2\nwind: {speed: 8 m/s}\n"
-                  "waves: {spectrum: {significant_height: 0.5 m}}\n",
+                  "waves: {spectrum: {significant_height: 0.5 m}}\nload: {model: box}\n",
                   "the case file");
+  file.write_texts(layout::model_names, std::vector<std::string>{"box"}, "names of models");
+  file.write_texts(
+      layout::model_contents,
+      std::vector<std::string>{"kind: block\nmass: 8 t\ncentre_of_mass: [0 m, 0.8 m, 250 mm]\n"},
+      "their files");
   write_sample_state(file, "/static", false);
   write_sample_state(file, "/dynamic", true);
   for (const auto& [rope, side] : {std::pair{"R1", 4.0}, std::pair{"R2", -4.0}}) {
