@@ -76,6 +76,12 @@ LiftCase MemberCases::of(const Eigen::VectorXd& values, const std::vector<int>* 
     return std::move(*lift_case);
   }
   check_unchanged_case(study_);
+  // A key that is not there is named by the study's own line already: no value of it is to blame.
+  const auto is_own = [&](const Diagnostic& one) {
+    return one.mark.file && study_.place.file && *one.mark.file == *study_.place.file;
+  };
+  if (std::any_of(diagnostics.errors().begin(), diagnostics.errors().end(), is_own))
+    throw InputError(diagnostics);
   // Complaints name the study's own lines beside those of the case and its models as they were
   // changed.
   const std::vector<std::size_t> impossible = find_impossible(values);

@@ -148,6 +148,9 @@ TEST_F(SweepCommand, AssessesAndFindsSobolIndices) {
   // The estimate's own error at this size is some 0.2.
   EXPECT_NEAR(indices["weight"]["total"], 1, 0.4);
   EXPECT_NEAR(indices["deaf"]["total"], 0, 1e-3);
+  // 128 lifts ran, of which 64 were drawn independently: the others repeat their values.
+  EXPECT_EQ(json["members"], 128);
+  EXPECT_THAT(text_of_file("indices/study.html"), HasSubstr("is of the first 64 lifts"));
 }
 
 // The factor is made once, for the case as it is written: there its stress is that of an
@@ -218,6 +221,7 @@ TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {
   const Outcome unknown = run("sweep study.yaml -o out");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("study.yaml:4:19: error: there is no ropes.R1.lenght"));
+  EXPECT_THAT(unknown.err, HasSubstr("\n1 error\n"));
   EXPECT_FALSE(fs::exists("out"));
 }
 
