@@ -6,9 +6,8 @@
 namespace blocklift::structure {
 
 void Packet::append(const void* data, std::size_t size) {
-  const std::size_t filled = bytes_.size();
-  bytes_.resize(filled + size);
-  if (size > 0) std::memcpy(bytes_.data() + filled, data, size);
+  const auto* const begin = static_cast<const std::byte*>(data);
+  if (size > 0) bytes_.insert(bytes_.end(), begin, begin + size);
 }
 
 void Packet::extract(void* data, std::size_t size) {

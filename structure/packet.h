@@ -58,19 +58,29 @@ class Packet {
     extract(matrix.data(), static_cast<std::size_t>(size) * sizeof(Number));
   }
 
- private:
+  /// How many there are, and the values themselves.
   template <typename Plain>
   void put_array(const Plain* values, std::size_t count) {
     static_assert(std::is_trivially_copyable_v<Plain>);
     put(count);
     append(values, count * sizeof(Plain));
   }
-  void append(const void* data, std::size_t size);
+  /// The same in two steps: between them there is place to be made for so many.
   std::size_t take_count() {
     std::size_t count = 0;
     take(count);
     return count;
   }
+  template <typename Plain>
+  void take_values(Plain* values, std::size_t count) {
+    static_assert(std::is_trivially_copyable_v<Plain>);
+    extract(values, count * sizeof(Plain));
+  }
+  /// Makes place for so many bytes more, so that they are put without moving what is there.
+  void reserve(std::size_t size) { bytes_.reserve(bytes_.size() + size); }
+
+ private:
+  void append(const void* data, std::size_t size);
   void extract(void* data, std::size_t size);
 
   std::vector<std::byte> bytes_;

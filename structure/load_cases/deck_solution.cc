@@ -64,11 +64,11 @@ std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets)
 /// Loads have not done twice the strain energy then, as they have where the equations are solved
 /// (Clapeyron's theorem). What moves no further than each load would move its own unknown, all
 /// others held, is rounding where supports take the loads at once.
-void check_energy(const HeldSystem& system, const Eigen::VectorXd& diagonal,
-                  const Eigen::VectorXd& acting, const Eigen::VectorXd& by_loads,
-                  const std::function<void()>& refuse) {
+/// @param energy of what the loads do, J.
+void check_energy(double energy, const Eigen::VectorXd& diagonal, const Eigen::VectorXd& acting,
+                  const Eigen::VectorXd& by_loads, const std::function<void()>& refuse) {
   constexpr double most = 1e-3;  // rounding leaves 1e-4 where the condition is 1e12
-  const double work = acting.dot(by_loads), twice = 2 * system.energy(by_loads);
+  const double work = acting.dot(by_loads), twice = 2 * energy;
   const double least =
       (diagonal.array() > 0).select(acting.array().square() / diagonal.array(), 0.0).sum();
   if (std::abs(work - twice) > most * std::max(std::abs(work), least)) refuse();
@@ -133,14 +133,10 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
       find_held_directions(space, supports_of(deck, sets));
   const std::vector<HeldSum> sums = as_sums(space, directions);
   Stopwatch watch;
-  Eigen::VectorXd diagonal;
-  const auto assemble = [&] {
-    SparseLower stiffness = assemble_stiffness(space, threads);
-    diagonal = stiffness.diagonal();
-    return stiffness;
-  };
-  HeldSystem system(assemble(), sums);
+  SparseLower stiffness = assemble_stiffness(space, threads);
+  const Eigen::VectorXd diagonal = stiffness.diagonal();
   result.times.assembly += watch.lap();
+  HeldSystem system(std::move(stiffness), sums);
   try {
     system.factorise();
   } catch (const LooseUnknown& loose) {
@@ -158,6 +154,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   result.times.assembly += watch.lap();
   const Eigen::MatrixXd unknowns = system.solve(acting);
   const Eigen::VectorXd unloaded = system.solve(Eigen::VectorXd::Zero(acting.rows()));
+  const bool is_moved = !unloaded.isZero(0);
   const Eigen::MatrixXd forces = system.reactions(unknowns, acting);
   const Eigen::MatrixXd motions = space.expand(unknowns);
   for (std::size_t c = 0; c < cases.size(); ++c) {
@@ -167,9 +164,12 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     solution.motion = motions.col(column);
     solution.reactions = reactions_at(space, directions, forces.col(column));
     solution.strain_energy = system.energy(unknowns.col(column));
-    check_energy(system, diagonal, acting.col(column), unknowns.col(column) - unloaded, [&] {
-      refuse_loose(space, deck.load_cases[cases[c]], most_moved_freedom(space, solution.motion));
-    });
+    const Eigen::VectorXd by_loads = unknowns.col(column) - unloaded;
+    check_energy(is_moved ? system.energy(by_loads) : solution.strain_energy, diagonal,
+                 acting.col(column), by_loads, [&] {
+                   refuse_loose(space, deck.load_cases[cases[c]],
+                                most_moved_freedom(space, solution.motion));
+                 });
     sum_up(space, loads.col(column), solution);
   }
   result.times.solve += watch.lap();

@@ -42,10 +42,11 @@ struct SkippedCase {
 
 /// Wall-clock times of a deck's solution, s.
 struct DeckTimes {
-  double assembly = 0;       ///< stiffness and loads, supports put into them
-  double factorisation = 0;  ///< its analysis and, on several processes, dealing out among it
-  double solve = 0;          ///< motions and reactions of all cases
-  double recovery = 0;       ///< stresses and the estimates of their error
+  double assembly = 0;  ///< of stiffness and loads
+  /// Supports put into the equations, their analysis, and dealing out to several processes with it.
+  double factorisation = 0;
+  double solve = 0;     ///< motions and reactions of all cases
+  double recovery = 0;  ///< stresses and the estimates of their error
 };
 
 struct DeckSolution {

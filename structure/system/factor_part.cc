@@ -1,6 +1,7 @@
 #include "structure/system/factor_part.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 // By its fixed interface in Fortran.
@@ -29,29 +30,29 @@ Eigen::MatrixXd square_of(const Eigen::MatrixXd& lower) {
 }  // namespace
 
 void PartOfMatrix::put_into(Packet& packet) const {
-  const auto put = [&](const auto* values, long count) {
-    packet.put(std::vector(values, values + count));
-  };
+  const auto columns = static_cast<std::size_t>(matrix.cols());
+  const auto entries = static_cast<std::size_t>(matrix.nonZeros());
+  packet.reserve((columns + 4) * sizeof(long) + entries * (sizeof(long) + sizeof(double)) +
+                 sizeof(inner));
   packet.put(inner);
-  put(matrix.outerIndexPtr(), matrix.cols() + 1);
-  put(matrix.innerIndexPtr(), matrix.nonZeros());
-  put(matrix.valuePtr(), matrix.nonZeros());
+  packet.put_array(matrix.outerIndexPtr(), columns + 1);
+  packet.put_array(matrix.innerIndexPtr(), entries);
+  packet.put_array(matrix.valuePtr(), entries);
 }
 
 PartOfMatrix PartOfMatrix::from(Packet& packet) {
   PartOfMatrix part;
-  std::vector<long> starts, rows;
-  std::vector<double> values;
   packet.take(part.inner);
-  packet.take(starts);
-  packet.take(rows);
-  packet.take(values);
-  const long size = static_cast<long>(starts.size()) - 1;
+  const std::size_t starts = packet.take_count();
+  const long size = static_cast<long>(starts) - 1;
   part.matrix.resize(size, size);
-  part.matrix.resizeNonZeros(static_cast<long>(rows.size()));
-  std::copy(starts.begin(), starts.end(), part.matrix.outerIndexPtr());
-  std::copy(rows.begin(), rows.end(), part.matrix.innerIndexPtr());
-  std::copy(values.begin(), values.end(), part.matrix.valuePtr());
+  packet.take_values(part.matrix.outerIndexPtr(), starts);
+  const std::size_t entries = packet.take_count();
+  part.matrix.resizeNonZeros(static_cast<long>(entries));
+  packet.take_values(part.matrix.innerIndexPtr(), entries);
+  const std::size_t values = packet.take_count();
+  if (values != entries) throw std::logic_error("a packet has more or fewer values than entries");
+  packet.take_values(part.matrix.valuePtr(), values);
   return part;
 }
 
