@@ -15,6 +15,7 @@
 #include "structure/mesh/fields.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
+#include "structure/stress/shell_stress.h"
 #include "structure/stress/solid_error.h"
 
 namespace blocklift::structure {

@@ -133,10 +133,15 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
       find_held_directions(space, supports_of(deck, sets));
   const std::vector<HeldSum> sums = as_sums(space, directions);
   Stopwatch watch;
-  SparseLower stiffness = assemble_stiffness(space, threads);
-  const Eigen::VectorXd diagonal = stiffness.diagonal();
-  result.times.assembly += watch.lap();
-  HeldSystem system(std::move(stiffness), sums);
+  Eigen::VectorXd diagonal;
+  // Handed over as it is made: sparse matrices are copied where they are moved.
+  const auto assemble = [&] {
+    SparseLower stiffness = assemble_stiffness(space, threads);
+    diagonal = stiffness.diagonal();
+    result.times.assembly += watch.lap();
+    return stiffness;
+  };
+  HeldSystem system(assemble(), sums);
   try {
     system.factorise();
   } catch (const LooseUnknown& loose) {
