@@ -200,13 +200,6 @@ void refuse_option(const StressOptions& options, const std::string& message,
   throw InputError(diagnostics);
 }
 
-/// That of its folder where the file has the name that any block's has there.
-std::string name_of_block(const fs::path& file) {
-  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
-  return file.filename() == "block.yaml" && folder.has_filename() ? folder.filename().string()
-                                                                  : file.stem().string();
-}
-
 int stress_of_deck(const StressOptions& options) {
   if (options.calculix)
     refuse_option(options, "--calculix is for parts", "a block's deck is such an input itself");
@@ -215,7 +208,7 @@ int stress_of_deck(const StressOptions& options) {
   const fs::path file = input_file(options.part);
   const auto block = library.read_block_of_own_cases(file, diagnostics);
   if (!block || diagnostics.has_errors()) throw InputError(diagnostics);
-  const std::string name = name_of_block(file);
+  const std::string name = name_of_input(file);
   const fs::path folder = folder_of(options, name);
   require_writable(folder);
   const DeckAssessment assessment = assess_deck(block, name, options.degree);

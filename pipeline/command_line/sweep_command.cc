@@ -172,13 +172,17 @@ void warn_of_failures(const StudyResults& results) {
       say_warning(fmt::format("member {} failed: {}", member.number, member.failure));
 }
 
+void print_count(const StudyResults& results) {
+  fmt::print("\n{} member{}, {} failed\n", results.members.size(),
+             results.members.size() == 1 ? "" : "s", results.failed());
+}
+
 void print_study(const StudyResults& results, const fs::path& folder, std::optional<int> worst) {
   warn_of_failures(results);
   if (is_quiet()) return;
   const StudyFile& study = results.study;
   fmt::print("{}\n\n{}", study.title.empty() ? study.name : study.title, study_text(results));
-  fmt::print("\n{} member{}, {} failed\n", results.members.size(),
-             results.members.size() == 1 ? "" : "s", results.failed());
+  print_count(results);
   if (worst)
     print_wrapped(fmt::format("member {} has the worst {}: {}", *worst,
                               results.spreads[results.leading.front()].path,
@@ -252,8 +256,7 @@ int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
   if (!is_quiet()) {
     fmt::print("{}\n\n{}", results.study.title.empty() ? results.study.name : results.study.title,
                search_text(results));
-    fmt::print("\n{} member{}, {} failed\n", results.members.size(),
-               results.members.size() == 1 ? "" : "s", results.failed());
+    print_count(results);
     fmt::print("page: {}\n", (folder / "study.html").string());
   }
   if (!whole.failure.empty())

@@ -166,10 +166,8 @@ void draw(const BlockModel& block, const fs::path& file, const fs::path& folder)
   const std::string page =
       block.mesh ? mesh_page(*block.mesh, block.title.empty() ? file.string() : block.title) : "";
   if (page.empty()) return;
-  fs::path name = fs::is_directory(file) ? fs::absolute(file).lexically_normal() : file;
-  if (!name.has_filename()) name = name.parent_path();
   fs::create_directories(folder);
-  const fs::path path = folder / (name.stem().string() + ".html");
+  const fs::path path = folder / (name_of_input(file) + ".html");
   write_file(path, page);
   std::cout << fmt::format("pictures: {}\n", path.string());
 }

@@ -1,5 +1,7 @@
 #include "pipeline/files/file_kind.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 #include <system_error>
@@ -13,6 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::array files_of_folders{"case.yaml",   "mechanism.yaml", "part.yaml",
+                                      "study.yaml",  "block.yaml",     "crane.yaml",
+                                      "vessel.yaml", "vessels.yaml"};
+
 bool begins_as_xml(const fs::path& path) {
   std::ifstream stream(path);
   std::string word;
@@ -24,11 +30,18 @@ bool begins_as_xml(const fs::path& path) {
 fs::path input_file(const fs::path& path) {
   std::error_code error;
   if (!fs::is_directory(path, error)) return path;
-  for (const char* name : {"case.yaml", "mechanism.yaml", "part.yaml", "study.yaml", "block.yaml",
-                           "crane.yaml", "vessel.yaml", "vessels.yaml"}) {
+  for (const char* name : files_of_folders)
     if (fs::exists(path / name, error)) return path / name;
-  }
   return path;
+}
+
+std::string name_of_input(const fs::path& path) {
+  const fs::path file = fs::absolute(input_file(path)).lexically_normal();
+  const fs::path folder = file.parent_path();
+  const bool is_of_folder = std::find(files_of_folders.begin(), files_of_folders.end(),
+                                      file.filename()) != files_of_folders.end();
+  if (is_of_folder && folder.has_filename()) return folder.filename().string();
+  return (file.has_filename() ? file : folder).stem().string();
 }
 
 FileKind kind_of_file(const fs::path& path) {

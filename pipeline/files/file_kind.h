@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace blocklift::pipeline {
 
@@ -20,15 +21,19 @@ enum class FileKind {
   study
 };
 
-/// The file that a folder stands for: its case.yaml, else what it holds of mechanism.yaml, part.yaml,
-/// study.yaml, block.yaml, crane.yaml, vessel.yaml and vessels.yaml. Of a file, and of a folder
-/// without any of them, the path itself.
+/// The file that a folder stands for: its case.yaml, else the first that it holds of
+/// mechanism.yaml, part.yaml, study.yaml, block.yaml, crane.yaml, vessel.yaml and vessels.yaml. Of
+/// a file, and of a folder without any of them, the path itself.
 std::filesystem::path input_file(const std::filesystem::path& path);
 
-/// The kind of a file, or of the file that a folder stands for: a robot description is XML or ends in .urdf, a
-/// mechanism has the key `mechanism`, a part the key `part`, a study the key `study`, a model says
-/// its kind. Everything else, unreadable files included, counts as a lift case, whose reader says
-/// what is wrong.
+/// What an input is called: the folder's name where the file is one that a folder stands for, else
+/// the file's without its ending.
+std::string name_of_input(const std::filesystem::path& path);
+
+/// The kind of a file, or of the file that a folder stands for: a robot description is XML or ends
+/// in .urdf, a mechanism has the key `mechanism`, a part the key `part`, a study the key `study`, a
+/// model says its kind. Everything else, unreadable files included, counts as a lift case, whose
+/// reader says what is wrong.
 FileKind kind_of_file(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline

@@ -117,7 +117,8 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
 std::optional<HydrodynamicProblem> read_hydrodynamic_problem(const fs::path& file,
                                                              const ModelLibrary& library,
                                                              Diagnostics& diagnostics) {
-  const fs::path inside = input_file(file);
+  const fs::path vessel = file / "vessel.yaml";  // may lie beside a case
+  const fs::path inside = fs::exists(vessel) ? vessel : input_file(file);
   if (kind_of_file(inside) == FileKind::vessels) return read_group(inside, library, diagnostics);
   return read_single(inside, diagnostics);
 }

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -66,9 +65,8 @@ Json weight_json(const HeldWeight& weight) {
   const Weighing& ours = weight.measured;
   // Along what stays open nothing is known.
   Json deviation = json_point(ours.centre_deviation);
-  for (Eigen::Index k = 0; ours.open_direction_B && k < 3; ++k)
-    if (std::abs((*ours.open_direction_B)[k]) > 0.7)
-      deviation[static_cast<std::size_t>(k)] = nullptr;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (ours.leaves_open(k)) deviation[static_cast<std::size_t>(k)] = nullptr;
   return {{"from_s", weight.window.from},
           {"to_s", weight.window.to},
           {"mass_kg", ours.mass},

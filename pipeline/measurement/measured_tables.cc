@@ -106,12 +106,11 @@ MeasuredTable weight_table(const MeasuredLift& lift) {
   const Weighing& ours = weight.measured;
   table.rows.push_back(weight_row("mass t", ours.mass / 1000, ours.mass_deviation / 1000,
                                   weight.computed_mass ? *weight.computed_mass / 1000 : unknown));
-  const auto& open = ours.open_direction_B;
   for (const auto& [name, k] : {std::pair{"x m", 0}, std::pair{"y m", 1}, std::pair{"z m", 2}}) {
     const double used = weight.computed_centre_B ? (*weight.computed_centre_B)[k] : unknown;
     table.rows.push_back(
         weight_row(name, ours.centre_of_mass_B[k], ours.centre_deviation[k], used));
-    if (!open || std::abs((*open)[k]) <= 0.7) continue;
+    if (!ours.leaves_open(k)) continue;
     table.rows.back()[1] = std::string("open");
     table.rows.back()[2] = std::string();
   }

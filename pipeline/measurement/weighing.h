@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct Weighing {
   /// in this direction (of unit length) through the point above, which is the one nearest to the
   /// origin of the load's frame. Deviations are across the line then.
   std::optional<Eigen::Vector3d> open_direction_B;
+  /// Whether a coordinate of the centre of mass (0, 1, 2) is mostly along that line.
+  bool leaves_open(Eigen::Index coordinate) const {
+    return open_direction_B && std::abs((*open_direction_B)[coordinate]) > 0.7;
+  }
   double force_residual = 0;  ///< rms of what the vertical balance leaves, N
 };
 

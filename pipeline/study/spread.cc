@@ -21,29 +21,16 @@ OT::Sample sample_of(const std::vector<double>& values) {
   return sample;
 }
 
-/// The statistic of Kolmogorov and Smirnov: the largest difference between the shares below a value
-/// of the sample and of the law.
-double largest_difference(const OT::Sample& sample, const OT::Distribution& law) {
-  const OT::Sample sorted = sample.sort();
-  const auto count = static_cast<double>(sorted.getSize());
-  double largest = 0;
-  for (OT::UnsignedInteger i = 0; i < sorted.getSize(); ++i) {
-    const double share = law.computeCDF(sorted(i, 0));
-    const auto below = static_cast<double>(i);
-    largest = std::max({largest, share - below / count, (below + 1) / count - share});
-  }
-  return largest;
-}
-
 /// The value below which the share of the law lies, with its interval over samples that are drawn
 /// from the law and fitted again. As many of these samples as differ more from their own fit than
 /// the given one are the p-value: a law that was fitted to a sample is nearer to it than the tables
-/// of Kolmogorov's statistic have it, which are for a law that is known (Lilliefors 1967).
+/// of Kolmogorov's statistic have it, which are for a law that is known (Lilliefors 1967). The
+/// library's own test of that kind would draw and fit samples once more.
 ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
                const OT::Sample& sample, double share) {
   const OT::Distribution law = factory.build(sample);
   ExtremeFit result{name, share, law.computeQuantile(share)[0], 0, 0, 0};
-  const double difference = largest_difference(sample, law);
+  const double difference = OT::FittingTest::ComputeKolmogorovStatistics(sample, law);
   std::vector<double> again;
   int farther = 0;
   for (int b = 0; b < bootstrap_samples; ++b) {
@@ -51,7 +38,7 @@ ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
       const OT::Sample drawn = law.getSample(sample.getSize());
       const OT::Distribution refitted = factory.build(drawn);
       again.push_back(refitted.computeQuantile(share)[0]);
-      farther += int{largest_difference(drawn, refitted) >= difference};
+      farther += int{OT::FittingTest::ComputeKolmogorovStatistics(drawn, refitted) >= difference};
     } catch (const OT::Exception&) {
       continue;  // a sample that no law of the family fits
     }

@@ -154,10 +154,10 @@ std::string spreads(const StudyResults& results) {
 }
 
 std::string law_text(const StudyVariable& variable) {
-  static constexpr const char* names[] = {"normal",     "lognormal", "uniform",
-                                          "triangular", "Gumbel",    "Weibull"};
   const SpreadLaw& law = *variable.law;
-  std::string text = names[static_cast<std::size_t>(law.kind)];
+  std::string text = std::ranges::find(SpreadLaw::kinds(), law.kind,
+                                       &std::pair<std::string, SpreadLaw::Kind>::second)
+                         ->first;
   const auto add = [&](const char* name, const std::optional<Located<Measure>>& value) {
     if (value) text += fmt::format(", {} {}", name, value_text(variable, value->value.value, 6));
   };

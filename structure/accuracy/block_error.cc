@@ -260,30 +260,29 @@ Vector3 centre_of(const Mesh& mesh, const Solid& solid) {
   return places_of(mesh, solid).leftCols(topology_of(solid.shape).corners).rowwise().mean();
 }
 
-/// What the norms of one motion say.
-BlockError sum_up(const ElasticModel& model, const Eigen::Ref<const Eigen::VectorXd>& cell_errors,
-                  const Eigen::Ref<const Eigen::VectorXd>& cell_norms,
-                  const Eigen::Ref<const Eigen::VectorXd>& solid_errors,
-                  const Eigen::Ref<const Eigen::VectorXd>& solid_norms) {
+/// What the norms say of a motion.
+BlockError sum_up(const ElasticModel& model, const SquaredNorms& cells, const SquaredNorms& solids,
+                  Eigen::Index motion) {
   const Space& space = model.space();
   const Mesh& mesh = model.mesh();
   std::vector<double> e(mesh.groups.size(), 0), s(mesh.groups.size(), 0);
-  const auto add = [&](const auto& errors, const auto& norms, const auto& region_of) {
-    for (int i = 0; i < errors.size(); ++i) {
+  const auto add = [&](const SquaredNorms& norms, const auto& region_of) {
+    for (int i = 0; i < norms.error.rows(); ++i) {
       const std::size_t group = at(mesh.regions[region_of(i)].group);
-      e[group] += errors[i];
-      s[group] += norms[i];
+      e[group] += norms.error(i, motion);
+      s[group] += norms.norm(i, motion);
     }
   };
   const auto region_of_cell = [&](int cell) {
     return mesh.shells[space.shells()[cell].shell].region;
   };
-  add(cell_errors, cell_norms, region_of_cell);
-  add(solid_errors, solid_norms, [&](int solid) { return mesh.solids[solid].region; });
+  add(cells, region_of_cell);
+  add(solids, [&](int solid) { return mesh.solids[solid].region; });
 
+  const auto cell_errors = cells.error.col(motion), solid_errors = solids.error.col(motion);
   BlockError result;
-  result.relative =
-      relative_error(cell_errors.sum() + solid_errors.sum(), cell_norms.sum() + solid_norms.sum());
+  result.relative = relative_error(cell_errors.sum() + solid_errors.sum(),
+                                   cells.norm.col(motion).sum() + solids.norm.col(motion).sum());
   for (std::size_t g = 0; g < e.size(); ++g) result.of_groups.push_back(relative_error(e[g], s[g]));
   Eigen::Index worst = 0;
   double largest = 0;
@@ -309,8 +308,7 @@ std::vector<BlockError> estimate_block_errors(const ElasticModel& model, const M
   const SquaredNorms solids = norms_of_solids(model.space(), motions, threads);
   std::vector<BlockError> errors;
   for (Eigen::Index m = 0; m < motions.cols(); ++m)
-    errors.push_back(sum_up(model, cells.error.col(m), cells.norm.col(m), solids.error.col(m),
-                            solids.norm.col(m)));
+    errors.push_back(sum_up(model, cells, solids, m));
   return errors;
 }
 

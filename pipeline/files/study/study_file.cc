@@ -77,15 +77,7 @@ void check_law(const SpreadLaw& law, Reading& reading, const Mark& mark) {
 
 Format<SpreadLaw> law_format() {
   Table<SpreadLaw> table("spread", "How a value is spread.");
-  table
-      .required("law", &SpreadLaw::kind,
-                choice<LawKind>({{"normal", LawKind::normal},
-                                 {"lognormal", LawKind::lognormal},
-                                 {"uniform", LawKind::uniform},
-                                 {"triangular", LawKind::triangular},
-                                 {"gumbel", LawKind::gumbel},
-                                 {"weibull", LawKind::weibull}}),
-                "its kind")
+  table.required("law", &SpreadLaw::kind, choice<LawKind>(SpreadLaw::kinds()), "its kind")
       .optional("mean", &SpreadLaw::mean, located(measure()),
                 "of normal, lognormal, gumbel and weibull values, before they are cut off")
       .optional("deviation", &SpreadLaw::deviation, located(measure()),
@@ -367,6 +359,13 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
 }
 
 }  // namespace
+
+const std::vector<std::pair<std::string, SpreadLaw::Kind>>& SpreadLaw::kinds() {
+  static const std::vector<std::pair<std::string, Kind>> kinds{
+      {"normal", Kind::normal},         {"lognormal", Kind::lognormal}, {"uniform", Kind::uniform},
+      {"triangular", Kind::triangular}, {"gumbel", Kind::gumbel},       {"weibull", Kind::weibull}};
+  return kinds;
+}
 
 Format<StudyFile> study_file_format() {
   Table<StudyFile> table("study", "Many lifts of one case, for `blocklift sweep`.");

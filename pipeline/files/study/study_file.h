@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,6 +17,8 @@ namespace blocklift::pipeline {
 /// How a value is spread. Moments and bounds are values with the dimension of the key.
 struct SpreadLaw {
   enum class Kind { normal, lognormal, uniform, triangular, gumbel, weibull };
+  /// The kinds by the words that name them in a file.
+  static const std::vector<std::pair<std::string, Kind>>& kinds();
   Kind kind = Kind::normal;
   std::optional<Located<Measure>> mean, deviation, lowest, highest, mode;
   Mark place;

@@ -35,5 +35,16 @@ TEST(FileKind, ACaseComesBeforeWhatLiesBesideIt) {
   EXPECT_EQ(kind_of_file("lift"), FileKind::lift_case);
 }
 
+TEST(FileKind, AnInputIsCalledByItsFolderOrByItself) {
+  const TemporaryFolder temporary;
+  fs::create_directory("hull-12");
+  EXPECT_EQ(name_of_input("hull-12/"), "hull-12");  // there is nothing in it that has a name
+  write("hull-12/block.yaml", "kind: block\n");
+  write("hull-12/other.yaml", "kind: block\n");
+  EXPECT_EQ(name_of_input("hull-12"), "hull-12");
+  EXPECT_EQ(name_of_input("hull-12/block.yaml"), "hull-12");
+  EXPECT_EQ(name_of_input("hull-12/other.yaml"), "other");
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline
