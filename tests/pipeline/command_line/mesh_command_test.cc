@@ -64,8 +64,8 @@ TEST_F(MeshCommand, ValidateShowsTheDeck) {
 TEST_F(MeshCommand, PicturesOfABlockStandInTheFolderThatIsNamed) {
   const Outcome outcome = run("validate mesh-lift/block.yaml --pictures pictures");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("pictures: pictures/block.html"));
-  const std::string page = text_of_file("pictures/block.html");
+  EXPECT_THAT(outcome.out, HasSubstr("pictures: pictures/mesh-lift.html"));
+  const std::string page = text_of_file("pictures/mesh-lift.html");
   EXPECT_THAT(page, HasSubstr("Open box from a deck"));
   EXPECT_THAT(page, HasSubstr("</html>"));
 }
