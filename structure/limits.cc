@@ -1,6 +1,5 @@
 #include "structure/limits.h"
 
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,26 +22,7 @@ double resident_bytes() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE));
 }
 
-// OpenBLAS is one BLAS of several that may be installed: its own functions are looked up.
-int blas_threads() {
-  void* function = ::dlsym(RTLD_DEFAULT, "openblas_get_num_threads");
-  return function == nullptr ? 0 : reinterpret_cast<int (*)()>(function)();
-}
-
-void set_blas_threads(int threads) {
-  if (void* function = ::dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))
-    reinterpret_cast<void (*)(int)>(function)(threads);
-}
-
 }  // namespace
-
-OneBlasThread::OneBlasThread() : before_(blas_threads()) {
-  if (before_ > 1) set_blas_threads(1);
-}
-
-OneBlasThread::~OneBlasThread() {
-  if (before_ > 1) set_blas_threads(before_);
-}
 
 void limit_memory(double bytes) { memory_limit = bytes; }
 

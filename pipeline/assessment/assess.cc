@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "parallel/blas_threads.h"
 #include "parallel/threads.h"
 #include "pipeline/build/history_memory.h"
 #include "pipeline/checks/lift_checks.h"
@@ -36,7 +37,6 @@
 #include "pipeline/results/result_file.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/results/word_document.h"
-#include "structure/limits.h"
 #include "structure/output/part_files.h"
 #include "structure/output/vtu.h"
 
@@ -149,7 +149,7 @@ constexpr const char* motion_part = "motion";
 constexpr const char* refinement_part = "mesh of the block";
 
 void respond(const LiftCase& the_case, const Progress& progress, BlockRun& block) {
-  std::optional<structure::OneBlasThread> whatever_the_threads;
+  std::optional<parallel::OneBlasThread> whatever_the_threads;
   if (the_case.dynamics.flexibility != Flexibility::rigid) whatever_the_threads.emplace();
   progress("block: stiffness, factorisation, unit responses", 0, "");
   block.responses = make_unit_responses(*block.model, *the_case.load.model);
@@ -163,7 +163,7 @@ std::optional<LoadFlexibility> find_flexibility(const LiftCase& the_case, const 
   if (unfinished)
     if (const auto kept = unfinished->find(flexibility_part)) return flexibility_of(*kept);
   respond(the_case, progress, block);
-  const structure::OneBlasThread whatever_the_threads;
+  const parallel::OneBlasThread whatever_the_threads;
   std::optional<LoadFlexibility> flexibility =
       make_flexibility(*block.responses, the_case.dynamics);
   if (flexibility && unfinished && unfinished->is_due())

@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "parallel/blas_threads.h"
 #include "pipeline/checks/gather_facts.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/results/lift_scene.h"
-#include "structure/limits.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -79,7 +79,7 @@ class LiftRunner {
     // A standard's computed skew asks for the block's compliance at its lugs.
     if (!gives_way && !the_case().standard) return;
     progress_("block: stiffness, factorisation, unit responses", 0, "");
-    const structure::OneBlasThread whatever_the_threads;
+    const parallel::OneBlasThread whatever_the_threads;
     block.responses = make_unit_responses(*block.model, *the_case().load.model);
     if (gives_way) flexibility_ = make_flexibility(*block.responses, the_case().dynamics);
   }

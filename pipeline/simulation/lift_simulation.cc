@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "parallel/blas_threads.h"
 #include "pipeline/build/history_memory.h"
 #include "pipeline/checks/loop_loads.h"
 #include "pipeline/coupling/block_flexibility.h"
@@ -20,7 +21,6 @@
 #include "pipeline/results/lift_scene.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/mechanism_results.h"
-#include "structure/limits.h"
 #include "structure/response/elastic_model.h"
 
 namespace blocklift::pipeline {
@@ -93,7 +93,7 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress,
   std::optional<LoadFlexibility> flexibility;
   if (lift_case.dynamics.flexibility != Flexibility::rigid) {
     progress("block: stiffness, factorisation, unit responses", 0, "");
-    const structure::OneBlasThread whatever_the_threads;
+    const parallel::OneBlasThread whatever_the_threads;
     flexibility =
         make_flexibility(*make_unit_responses(*block, *lift_case.load.model), lift_case.dynamics);
   }

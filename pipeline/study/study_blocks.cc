@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "parallel/blas_threads.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/coupling/block_loads.h"
 #include "pipeline/coupling/edge_loads.h"
@@ -27,7 +28,6 @@
 #include "pipeline/study/members.h"
 #include "pipeline/study/study_design.h"
 #include "structure/accuracy/accuracy.h"
-#include "structure/limits.h"
 #include "structure/system/mass_distribution.h"
 
 namespace blocklift::pipeline {
@@ -200,7 +200,7 @@ KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& val
   const BlockModel& as_lifted = *lift_case.load.model;
   KnownBlock known{load_mass(mass_of(block.matter, as_lifted)), block.lugs, {}};
   if (!gives_way(lift_case)) return known;
-  const structure::OneBlasThread whatever_the_threads;
+  const parallel::OneBlasThread whatever_the_threads;
   if (!block.model) block.model = model_of(lift_case);
   if (!block.responses) block.responses = make_unit_responses(*block.model, as_lifted);
   const auto model =
@@ -213,7 +213,7 @@ KnownBlock StudyBlocks::of(const LiftCase& lift_case, const Eigen::VectorXd& val
 structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) {
   const LiftCase lift_case = cases_.of(values, &changing_);
   auto model = model_of(lift_case);
-  const structure::OneBlasThread whatever_the_threads;
+  const parallel::OneBlasThread whatever_the_threads;
   auto responses = make_unit_responses(*model, *lift_case.load.model);
   std::optional<LoadFlexibility> flexibility;
   if (gives_way(lift_case)) flexibility = make_flexibility(*responses, lift_case.dynamics);
@@ -243,7 +243,7 @@ structure::RefinedBlock StudyBlocks::refine(const Eigen::VectorXd& values) {
 }
 
 structure::StressBasis StudyBlocks::basis_of(const structure::RefinedBlock& block) {
-  const structure::OneBlasThread whatever_the_threads;
+  const parallel::OneBlasThread whatever_the_threads;
   // Another member's stress may be largest elsewhere: all squares are looked at.
   return structure::make_stress_basis(
       *block.responses,
@@ -275,7 +275,7 @@ LargestChecked StudyBlocks::find_stress(const LiftCase& lift_case, const LiftRun
   const structure::StressBasis* basis = &*block.basis;
   std::optional<structure::StressBasis> with_edges;
   if (block.refined) {
-    const structure::OneBlasThread whatever_the_threads;
+    const parallel::OneBlasThread whatever_the_threads;
     if (const auto edges = find_edge_basis(*block.refined->model, run.model, run.static_history,
                                            run.dynamic_history())) {
       with_edges = *basis;

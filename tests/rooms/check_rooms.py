@@ -31,6 +31,7 @@ LIBRARIES = {
     "cvodes/": ("dynamics/simulation",),
     "kinsol/": ("dynamics/simulation",),
     "fftw3.h": ("dynamics/marine/radiation", "dynamics/marine/waves"),
+    "hmat/": ("dynamics/algebra",),
 }
 
 

@@ -89,11 +89,11 @@ MatrixXf take_single(MatrixXd& matrix) {
 }
 
 /// Replaces A by the symmetric part of W^1/2 A W^-1/2, in place.
-void make_symmetric(const VectorXd& root_weights, MatrixXd& A) {
+void make_symmetric(const VectorXd& root_weights, MatrixXf& A) {
   for (Eigen::Index j = 0; j < A.cols(); ++j) {
     for (Eigen::Index i = 0; i < j; ++i) {
-      const double ratio = root_weights[i] / root_weights[j];
-      A(i, j) = A(j, i) = 0.5 * (A(i, j) * ratio + A(j, i) / ratio);
+      const auto ratio = static_cast<float>(root_weights[i] / root_weights[j]);
+      A(i, j) = A(j, i) = 0.5F * (A(i, j) * ratio + A(j, i) / ratio);
     }
   }
 }
@@ -195,6 +195,10 @@ RankinePart::RankinePart(const PanelModel& model, const Parity& parity,
   Influence influence = compute_influence(model, settings.threads);
   timing_.influence_s = seconds_since(start);
   const Areas areas{model.body_areas(), model.surface_areas(), is_deep(model.water())};
+  const std::vector<Panel>& panels = model.surface_mesh().panels;
+  surface_points_.resize(2, static_cast<Eigen::Index>(panels.size()));
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    surface_points_.col(static_cast<Eigen::Index>(k)) = panels[k].centroid.head<2>();
   if (settings.coarser) solve_coarser(influence, areas, *settings.coarser);
   reduce(std::move(influence), areas, settings.keep_factors);
 }
@@ -216,6 +220,7 @@ void RankinePart::solve_coarser(const Influence& influence, const Areas& areas,
   part->image_count_ = image_count_;
   part->modes_ = modes_;
   part->normal_velocities_ = b.average(areas.bodies, normal_velocities_);
+  part->surface_points_ = f.average(areas.surface, surface_points_.transpose()).transpose();
   part->reduce(std::move(coarse), {b.sum(areas.bodies), f.sum(areas.surface), areas.deep}, false);
   coarser_ = part;
 }
@@ -250,7 +255,8 @@ void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_fact
                                            "the matrix of the free surface's panels", bad_panels);
   timing_.factorisation_s = seconds_since(start);
   start = std::chrono::steady_clock::now();
-  MatrixXf reduced = MatrixXf::Zero(root_area.size(), root_area.size());
+  MatrixXf& reduced = surface_operator_;
+  reduced.setZero(root_area.size(), root_area.size());
   if (!deep) reduced = -take_single(influence.D_FF);
   reduced.diagonal().array() += static_cast<float>(2.0 * std::numbers::pi);
   multiply(-1.0F, influence.D_FB.cast<float>(), P.cast<float>(), 1.0F, reduced);
@@ -259,10 +265,10 @@ void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_fact
   factors->surface.solve_in_place(single_q);
   const MatrixXd q = single_q.cast<double>();
   if (!keep_factors) factors.reset();
-  surface_operator_ = reduced.cast<double>();
-  reduced.resize(0, 0);
   if (!deep) {
-    multiply(1.0, U, surface_operator_, 1.0, P);
+    MatrixXf of_surface_velocity = MatrixXf::Zero(P.rows(), P.cols());
+    multiply(1.0F, U.cast<float>(), reduced, 0.0F, of_surface_velocity);
+    P += of_surface_velocity.cast<double>();
     body_columns_ += U * q;
   }
 
@@ -306,11 +312,11 @@ void RankinePart::solve(const MatrixXd& normal_velocities, MatrixXd& body_potent
 
 double rankine_part_bytes(int body_panels, int surface_panels, bool finite_depth) {
   const double nb = body_panels, nf = surface_panels;
-  // On the surface the factors in single precision, the reduced operator in double precision and,
-  // for its making or the march, in single; D_FB, S_FB, P and its scaled copy; two matrices of the
-  // bodies. In finite depth S_BF besides.
-  const double numbers =
-      2.0 * nf * nf + 4.0 * nb * nf + 2.0 * nb * nb + (finite_depth ? nb * nf : 0.0);
+  // On the surface the sources' influence and, in single precision, its factors, later these and
+  // the reduced operator; D_FB, S_FB, P and its scaled copy; two matrices of the bodies. In finite
+  // depth S_BF and the dipoles' influence besides.
+  const double numbers = (finite_depth ? 2.5 : 1.5) * nf * nf + 4.0 * nb * nf + 2.0 * nb * nb +
+                         (finite_depth ? nb * nf : 0.0);
   return numbers * sizeof(double);
 }
 

@@ -76,8 +76,10 @@ class RankinePart {
   int image_count() const { return image_count_; }
   const RankineTiming& timing() const { return timing_; }
 
-  /// W^1/2 M W^-1/2, symmetric, 1/m.
-  const Eigen::MatrixXd& surface_operator() const { return surface_operator_; }
+  /// Centroids of the surface's panels, a column each, m.
+  const Eigen::Matrix2Xd& surface_points() const { return surface_points_; }
+  /// W^1/2 M W^-1/2, symmetric, 1/m; in the single precision that it is computed in.
+  const Eigen::MatrixXf& surface_operator() const { return surface_operator_; }
   /// Mean of W^1/2 q and W^-1/2 c, a column for each of modes(), m (m2 for rotations).
   const Eigen::MatrixXd& surface_columns() const { return surface_columns_; }
   /// P W^-1/2: body potentials of the surface's.
@@ -118,7 +120,9 @@ class RankinePart {
   std::vector<int> modes_;
   RankineTiming timing_;
   double reciprocity_error_ = 0.0;
-  Eigen::MatrixXd surface_operator_, surface_columns_, body_from_surface_;
+  Eigen::Matrix2Xd surface_points_;
+  Eigen::MatrixXf surface_operator_;
+  Eigen::MatrixXd surface_columns_, body_from_surface_;
   Eigen::MatrixXd body_columns_, normal_velocities_, infinite_frequency_volume_;
   /// Kept for solve(): factors and the blocks of the right-hand side.
   struct Factors;

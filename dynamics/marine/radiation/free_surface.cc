@@ -9,6 +9,16 @@
 #include "dynamics/errors.h"
 
 namespace blocklift::dynamics {
+namespace {
+
+// Of 1,712 panels and 6 columns a dense product takes 0.5 ms and a hierarchical one 0.6 ms on two
+// threads; of 8,616 panels and 18 columns 21.6 and 7.8 ms.
+constexpr Eigen::Index most_panels_of_dense_operator = 2500;
+// Leaves a millionth of a product: blocks of panels that lie apart are small beside the others. A
+// ship and two pontoons: added mass, damping and diffraction change by 0.05 % of the largest.
+constexpr double accuracy_of_blocks = 1e-3;
+
+}  // namespace
 
 Symmetry keep_symmetry(const Symmetry& symmetry, const std::vector<DampingLid>& lids) {
   Symmetry kept = symmetry;
@@ -49,13 +59,35 @@ DampingZone damping_zone(double lowest_frequency) { return {1.1 * lowest_frequen
 
 FreeSurfaceMarch::FreeSurfaceMarch(const RankinePart& part, const SurfaceDamping& damping,
                                    double gravity, Eigen::Index columns)
-    : gravity_(gravity), operator_(part.surface_operator().cast<float>()), damping_(damping) {
-  const Eigen::Index n = operator_.rows();
-  operator_.diagonal() += (damping.rates.array().square() / gravity).matrix().cast<float>();
+    : gravity_(gravity),
+      damping_(damping),
+      restoring_((damping.rates.array().square() / gravity).matrix().cast<float>()) {
+  const Eigen::Index n = part.surface_operator().rows();
+  if (n <= most_panels_of_dense_operator) {
+    operator_ = part.surface_operator();
+  } else {
+    hierarchical_operator_ =
+        HierarchicalMatrix(part.surface_operator(), part.surface_points(), accuracy_of_blocks);
+  }
   elevation_ = potential_ = Eigen::MatrixXd::Zero(n, columns);
   single_potential_ = single_velocity_ = Eigen::MatrixXf::Zero(n, columns);
   differences_ = Eigen::MatrixXd::Zero(damping.rings.rows(), columns);
   step_limit_ = find_step_limit();
+}
+
+// A hierarchical operator takes 31 MB of 8,616 panels, and little more than in proportion.
+double FreeSurfaceMarch::operator_bytes(double panels) {
+  return sizeof(float) * panels * std::min<double>(panels, most_panels_of_dense_operator);
+}
+
+void FreeSurfaceMarch::apply(const Eigen::MatrixXf& X, Eigen::MatrixXf& Y,
+                             HierarchicalMatrix::Workspace& workspace) const {
+  if (operator_.size() > 0) {
+    multiply_symmetric(operator_, X, Y);
+  } else {
+    hierarchical_operator_.multiply(X, Y, workspace);
+  }
+  Y += restoring_.asDiagonal() * X;
 }
 
 // What is between the first and the second power of the step has no eigenvalue above one once a
@@ -70,7 +102,7 @@ double FreeSurfaceMarch::find_step_limit() const {
 
 /// Lanczos' iteration: the largest eigenvalue of its small tridiagonal matrix.
 double FreeSurfaceMarch::find_largest_eigenvalue(double potential, double loss) const {
-  const Eigen::Index n = operator_.rows(), steps = std::min<Eigen::Index>(n, 50);
+  const Eigen::Index n = restoring_.size(), steps = std::min<Eigen::Index>(n, 50);
   if (n == 0) return 1.0;
   // Rough fields hold the largest eigenvalue: start from one that changes sign at random.
   Eigen::MatrixXf x(n, 1), y(n, 1), last = Eigen::MatrixXf::Zero(n, 1);
@@ -82,8 +114,9 @@ double FreeSurfaceMarch::find_largest_eigenvalue(double potential, double loss) 
   x /= x.norm();
   Eigen::VectorXd diagonal(steps), off_diagonal = Eigen::VectorXd::Zero(steps);
   Eigen::Index k = 0;
+  HierarchicalMatrix::Workspace workspace;
   for (float beta = 0.0F; k < steps; ++k) {
-    multiply_symmetric(operator_, x, y);
+    apply(x, y, workspace);
     y *= static_cast<float>(potential);
     if (loss > 0.0) {
       const Eigen::VectorXd lost =
@@ -123,7 +156,7 @@ void FreeSurfaceMarch::start(const Eigen::MatrixXd& elevation, double step) {
 void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
   potential_.noalias() -= (step_ * gravity_) * elevation_;
   single_potential_ = potential_.cast<float>();
-  multiply_symmetric(operator_, single_potential_, single_velocity_);
+  apply(single_potential_, single_velocity_, workspace_);
   if (damping_.rings.rows() > 0) differences_.noalias() = damping_.rings * elevation_;
   for (Eigen::Index j = 0; j < elevation_.cols(); ++j) {
     for (Eigen::Index i = 0; i < elevation_.rows(); ++i) {

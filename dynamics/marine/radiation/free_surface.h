@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dynamics/algebra/hierarchical_matrix.h"
 #include "dynamics/marine/panels/rankine_problem.h"
 #include "dynamics/marine/radiation/ring_loss.h"
 
@@ -57,14 +58,18 @@ DampingZone damping_zone(double lowest_frequency);
 ///
 /// eta at t, phi half a step later (leapfrog, second order, no damping of its own); the damping
 /// term 2 nu eta by Crank and Nicolson's rule, the rings' loss R^T R eta (RingDifferences) as at
-/// the beginning of the step. All quantities carry the factor W^1/2 of RankinePart, the operator is
-/// held in single precision: that is what a step has to read. Several histories (columns) are
-/// marched at once at little more than the cost of one. No allocation in a step.
+/// the beginning of the step. All quantities carry the factor W^1/2 of RankinePart. The operator M
+/// is what a step has to read: it is held in single precision, and of many panels as a hierarchical
+/// matrix. Several histories (columns) are marched at once at little more than the cost of one. No
+/// allocation in a step but in the library of hierarchical matrices.
 class FreeSurfaceMarch {
  public:
   /// `columns` is the number of histories.
   FreeSurfaceMarch(const RankinePart& part, const SurfaceDamping& damping, double gravity,
                    Eigen::Index columns);
+
+  /// Memory of the operator (bytes) of so many panels, at most.
+  static double operator_bytes(double panels);
 
   /// Largest stable step, s: dt^2 (g M + nu^2)/4 + dt R^T R/2 has no eigenvalue above one, by
   /// Lanczos' iteration.
@@ -81,6 +86,9 @@ class FreeSurfaceMarch {
   void advance(const Eigen::MatrixXd& supply = {});
 
  private:
+  /// Y = (W^1/2 M W^-1/2 + nu^2/g) X.
+  void apply(const Eigen::MatrixXf& X, Eigen::MatrixXf& Y,
+             HierarchicalMatrix::Workspace& workspace) const;
   double find_step_limit() const;
   /// Of potential (g M + nu^2)/g + loss R^T R.
   double find_largest_eigenvalue(double potential, double loss) const;
@@ -88,8 +96,11 @@ class FreeSurfaceMarch {
   double gravity_;
   double step_ = not_a_number;
   double step_limit_ = not_a_number;
-  Eigen::MatrixXf operator_;  ///< W^1/2 M W^-1/2 + nu^2/g
+  Eigen::MatrixXf operator_;                  ///< W^1/2 M W^-1/2 of few panels
+  HierarchicalMatrix hierarchical_operator_;  ///< the same of many
+  HierarchicalMatrix::Workspace workspace_;
   SurfaceDamping damping_;
+  Eigen::VectorXf restoring_;  ///< nu^2/g
   Eigen::VectorXd before_, after_;
   RingDifferences weighted_rings_;  ///< R times the step and what is left of it after 2 nu eta
   Eigen::MatrixXd elevation_, potential_, differences_;

@@ -12,7 +12,7 @@ FrequencyDomain::FrequencyDomain(const PanelModel& model, const RankinePart& par
 
 MatrixXcd FrequencyDomain::solve(double frequency, const MatrixXcd& supply) const {
   const double g = model_.water().gravity;
-  MatrixXcd matrix = (g * part_.surface_operator()).cast<Complex>();
+  MatrixXcd matrix = g * part_.surface_operator().cast<Complex>();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     const Complex rate(damping_.rates[i], frequency);
     matrix(i, i) += rate * rate;

@@ -135,20 +135,17 @@ double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) cons
 long PartComputation::run(double step, const RunLength& length, std::vector<MatrixXd>& retardation,
                           Progress& progress) {
   const auto& modes = part_.modes();
-  const long steps = run_.run(step, length, [&](long k, long planned) {
+  // The coarser surface's waves are longer: what the finer one's step suits suits it too. Where
+  // not, the coarser panels have no solution that means anything.
+  if (coarser_run_ && step > coarser_run_->step_limit()) coarser_run_.reset();
+  ImpulseRun* const beside = coarser_run_ ? &*coarser_run_ : nullptr;
+  const long steps = run_.run(step, length, beside, [&](long k, long planned) {
     if (k % 16 == 0) progress.march(k, planned);
   });
   for (long k = 0; k <= steps; ++k) {
     if (static_cast<std::size_t>(k) == retardation.size())
       retardation.emplace_back(MatrixXd::Zero(model_.mode_count(), model_.mode_count()));
     retardation[k](modes, modes) += run_.retardation(k);
-  }
-  // The coarser surface's waves are longer: what the finer one's step suits suits it too. Where
-  // not, the coarser panels have no solution that means anything.
-  if (coarser_run_ && step <= coarser_run_->step_limit()) {
-    coarser_run_->run(step, {steps});
-  } else {
-    coarser_run_.reset();
   }
   return steps;
 }
@@ -240,10 +237,10 @@ void require_panels_for_waves(const PanelModel& model, double frequency) {
 
 double database_bytes(const PanelModel& model, const DatabaseSettings& settings) {
   const bool finite_depth = !is_deep(model.water());
-  // A solution, and the march's operator in single precision.
+  // A solution, and the march's operator.
   const auto bytes_of = [&](int body_panels, int surface_panels) {
-    const double n = surface_panels;
-    return rankine_part_bytes(body_panels, surface_panels, finite_depth) + 4.0 * n * n;
+    return rankine_part_bytes(body_panels, surface_panels, finite_depth) +
+           FreeSurfaceMarch::operator_bytes(surface_panels);
   };
   const int bodies = model.body_mesh().size(), surface = model.surface_mesh().size();
   double bytes =

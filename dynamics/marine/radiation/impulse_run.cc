@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "dynamics/marine/radiation/database_parts.h"
+#include "parallel/blas_threads.h"
+#include "parallel/threads.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -91,21 +93,30 @@ void ImpulseRun::keep_whole() {
   whole_elevation_ = elevation_;
 }
 
-long ImpulseRun::run(double step, const RunLength& length,
-                     const std::function<void(long, long)>& progress) {
+void ImpulseRun::start(double step, long steps) {
   step_ = step;
-  steps_ = length.steps;
-  const MatrixXd& q = part_.surface_columns();
+  steps_ = steps;
   forces_.clear();
   elevation_.setZero();
   whole_elevation_.resize(0, 0);
-  const double factor = density_ * gravity_;
-  march_.start(q, step);
+  march_.start(part_.surface_columns(), step);
+}
+
+void ImpulseRun::keep_force() {
+  const MatrixXd& q = part_.surface_columns();
+  forces_.push_back(symmetric_part(density_ * gravity_ * (q.transpose() * march_.elevation())));
+}
+
+long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,
+                     const std::function<void(long, long)>& progress) {
+  std::vector<ImpulseRun*> runs{this};
+  if (beside != nullptr) runs.push_back(beside);
+  for (ImpulseRun* run : runs) run->start(step, length.steps);
   for (long k = 0;; ++k) {
     const bool may_go_on = steps_ < length.most * length.steps;
     if (may_go_on && taper(k, steps_) < 1.0 && whole_elevation_.size() < elevation_.size())
       keep_whole();
-    forces_.push_back(symmetric_part(factor * (q.transpose() * march_.elevation())));
+    for (ImpulseRun* run : runs) run->keep_force();
     accumulate(k);
     if (progress) progress(k, steps_);
     if (k == steps_) {
@@ -118,10 +129,17 @@ long ImpulseRun::run(double step, const RunLength& length,
       whole_elevation_.resize(0, 0);
       steps_ += length.steps;
     }
-    march_.advance();
+    const parallel::OneBlasThread for_marches_side_by_side;
+    parallel::for_each(static_cast<int>(runs.size()), 0,
+                       [&](int run) { runs[static_cast<std::size_t>(run)]->march_.advance(); });
   }
   add_instants();
   whole_elevation_.resize(0, 0);
+  if (beside != nullptr) {
+    beside->steps_ = steps_;
+    beside->force_ = beside->integrate(steps_);
+    beside->estimate_cut();
+  }
   return steps_;
 }
 

@@ -38,8 +38,9 @@ class ImpulseRun {
 
   /// Marches. `progress`, if any, is called with each step's number and how many there will be as
   /// far as is known.
-  /// @param step s. @returns the number of steps.
-  long run(double step, const RunLength& length,
+  /// @param step s. @param beside another run, without elevation, that is marched side by side with
+  ///   this one by the same steps and is as long; null: none. @returns the number of steps.
+  long run(double step, const RunLength& length, ImpulseRun* beside,
            const std::function<void(long step, long steps)>& progress = {});
 
   /// After run(): retardation functions K of the part's modes at each step (modes() square, images
@@ -60,6 +61,9 @@ class ImpulseRun {
   const Eigen::MatrixXd& cut_off() const { return cut_off_; }
 
  private:
+  void start(double step, long steps);
+  /// Keeps the force at a step.
+  void keep_force();
   /// Adds an instant to the integrals of the elevation.
   void accumulate(long step);
   /// Adds the instants that wait to the integrals of the elevation.

@@ -89,8 +89,8 @@ TEST(WettedBody, LeavesOutSheetsWithoutThickness) {
                         {.first_ring = 3.0, .growth = 1.4, .radius = 150.0, .edge_share = 0.25}),
       {});
   const RankinePart part(model, {});
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(part.surface_operator(),
-                                                              Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      part.surface_operator().cast<double>(), Eigen::EigenvaluesOnly);
   EXPECT_GT(solver.eigenvalues()[0], 0.0);
 }
 
