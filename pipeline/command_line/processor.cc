@@ -4,16 +4,12 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "parallel/threads.h"
-#include "pipeline/files/file_kind.h"
 
 namespace blocklift::pipeline {
 
@@ -37,29 +33,6 @@ bool runs_below_its_kernels() {
 #else
   return false;
 #endif
-}
-
-/// True if a file that an argument names begins a line with the key "sea": the hydrodynamics of a
-/// case's vessels are computed before its motion where they are not at hand. That the line may say
-/// something else costs half a second.
-bool names_a_sea(int count, char** arguments) {
-  for (int i = 2; i < count; ++i) {
-    std::error_code none;
-    const std::filesystem::path path = input_file(arguments[i]);
-    if (!std::filesystem::is_regular_file(path, none)) continue;
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-      if (line.starts_with("sea:")) return true;
-    }
-  }
-  return false;
-}
-
-/// Whether a command may solve dense or sparse systems for longer than a second start takes.
-bool solves_large_systems(int count, char** arguments) {
-  const std::string_view command = count > 1 ? arguments[1] : "";
-  if (command == "assess" || command == "stress" || command == "hydro") return true;
-  return command == "simulate" && names_a_sea(count, arguments);
 }
 
 /// What --threads asks for, as text; empty without it. Whether it is a number is told later.
@@ -93,8 +66,9 @@ bool limit_threads(int count, char** arguments) {
 }  // namespace
 
 void use_all_of_the_processor(int count, char** arguments) {
+  const std::string_view command = count > 1 ? arguments[1] : "";
   bool changed = limit_threads(count, arguments);
-  if (!solves_large_systems(count, arguments)) {
+  if (command != "assess" && command != "stress") {
     if (changed) ::execv("/proc/self/exe", arguments);
     return;
   }

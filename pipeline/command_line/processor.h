@@ -17,8 +17,8 @@ namespace blocklift::pipeline {
 /// - GLIBC_TUNABLES, glibc.malloc.hugetlb: the matrices' gigabytes come in pages of 2 MB in place
 ///   of 4 kB, of which the kernel would hand over each one singly.
 /// - OMP_NUM_THREADS, OPENBLAS_NUM_THREADS: what the option --threads says.
-/// The first four only for commands that solve structures or the water about hulls; the others
-/// would wait for the second start, more than half a second, in vain.
+/// The first four only for commands that solve structures; the others would wait for the second
+/// start in vain.
 /// Returns where there is nothing to gain or the system cannot do it.
 void use_all_of_the_processor(int count, char** arguments);
 
