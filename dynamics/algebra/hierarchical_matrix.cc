@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "dynamics/errors.h"
 #include "parallel/blas_threads.h"
@@ -90,8 +91,8 @@ Group make_group(const Eigen::Matrix2Xd& points, const std::vector<int>& rows) {
 /// Where the library finds the entries of a pair of groups.
 struct Entries {
   const Eigen::MatrixXf* matrix;
-  const int* rows;     ///< of the matrix, from the first that is asked for on
-  const int* columns;  ///< likewise
+  const int* rows;     ///< of the matrix, from the block's first on, in the library's order
+  const int* columns;  ///< of the matrix, in the same way
 };
 
 /// The pair whose entries the library is given.
