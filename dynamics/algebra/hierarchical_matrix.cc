@@ -15,13 +15,15 @@
 namespace blocklift::dynamics {
 namespace {
 
-// Of 8,616 panels of a surface and 18 columns. More groups than threads make a product dearer: 13.3
-// ms on one thread with one group and with four, 14.2 ms with eight.
+// More groups than threads make a product dearer: of 8,616 panels of a surface and 18 columns 12.7 ms
+// with one group on one thread, 13.3 ms with four, 14.4 ms with eight.
 constexpr int group_count = 4;
-// Clusters of no more points are not divided: 100, 200 and 300 take 8.0, 7.0 and 7.9 ms.
+// Clusters of no more points are not divided: 100, 200 and 300 take 8.0, 7.0 and 7.9 ms on two
+// threads.
 constexpr int points_of_a_leaf = 200;
-// Clusters stand apart if the smaller one's diameter is at most so many times their distance: with
-// 2, 3 and 4 a product takes 15.0, 12.8 and 13.9 ms on one thread.
+// Clusters stand apart if the smaller one's diameter is at most so many times their distance: with 3
+// and 4 a product takes 7.0 and 7.6 ms on two threads, with 2 and 3, of other leaves, 15.0 and 12.8
+// ms on one.
 constexpr double diameter_over_distance = 3.0;
 
 template <auto release>
@@ -156,6 +158,8 @@ HierarchicalMatrix::HierarchicalMatrix(const Eigen::MatrixXf& matrix,
                                        const Eigen::Matrix2Xd& points, double accuracy) {
   const Eigen::Index n = matrix.rows();
   if (n == 0) return;
+  // The thin matrices must not depend on the number of threads either.
+  const parallel::OneBlasThread whatever_the_threads;
   auto made = std::make_shared<Groups>();
   std::vector<int> all(static_cast<std::size_t>(n));
   std::iota(all.begin(), all.end(), 0);
@@ -168,14 +172,6 @@ HierarchicalMatrix::HierarchicalMatrix(const Eigen::MatrixXf& matrix,
       row.push_back(make_block({&matrix, &made->groups[r], &made->groups[c]}, accuracy));
   }
   groups_ = made;
-}
-
-Eigen::Index HierarchicalMatrix::rows() const {
-  if (!groups_) return 0;
-  return std::accumulate(groups_->groups.begin(), groups_->groups.end(), Eigen::Index{0},
-                         [](Eigen::Index sum, const Group& group) {
-                           return sum + static_cast<Eigen::Index>(group.order.size());
-                         });
 }
 
 double HierarchicalMatrix::bytes() const {

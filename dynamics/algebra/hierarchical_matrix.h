@@ -28,7 +28,6 @@ class HierarchicalMatrix {
   HierarchicalMatrix(const Eigen::MatrixXf& matrix, const Eigen::Matrix2Xd& points,
                      double accuracy);
 
-  Eigen::Index rows() const;
   /// Memory of what is held, bytes.
   double bytes() const;
 

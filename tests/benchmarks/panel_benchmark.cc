@@ -6,6 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "dynamics/algebra/hierarchical_matrix.h"
+#include "dynamics/algebra/single_precision.h"
 #include "dynamics/marine/panels/panel_shapes.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "dynamics/marine/radiation/radiation.h"
@@ -75,6 +77,36 @@ BENCHMARK(step)
     ->Args({56, 6})
     ->Unit(benchmark::kMicrosecond)
     ->UseRealTime();
+
+/// A matrix of points on a spiral with 18 columns, whole and as a hierarchical one.
+template <bool hierarchical>
+void product(benchmark::State& state) {
+  const Eigen::Index n = state.range(0);
+  Eigen::Matrix2Xd points(2, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double along = 2.399963 * static_cast<double>(k);
+    points.col(k) = 0.01 * along * Eigen::Vector2d(std::cos(along), std::sin(along));
+  }
+  const Eigen::MatrixXf matrix =
+      Eigen::MatrixXf::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
+        return static_cast<float>(
+            std::pow(0.01 + (points.col(i) - points.col(j)).squaredNorm(), -1.5));
+      });
+  const HierarchicalMatrix blocks(hierarchical ? matrix : Eigen::MatrixXf(), points, 1e-3);
+  const Eigen::MatrixXf X = Eigen::MatrixXf::Random(n, 18);
+  Eigen::MatrixXf Y(n, 18);
+  HierarchicalMatrix::Workspace workspace;
+  for (auto unused : state) {
+    if constexpr (hierarchical) {
+      blocks.multiply(X, Y, workspace);
+    } else {
+      multiply_symmetric(matrix, X, Y);
+    }
+  }
+  state.counters["MB"] = 1e-6 * (hierarchical ? blocks.bytes() : 4.0 * static_cast<double>(n * n));
+}
+BENCHMARK(product<false>)->Arg(2500)->Arg(8616)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(product<true>)->Arg(2500)->Arg(8616)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// All six modes, 30 frequencies, 8 headings.
 void database(benchmark::State& state) {

@@ -12,7 +12,7 @@ namespace blocklift::dynamics {
 namespace {
 
 // Of 1,712 panels and 6 columns a dense product takes 0.5 ms and a hierarchical one 0.6 ms on two
-// threads; of 8,616 panels and 18 columns 21.6 and 7.8 ms.
+// threads; of 8,616 panels and 18 columns 21.6 and 7.0 ms.
 constexpr Eigen::Index most_panels_of_dense_operator = 2500;
 // Leaves a millionth of a product: blocks of panels that lie apart are small beside the others. A
 // ship and two pontoons: added mass, damping and diffraction change by 0.05 % of the largest.

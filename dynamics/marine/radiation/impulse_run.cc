@@ -120,8 +120,7 @@ long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,
     accumulate(k);
     if (progress) progress(k, steps_);
     if (k == steps_) {
-      force_ = integrate(steps_);
-      estimate_cut();
+      integrate_force(steps_);
       const VectorXd shares = largest_shares(cut_off_);
       if (!may_go_on || shares.size() == 0 || shares.maxCoeff() <= length.share) break;
       add_instants();
@@ -135,11 +134,7 @@ long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,
   }
   add_instants();
   whole_elevation_.resize(0, 0);
-  if (beside != nullptr) {
-    beside->steps_ = steps_;
-    beside->force_ = beside->integrate(steps_);
-    beside->estimate_cut();
-  }
+  if (beside != nullptr) beside->integrate_force(steps_);
   return steps_;
 }
 
@@ -167,6 +162,12 @@ MatrixXd ImpulseRun::change_from(long steps) const {
         part_.image_count() * scale(k) * (force_[k] - shorter[k]).diagonal().cwiseAbs();
   }
   return changes;
+}
+
+void ImpulseRun::integrate_force(long steps) {
+  steps_ = steps;
+  force_ = integrate(steps);
+  estimate_cut();
 }
 
 void ImpulseRun::estimate_cut() {

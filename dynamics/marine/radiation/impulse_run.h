@@ -38,7 +38,7 @@ class ImpulseRun {
 
   /// Marches. `progress`, if any, is called with each step's number and how many there will be as
   /// far as is known.
-  /// @param step s. @param beside another run, without elevation, that is marched side by side with
+  /// @param step s. @param beside another run, made without elevation, that is marched side by side with
   ///   this one by the same steps and is as long; null: none. @returns the number of steps.
   long run(double step, const RunLength& length, ImpulseRun* beside,
            const std::function<void(long step, long steps)>& progress = {});
@@ -62,6 +62,8 @@ class ImpulseRun {
 
  private:
   void start(double step, long steps);
+  /// Integrates the force over all steps, of which there are now so many, and estimates the cut.
+  void integrate_force(long steps);
   /// Keeps the force at a step.
   void keep_force();
   /// Adds an instant to the integrals of the elevation.
