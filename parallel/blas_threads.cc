@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <mutex>
+
 namespace blocklift::parallel {
 namespace {
 
@@ -17,14 +19,32 @@ void set_blas_threads(int threads) {
   if (function != nullptr) reinterpret_cast<void (*)(int)>(function)(threads);
 }
 
+/// Those that live.
+struct Living {
+  std::mutex counting;
+  int count = 0;
+  int before = 0;  ///< threads that BLAS had without them; 0 where BLAS is another library
+};
+
+Living& living() {
+  static Living all;
+  return all;
+}
+
 }  // namespace
 
-OneBlasThread::OneBlasThread() : before_(blas_threads()) {
-  if (before_ > 1) set_blas_threads(1);
+OneBlasThread::OneBlasThread() {
+  Living& all = living();
+  const std::lock_guard lock(all.counting);
+  if (all.count++ > 0) return;
+  all.before = blas_threads();
+  if (all.before > 1) set_blas_threads(1);
 }
 
 OneBlasThread::~OneBlasThread() {
-  if (before_ > 1) set_blas_threads(before_);
+  Living& all = living();
+  const std::lock_guard lock(all.counting);
+  if (--all.count == 0 && all.before > 1) set_blas_threads(all.before);
 }
 
 }  // namespace blocklift::parallel

@@ -5,8 +5,11 @@
 #include <cstdlib>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
+
+#include "parallel/blas_threads.h"
 
 namespace blocklift::parallel {
 
@@ -18,10 +21,10 @@ int usable_threads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-void in_batches(int count, int batch_size, int threads,
-                const std::function<void(int first, int count)>& work) {
-  if (threads <= 0) threads = usable_threads();
-  threads = std::min(threads, (count + batch_size - 1) / batch_size);
+namespace {
+
+void deal_out(int count, int batch_size, int threads,
+              const std::function<void(int first, int count)>& work) {
   std::atomic<int> next{0};
   std::exception_ptr failure;
   int failed = count;  // first number of the lowest batch that has failed
@@ -47,6 +50,22 @@ void in_batches(int count, int batch_size, int threads,
   run();
   for (std::thread& other : others) other.join();
   if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+void in_batches(int count, int batch_size, int threads,
+                const std::function<void(int first, int count)>& work) {
+  if (threads <= 0) threads = usable_threads();
+  threads = std::min(threads, (count + batch_size - 1) / batch_size);
+  std::optional<OneBlasThread> for_each_of_several;
+  if (threads > 1) for_each_of_several.emplace();
+  deal_out(count, batch_size, threads, work);
+}
+
+void side_by_side(const std::function<void()>& first, const std::function<void()>& second) {
+  deal_out(2, 1, std::min(2, usable_threads()),
+           [&](int which, int) { which == 0 ? first() : second(); });
 }
 
 void for_each(int count, int threads, const std::function<void(int)>& work) {

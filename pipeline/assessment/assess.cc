@@ -306,8 +306,7 @@ void lift_and_begin_block(const std::optional<KeptRefinement>& earlier, const Pr
     begin_block(
         the_case, earlier, [](auto&&...) {}, block);
   };
-  parallel::in_batches(2, 1, std::min(2, parallel::usable_threads()),
-                       [&](int which, int) { which == 0 ? lift() : begin(); });
+  parallel::side_by_side(lift, begin);
 }
 
 }  // namespace
@@ -423,12 +422,9 @@ fs::path prepare_results(const Assessment& assessment, const fs::path& folder,
   Preparation preparation(folder);
   Stopwatch watch;
   const std::string run = new_run_identity();
-  parallel::in_batches(2, 1, std::min(2, parallel::usable_threads()), [&](int which, int) {
-    if (which == 0)
-      write_result_file(assessment, run, preparation.folder() / layout::results_file);
-    else
-      write_pictures(assessment.block, preparation.folder());
-  });
+  parallel::side_by_side(
+      [&] { write_result_file(assessment, run, preparation.folder() / layout::results_file); },
+      [&] { write_pictures(assessment.block, preparation.folder()); });
 
   nlohmann::ordered_json summary = make_summary(assessment);
   summary[layout::run] = run;

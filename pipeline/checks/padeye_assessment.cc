@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "parallel/threads.h"
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
 #include "structure/mesh/plate_finder.h"
@@ -166,25 +167,44 @@ class PadeyeRun {
 /// Sub-models by their measures and material: one factorisation for all padeyes that are alike.
 class Models {
  public:
-  std::shared_ptr<const structure::PadeyeModel> of(const structure::PadeyeFormulaInput& input,
-                                                   int divisions) {
+  /// Takes note of a padeye. @returns its model's number.
+  int add(const structure::PadeyeFormulaInput& input, int divisions) {
     const structure::PadeyeGeometry& g = input.geometry;
     const Key key{g.radius,       g.thickness,       g.hole_diameter,
                   g.cheek_radius, g.cheek_thickness, g.height,
                   g.base_left,    g.base_right,      static_cast<double>(divisions)};
-    auto& model = models_[{input.material.name, rounded(key)}];
-    if (!model) model = std::make_shared<structure::PadeyeModel>(g, input.material, divisions);
-    return model;
+    const auto [place, is_new] = numbers_.emplace(std::pair{input.material.name, rounded(key)},
+                                                  static_cast<int>(wanted_.size()));
+    if (is_new) wanted_.push_back({g, input.material, divisions});
+    return place->second;
+  }
+
+  /// The models, by their numbers.
+  std::vector<std::shared_ptr<const structure::PadeyeModel>> make() const {
+    std::vector<std::shared_ptr<const structure::PadeyeModel>> models(wanted_.size());
+    parallel::for_each(static_cast<int>(wanted_.size()), 0, [&](int i) {
+      const auto number = static_cast<std::size_t>(i);
+      const Wanted& one = wanted_[number];
+      models[number] =
+          std::make_shared<structure::PadeyeModel>(one.geometry, one.material, one.divisions);
+    });
+    return models;
   }
 
  private:
   using Key = std::array<double, 9>;
+  struct Wanted {
+    structure::PadeyeGeometry geometry;
+    structure::Material material;
+    int divisions;
+  };
   // To a tenth of a micrometre: sums of the file's lengths differ by rounding.
   static Key rounded(Key key) {
     for (double& value : key) value = std::round(value * 1e7) / 1e7;
     return key;
   }
-  std::map<std::pair<std::string, Key>, std::shared_ptr<const structure::PadeyeModel>> models_;
+  std::map<std::pair<std::string, Key>, int> numbers_;
+  std::vector<Wanted> wanted_;
 };
 
 /// All lugs that are padeyes and that a rope pulls at.
@@ -262,17 +282,28 @@ template <typename Find>
 PadeyesAssessment assess_at(const LiftCase& lift_case, const UnitResponses& responses,
                             const Find& find_instants_of) {
   Stopwatch watch;
-  PadeyesAssessment result;
-  Models models;
+  struct Pulled {
+    PadeyeRun run;
+    std::vector<PadeyeInstant> instants;
+    std::size_t model;
+  };
+  std::vector<Pulled> all;
+  Models wanted;
   for (PadeyeRun& run : make_runs(lift_case, responses)) {
-    const std::vector<PadeyeInstant> instants = find_instants_of(run);
+    std::vector<PadeyeInstant> instants = find_instants_of(run);
     if (instants.empty()) continue;
     run.add_rules();
     run.result().rope = rope_at(lift_case, run.result().lug);
-    run.solve(models.of(run.result().input, divisions_of(lift_case, run.result().padeye)),
-              instants);
-    result.padeyes.push_back(std::move(run.result()));
+    const int model = wanted.add(run.result().input, divisions_of(lift_case, run.result().padeye));
+    all.push_back({std::move(run), std::move(instants), static_cast<std::size_t>(model)});
   }
+  const auto models = wanted.make();
+  parallel::for_each(static_cast<int>(all.size()), 0, [&](int i) {
+    Pulled& one = all[static_cast<std::size_t>(i)];
+    one.run.solve(models[one.model], one.instants);
+  });
+  PadeyesAssessment result;
+  for (Pulled& one : all) result.padeyes.push_back(std::move(one.run.result()));
   result.evaluation_s = watch.lap();
   return result;
 }

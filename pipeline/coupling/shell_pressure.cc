@@ -5,8 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "algebra/products.h"
 #include "dynamics/algebra/dense_algebra.h"
-#include "dynamics/algebra/row_products.h"
 #include "dynamics/marine/hull/wet_triangle.h"
 #include "parallel/threads.h"
 
@@ -103,7 +103,7 @@ struct ColumnModes {
 
 ColumnModes find_modes(const Eigen::MatrixXd& columns, double tolerance) {
   constexpr Eigen::Index together = 16;
-  Eigen::MatrixXd ascending = dynamics::row_products(columns);
+  Eigen::MatrixXd ascending = algebra::row_products(columns);
   dynamics::decompose_symmetric(ascending);
   Eigen::VectorXd left = columns.colwise().squaredNorm();
   const double largest = left.maxCoeff();

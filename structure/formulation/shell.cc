@@ -10,6 +10,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include "algebra/products.h"
 #include "structure/formulation/gauss_line.h"
 #include "structure/index.h"
 #include "structure/space/space_implementation.h"
@@ -489,9 +490,7 @@ const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
     rooted_.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)).noalias() =
         std::sqrt(weights_[q] * points[q].area) * (root * points[q].strain);
   }
-  stiffness_.setZero(columns, columns);
-  stiffness_.selfadjointView<Eigen::Lower>().rankUpdate(rooted_.transpose());
-  stiffness_.triangularView<Eigen::StrictlyUpper>() = stiffness_.transpose();
+  algebra::find_column_products(rooted_, stiffness_);
   return stiffness_;
 }
 

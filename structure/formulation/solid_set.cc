@@ -41,14 +41,18 @@ StressColumns stresses_of(const SolidSet& solids, int solid, const Eigen::Matrix
                           const Eigen::VectorXd& displacement) {
   const Elasticity& law = solids.laws[solids.law[solid]];
   const Eigen::Matrix3Xd places = solids.places(solid);
-  Eigen::Matrix3Xd moved(3, places.cols());
+  Eigen::Matrix<double, 6, Eigen::Dynamic> moved_and_places(6, places.cols());
   for (int i = 0; i < places.cols(); ++i)
-    moved.col(i) = displacement.segment<3>(3 * static_cast<Eigen::Index>(solids.node(solid, i)));
+    moved_and_places.col(i) << displacement.segment<3>(
+        3 * static_cast<Eigen::Index>(solids.node(solid, i))),
+        places.col(i);
+  // Derivatives of both by the unit coordinates, three columns a point.
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> by_unit = moved_and_places * gradients.transpose();
   StressColumns result(6, gradients.rows() / 3);
   for (Eigen::Index q = 0; q < result.cols(); ++q) {
-    const auto by_unit = gradients.middleRows<3>(3 * q);
+    const auto here = by_unit.middleCols<3>(3 * q);
     const Eigen::Matrix3d g =  // du_a / dx_b
-        (moved * by_unit.transpose()) * (places * by_unit.transpose()).inverse();
+        here.topRows<3>() * here.bottomRows<3>().inverse();
     Eigen::Matrix<double, 6, 1> strain;
     strain << g.diagonal(), g(0, 1) + g(1, 0), g(1, 2) + g(2, 1), g(2, 0) + g(0, 2);
     result.col(q) = law * strain;

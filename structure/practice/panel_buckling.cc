@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/products.h"
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/response/cell_finder.h"
@@ -415,8 +416,9 @@ std::vector<BlockPanels::Worst> BlockPanels::find_worst(const Eigen::MatrixXd& f
                                                         int threads) const {
   std::vector<Worst> result(panels_.size());
   parallel::in_batches(static_cast<int>(panels_.size()), 8, threads, [&](int first, int count) {
-    const Eigen::MatrixXd all =
-        components_.middleRows(rows_per_panel * first, rows_per_panel * count) * factors;
+    Eigen::MatrixXd all(rows_per_panel * count, factors.cols());
+    algebra::multiply(components_.middleRows(rows_per_panel * first, rows_per_panel * count),
+                      factors, all);
     for (int p = 0; p < count; ++p)
       for (Eigen::Index t = 0; t < factors.cols(); ++t) {
         const auto s = all.block<rows_per_panel, 1>(rows_per_panel * p, t);

@@ -24,7 +24,7 @@
 namespace blocklift::structure {
 
 struct UnitResponses::System {
-  System(SparseLower stiffness, std::vector<FixedUnknown> support)
+  System(SparseLower&& stiffness, std::vector<FixedUnknown> support)
       : equations(std::move(stiffness), std::move(support)) {}
   ConstrainedSystem equations;
 };

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "algebra/products.h"
 #include "parallel/threads.h"
 
 namespace blocklift::structure {
@@ -38,15 +39,22 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::Matr
   current_ = of_triangles_ && shell.is_triangle() ? of_triangles_.get() : &of_squares_;
   current_->reinit(cell);
   const Eigen::MatrixXd local = motions_of_cell(space_, cell, motions);
-  Eigen::MatrixXd rows(shell_stress_rows * static_cast<Eigen::Index>(points().size()),
-                       motions.cols());
+  const auto count = static_cast<Eigen::Index>(points().size());
+  Eigen::MatrixXd of_motions(shell_strains * count, local.rows());
+  for (std::size_t q = 0; q < points().size(); ++q)
+    of_motions.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)) =
+        points()[q].strain;
+  Eigen::MatrixXd strains(of_motions.rows(), motions.cols());
+  algebra::multiply(of_motions, local, strains);
+  Eigen::MatrixXd rows(shell_stress_rows * count, motions.cols());
   for (std::size_t q = 0; q < points().size(); ++q) {
-    const Eigen::MatrixXd strain = points()[q].strain * local;
+    const auto strain =
+        strains.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q));
     auto here =
         rows.middleRows<shell_stress_rows>(shell_stress_rows * static_cast<Eigen::Index>(q));
     const double thickness = points()[q].thickness;
     // Forces and moments as an even plate of the thickness bears them; of layers, their mean.
-    const Eigen::MatrixXd forces =
+    const Eigen::Matrix<double, shell_strains, Eigen::Dynamic> forces =
         shell_stiffness_law(mesh, shell, points()[q].e_1, points()[q].e_2, thickness) * strain;
     here.middleRows<3>(membrane_stress_11) = forces.middleRows<3>(membrane_11) / thickness;
     here.middleRows<3>(bending_stress_11) =

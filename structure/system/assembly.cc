@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "algebra/decompositions.h"
+#include "algebra/products.h"
 #include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
@@ -129,7 +130,10 @@ void take_freedoms(const Space& space, int element, const Eigen::MatrixXd& of_fr
             std::lower_bound(unknowns.begin(), unknowns.end(), term->unknown) - unknowns.begin()) +=
           term->weight;
   entries.unknowns = std::move(unknowns);
-  entries.matrix = terms.transpose() * (of_freedoms * terms);
+  Eigen::MatrixXd of_terms(terms.rows(), terms.cols());
+  algebra::multiply(of_freedoms, terms, of_terms);
+  entries.matrix.resize(terms.cols(), terms.cols());
+  algebra::multiply(Eigen::MatrixXd(terms.transpose()), of_terms, entries.matrix);
 }
 
 /// Adds an element's matrix to the columns of those groups that are this part's.

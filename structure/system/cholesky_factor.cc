@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -67,7 +68,9 @@ struct CholeskyFactor::Implementation
     return result;
   }
 
+  // CHOLMOD's workspace serves one thread at a time.
   Eigen::MatrixXd solve_with(int system, Eigen::MatrixXd loads) {
+    const std::lock_guard lock(solving_);
     cholmod_dense view = Eigen::viewAsCholmod(loads);
     cholmod_dense* found = cholmod_l_solve(system, m_cholmodFactor, &view, &cholmod());
     if (!found)
@@ -78,6 +81,9 @@ struct CholeskyFactor::Implementation
     cholmod_l_free_dense(&found, &cholmod());
     return result;
   }
+
+ private:
+  std::mutex solving_;
 };
 
 CholeskyFactor::CholeskyFactor(const SparseLower& matrix) : implementation_(new Implementation) {

@@ -4,10 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-// By its fixed interface in Fortran.
-extern "C" void dsyrk_(const char* triangle, const char* transposed, const int* size,
-                       const int* columns, const double* alpha, const double* a, const int* lda,
-                       const double* beta, double* c, const int* ldc);
+#include "algebra/products.h"
 
 namespace blocklift::structure {
 
@@ -20,9 +17,8 @@ Eigen::MatrixXd square_of(const Eigen::MatrixXd& lower) {
   constexpr int block = 256;
   for (int first = 0; first < size; first += block) {
     const int columns = std::min(block, size - first), rows = size - first;
-    const double one = 1;
-    dsyrk_("L", "N", &rows, &columns, &one, &lower(first, first), &size, &one,
-           &square(first, first), &size);
+    algebra::add_row_products(lower.block(first, first, rows, columns),
+                              square.bottomRightCorner(rows, rows));
   }
   return square;
 }

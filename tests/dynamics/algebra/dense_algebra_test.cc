@@ -9,7 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include "dynamics/algebra/row_products.h"
 #include "dynamics/errors.h"
 #include "tests/algebra/some_matrix.h"
 
@@ -24,15 +23,6 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
-
-TEST(RowProducts, AreThoseOfEachRowWithEach) {
-  const MatrixXd A = some_matrix(7, 40), products = row_products(A);
-  ASSERT_EQ(products.rows(), 7);
-  for (Eigen::Index i = 0; i < 7; ++i)
-    for (Eigen::Index j = 0; j < 7; ++j)
-      EXPECT_NEAR(products(i, j), A.row(i).dot(A.row(j)), 100.0 * rounding * A.squaredNorm());
-  EXPECT_EQ(row_products(MatrixXd(3, 0)), MatrixXd::Zero(3, 3));
-}
 
 TEST(DenseAlgebra, GeneralEigenvectorsSatisfyTheirEquation) {
   const Eigen::Index n = 17;
