@@ -22,6 +22,7 @@ namespace {
 void* allocate_in_large_pages(std::size_t bytes) {
   void* const memory = std::malloc(bytes);
   prefer_large_pages(memory, bytes);
+  take_pages(memory, bytes);
   return memory;
 }
 
