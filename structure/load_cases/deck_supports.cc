@@ -9,8 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "structure/index.h"
-#include "structure/mesh/solid_shape.h"
-#include "structure/space/joints.h"
+#include "structure/space/edge_nodes.h"
 
 namespace blocklift::structure {
 
@@ -46,7 +45,8 @@ AxesOfVertices held_axes(const std::vector<Support>& supports) {
   return axes;
 }
 
-/// Holds a vertex's node, and what lies on edges between two held vertices.
+/// Holds a vertex's node, and what lies on edges of plates and solids between two held vertices. A
+/// bar between them bends.
 class Holder {
  public:
   Holder(const Space& space, const AxesOfVertices& axes) : space_(space), axes_(axes) {}
@@ -60,47 +60,14 @@ class Holder {
         directions_.push_back(
             {node, held.axis, held.is_rotation, held.value, {{{vertex, 1}, {-1, 0}}}});
     }
-    for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell) hold_shell(cell);
-    for (const BeamCell& cell : space_.beams()) hold_beam(cell);
-    for (std::size_t solid = 0; solid < space_.mesh().solids.size(); ++solid) hold_solid(solid);
+    for_each_node_within_edges(space_, [&](int node, int from, int to, double share) {
+      hold_between(node, from, to, share);
+    });
     return std::move(directions_);
   }
 
  private:
-  void hold_shell(int cell) {
-    const ShellCell& located = space_.shells()[cell];
-    const auto& corners = space_.mesh().shells[located.shell].vertices;
-    const std::vector<double> places = lagrange_places(space_.degree());
-    const int* node = space_.shell_nodes(cell);
-    for (const double y : places)
-      for (const double x : places) {
-        const Eigen::Vector2d xi = located.origin + located.size * Eigen::Vector2d(x, y);
-        if (xi.y() == 0) hold_between(*node, corners[0], corners[1], xi.x());
-        if (xi.y() == 1) hold_between(*node, corners[2], corners[3], xi.x());
-        if (xi.x() == 0) hold_between(*node, corners[0], corners[2], xi.y());
-        if (xi.x() == 1) hold_between(*node, corners[1], corners[3], xi.y());
-        ++node;
-      }
-  }
-
-  void hold_beam(const BeamCell& cell) {
-    const auto& ends = space_.mesh().beams[cell.beam].vertices;
-    const std::vector<double> places = lagrange_places(cell.degree);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      hold_between(cell.nodes[i], ends[0], ends[1], cell.origin + cell.size * places[i]);
-  }
-
-  void hold_solid(std::size_t number) {
-    const Solid& solid = space_.mesh().solids[number];
-    const SolidTopology& topology = topology_of(solid.shape);
-    const int* nodes = space_.solid_nodes(static_cast<int>(number));
-    for (std::size_t edge = 0; edge < topology.edges.size(); ++edge)
-      hold_between(nodes[at(topology.corners) + edge], solid.vertices[topology.edges[edge][0]],
-                   solid.vertices[topology.edges[edge][1]], 0.5);
-  }
-
   void hold_between(int node, int from, int to, double share) {
-    if (from == to || share == 0 || share == 1) return;
     const auto at_from = axes_.find(from), at_to = axes_.find(to);
     if (at_from == axes_.end() || at_to == axes_.end() || !done_.insert(node).second) return;
     for (const HeldAxis& one : at_from->second) {

@@ -344,37 +344,102 @@ FieldWalker::FieldWalker(const Mesh& mesh, const PlateFields& fields)
   }
 }
 
+namespace {
+
+/// Where a place lies over a shell, and how far outside, by its edges in their order: eta < 0, xi >
+/// 1, eta > 1, xi < 0. The edge of a triangle that is a point is never passed.
+struct OverShell {
+  Eigen::Vector2d xi;
+  std::array<double, 4> outside{};
+
+  double farthest() const { return *std::max_element(outside.begin(), outside.end()); }
+};
+
+constexpr double far_outside = 3;  // of unit coordinates: where a search goes no farther
+constexpr int most_iterations = 12;
+
+/// Steps of Newton's method until one is nothing.
+template <typename Step>
+void iterate(const Step& step) {
+  for (int newton = 0; newton < most_iterations; ++newton)
+    if (step().cwiseAbs().maxCoeff() < 1e-10) return;
+}
+
+Eigen::Vector2d least_squares(const Eigen::Matrix<double, 3, 2>& g, const Vector3& missed) {
+  return algebra::solve_symmetric<2>(g.transpose() * g, g.transpose() * missed);
+}
+
+OverShell over_square(const Mesh& mesh, int shell, const Vector3& place,
+                      const Eigen::Vector2d& start) {
+  OverShell over{start, {}};
+  iterate([&]() -> Eigen::Vector2d {
+    const Eigen::Vector2d change = least_squares(
+        tangents(mesh, shell, over.xi), place - position(mesh, mesh.shells[shell], over.xi));
+    over.xi = (over.xi + change).cwiseMax(1 - far_outside).cwiseMin(far_outside);
+    return change;
+  });
+  over.outside = {-over.xi.y(), over.xi.x() - 1, over.xi.y() - 1, -over.xi.x()};
+  return over;
+}
+
+/// By area coordinates: xi has no meaning at the point that an edge has become, and eta leads
+/// nowhere beyond it.
+OverShell over_triangle(const Mesh& mesh, int shell, const Vector3& place,
+                        const Eigen::Vector2d& start) {
+  constexpr double last_eta = 0.999;  // of a curved one; tangents end at 1
+  const Shell& triangle = mesh.shells[shell];
+  const Vector3& origin = mesh.vertices[triangle.vertices[0]];
+  Eigen::Matrix<double, 3, 2> sides;
+  sides << mesh.vertices[triangle.vertices[1]] - origin,
+      mesh.vertices[triangle.vertices[2]] - origin;
+  // Shares of the second and the third vertex.
+  Eigen::Vector2d shares(start.x() * (1 - start.y()), start.y());
+  const auto unit_place = [&](double most_eta) {
+    const double eta = std::min(shares[1], most_eta);
+    return Eigen::Vector2d(eta < 1 ? shares[0] / (1 - eta) : 0.5, eta);
+  };
+  if (triangle.curvature < 0) {
+    shares = least_squares(sides, place - origin);
+  } else {
+    iterate([&]() -> Eigen::Vector2d {
+      const Eigen::Vector2d xi = unit_place(last_eta);
+      const Eigen::Matrix<double, 3, 2> g = tangents(mesh, shell, xi);
+      Eigen::Matrix<double, 3, 2> by_shares;
+      by_shares.col(0) = g.col(0) / (1 - xi.y());
+      by_shares.col(1) = g.col(1) + xi.x() * by_shares.col(0);
+      const Eigen::Vector2d change = least_squares(by_shares, place - position(mesh, triangle, xi));
+      shares = (shares + change).cwiseMax(1 - far_outside).cwiseMin(far_outside);
+      return change;
+    });
+  }
+  return {unit_place(1), {-shares[1], shares.sum() - 1, -far_outside, -shares[0]}};
+}
+
+OverShell over_shell(const Mesh& mesh, int shell, const Vector3& place,
+                     const Eigen::Vector2d& start) {
+  return mesh.shells[shell].is_triangle() ? over_triangle(mesh, shell, place, start)
+                                          : over_square(mesh, shell, place, start);
+}
+
+constexpr double on_edge = 1e-6;  // of a shell's size
+
+}  // namespace
+
 std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPlace& start) const {
-  constexpr double tolerance = 1e-6;
   constexpr int most_steps = 400;
   ShellPlace here = start;
   int came_from = -1;
   for (int step = 0; step < most_steps; ++step) {
-    const Shell& shell = mesh_.shells[here.shell];
-    for (int newton = 0; newton < 12; ++newton) {
-      const Eigen::Matrix<double, 3, 2> g = tangents(mesh_, here.shell, here.xi);
-      const Eigen::Vector2d change = algebra::solve_symmetric<2>(
-          g.transpose() * g, g.transpose() * (place - position(mesh_, shell, here.xi)));
-      here.xi += change;
-      here.xi = here.xi.cwiseMax(-2.0).cwiseMin(3.0);
-      if (change.cwiseAbs().maxCoeff() < 1e-10) break;
-    }
-    // How far the point lies outside, by the edges in their order: eta < 0, xi > 1, eta > 1, xi <
-    // 0.
-    const std::array<double, 4> outside{-here.xi.y(), here.xi.x() - 1, here.xi.y() - 1,
-                                        -here.xi.x()};
-    const double worst = *std::max_element(outside.begin(), outside.end());
-    if (worst <= tolerance) {
-      here.xi = here.xi.cwiseMax(0.0).cwiseMin(1.0);
-      return here;
-    }
+    const OverShell over = over_shell(mesh_, here.shell, place, here.xi);
+    if (over.farthest() <= on_edge)
+      return ShellPlace{here.shell, over.xi.cwiseMax(0.0).cwiseMin(1.0)};
     int next = -1;
-    double most = tolerance;
+    double most = on_edge;
     for (std::size_t e = 0; e < 4; ++e) {
       const int neighbour = neighbours_[here.shell][e];
-      if (neighbour < 0 || outside[e] <= most || neighbour == came_from) continue;
+      if (neighbour < 0 || over.outside[e] <= most || neighbour == came_from) continue;
       next = neighbour;
-      most = outside[e];
+      most = over.outside[e];
     }
     if (next < 0) return std::nullopt;
     came_from = here.shell;

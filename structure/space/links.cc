@@ -106,12 +106,26 @@ void tie_along(const Matrix3& axes, const bool* bound, int first,
   tie_by_rows(rows, first, along, ties);
 }
 
-void tie_slaves(const RigidLink& link, const std::vector<int>& node_of,
-                const Eigen::Matrix3Xd& nodes, std::vector<FreedomTie>& ties) {
-  const int master = node_of[link.master];
+/// Nodes of a rigid link's slaves, and of what lies within edges between its vertices.
+std::vector<int> slave_nodes(const RigidLink& link, const std::vector<int>& node_of,
+                             const std::vector<NodeWithinEdge>& within) {
+  std::vector<int> slaves;
+  std::set<int> vertices{link.master}, known{node_of[link.master]};
   for (const int vertex : link.slaves) {
-    const int slave = node_of[vertex];
-    if (slave == master) continue;
+    vertices.insert(vertex);
+    if (known.insert(node_of[vertex]).second) slaves.push_back(node_of[vertex]);
+  }
+  for (const NodeWithinEdge& one : within)
+    if (vertices.count(one.from) > 0 && vertices.count(one.to) > 0 && known.insert(one.node).second)
+      slaves.push_back(one.node);
+  return slaves;
+}
+
+void tie_slaves(const RigidLink& link, const std::vector<int>& node_of,
+                const Eigen::Matrix3Xd& nodes, const std::vector<NodeWithinEdge>& within,
+                std::vector<FreedomTie>& ties) {
+  const int master = node_of[link.master];
+  for (const int slave : slave_nodes(link, node_of, within)) {
     const Matrix3 arm = -cross_matrix(nodes.col(slave) - nodes.col(master));
     std::array<Motion, 3> displacement, rotation;
     for (int c = 0; c < 3; ++c) {
@@ -213,7 +227,8 @@ std::string describe_node(const Mesh& mesh, const std::vector<int>& node_of_vert
 }
 
 std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>& node_of_vertex,
-                                       const Eigen::Matrix3Xd& nodes) {
+                                       const Eigen::Matrix3Xd& nodes,
+                                       const std::vector<NodeWithinEdge>& within) {
   std::vector<FreedomTie> ties;
   std::set<int> tied;
   const auto require_once = [&](std::size_t first, const char* what, long label) {
@@ -225,7 +240,7 @@ std::vector<FreedomTie> find_link_ties(const Mesh& mesh, const std::vector<int>&
   };
   for (const RigidLink& link : mesh.rigid_links) {
     const std::size_t first = ties.size();
-    tie_slaves(link, node_of_vertex, nodes, ties);
+    tie_slaves(link, node_of_vertex, nodes, within, ties);
     require_once(first, "rigid link", link.label);
   }
   for (const DistributingLink& link : mesh.distributing_links) {

@@ -17,6 +17,7 @@
 #include "structure/large_pages.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
+#include "structure/space/edge_nodes.h"
 #include "structure/space/links.h"
 #include "structure/space/space_implementation.h"
 
@@ -462,8 +463,17 @@ void Space::number_unknowns() {
   add_surface_ties(ties);
   ties.close();
 
+  // Nodes of one place by the one that stands for them; those that follow others are left out.
+  std::vector<NodeWithinEdge> within;
+  if (!mesh_->rigid_links.empty())
+    for_each_node_within_edges(*this, [&](int node, int from, int to, double) {
+      const auto* entries =
+          ties.get_constraint_entries(static_cast<dealii::types::global_dof_index>(node));
+      if (entries && entries->size() > 1) return;
+      within.push_back({entries ? static_cast<int>(entries->front().first) : node, from, to});
+    });
   std::map<int, FreedomTie> links;
-  for (FreedomTie& tie : find_link_ties(*mesh_, node_of_vertex_, nodes_)) {
+  for (FreedomTie& tie : find_link_ties(*mesh_, node_of_vertex_, nodes_, within)) {
     // A link's slave may be tied to its neighbours: the node that they follow is the slave. A place
     // between a shell's nodes follows the shell, whose corners the link binds as well.
     const auto* entries =

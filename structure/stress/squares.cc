@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
@@ -49,6 +50,10 @@ std::array<ContourPoint, 16> contour(const Square& square) {
   }
   return points;
 }
+
+/// Where the way to the points of a square begins, when it is placed and when it is evaluated:
+/// another way may end elsewhere.
+ShellPlace start_of(const Square& square) { return {square.shell, {0.5, 0.5}}; }
 
 ShellPlace place_of(const FieldEdge& edge, double s) {
   for (const FieldEdge::Piece& piece : edge.pieces) {
@@ -144,10 +149,10 @@ class SquarePlacer {
   }
 
  private:
-  bool lies_inside(const Square& square, const ShellPlace& start) const {
+  bool lies_inside(const Square& square) const {
     const auto points = contour(square);
     return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
-      const auto found = walker_.find(point.place, start);
+      const auto found = walker_.find(point.place, start_of(square));
       return found &&
              (position(mesh_, mesh_.shells[found->shell], found->xi) - point.place).norm() <
                  0.2 * square.size;
@@ -175,7 +180,7 @@ class SquarePlacer {
     for (const Vector3& base :
          {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
       square.centre_B = base + 0.5 * size * square.e_2;
-      if (!lies_inside(square, middle)) continue;
+      if (!lies_inside(square)) continue;
       squares_.push_back(square);
       return true;
     }
@@ -232,7 +237,7 @@ class SquarePlacer {
         const Vector3 here = normal_of(mesh_, *found);
         square.e_1 = (e_1 - here * here.dot(e_1)).normalized();
         square.e_2 = here.cross(square.e_1);
-        if (lies_inside(square, *found)) squares_.push_back(square);
+        if (lies_inside(square)) squares_.push_back(square);
       }
   }
 
@@ -318,10 +323,10 @@ struct CellShare {
 void find_shares(const Space& space, const FieldWalker& walker, const CellFinder& cells,
                  const Square& square, std::vector<CellShare>& shares) {
   shares.clear();
-  const ShellPlace start{square.shell, {0.5, 0.5}};
   for (const ContourPoint& point : contour(square)) {
-    const auto found = walker.find(point.place, start);
-    if (!found) continue;  // place_squares has seen that all are there
+    const auto found = walker.find(point.place, start_of(square));
+    // Without one of its points the sum over the outline is no strain.
+    if (!found) throw std::logic_error("a square of the checked stress leaves its field of plates");
     const CellPlace place = cells.find(*found);
     auto share = std::find_if(shares.begin(), shares.end(), [&](const CellShare& candidate) {
       return candidate.cell == place.cell;
@@ -337,7 +342,7 @@ void find_shares(const Space& space, const FieldWalker& walker, const CellFinder
 double thickness_of(const Mesh& mesh, const FieldWalker& walker, const Square& square) {
   const Shell& shell = mesh.shells[square.shell];
   if (shell.taper >= 0)
-    if (const auto middle = walker.find(square.centre_B, {square.shell, {0.5, 0.5}}))
+    if (const auto middle = walker.find(square.centre_B, start_of(square)))
       return thickness_at(mesh, mesh.shells[middle->shell], middle->xi);
   return mesh.section_of(shell).thickness;
 }

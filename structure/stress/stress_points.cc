@@ -33,9 +33,10 @@ StressPoints::StressPoints(const Space& space)
   for (std::size_t cell = 0; cell < space.beams().size(); ++cell) {
     const Beam& beam = space.mesh().beams[space.beams()[cell].beam];
     const int points = static_cast<int>(stress_points(space.mesh().section_of(beam)).size());
-    for (const int end : {0, 1})
+    // Between the ends, too: one cell may be all that a deck has between two supports.
+    for (const double xi : {0.0, 0.5, 1.0})
       for (int point = 0; point < points; ++point)
-        beam_points_.push_back({static_cast<int>(cell), end, point});
+        beam_points_.push_back({static_cast<int>(cell), xi, point});
   }
   const std::vector<Solid>& solids = space.mesh().solids;
   for (std::size_t s = 0; s < solids.size(); ++s)
@@ -62,7 +63,8 @@ Vector3 StressPoints::place(int point) const {
   }
   const BeamPointOf& of_beam = beam_points_[point - shell_points_];
   const std::vector<int>& nodes = space_.beams()[of_beam.cell].nodes;
-  return space_.nodes().col(of_beam.end == 0 ? nodes.front() : nodes.back());
+  return (1 - of_beam.xi) * space_.nodes().col(nodes.front()) +
+         of_beam.xi * space_.nodes().col(nodes.back());
 }
 
 std::unique_ptr<ShellStress> StressPoints::borrow() const {
@@ -100,7 +102,7 @@ Eigen::MatrixXd StressPoints::stresses(int first, int count,
     }
     const BeamPointOf& point = beam_points_[first + i - shell_points_];
     if (i == shells || point.at == 0)
-      of_end = beam_stresses(space_, point.cell, point.end, motions);
+      of_end = beam_stresses(space_, point.cell, point.xi, motions);
     rows.row(6 * i) = of_end.row(point.at);
   }
   return rows;

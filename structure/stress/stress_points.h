@@ -36,7 +36,7 @@ class StressPoints {
  private:
   struct BeamPointOf {
     int cell = 0;
-    int end = 0;
+    double xi = 0;  ///< on its unit length
     int at = 0;  ///< place in stress_points(section)
   };
   int points_per_cell() const { return 2 * space_.nodes_per_shell(); }
