@@ -334,12 +334,13 @@ ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points,
 
 void ShellOperator::reinit(int cell) {
   const auto& iterator = space_.implementation().shell_cells[cell];
+  const ShellCell& located = space_.shells()[cell];
+  const Shell& shell = space_.mesh().shells[located.shell];
+  ties_membrane_ = space_.degree() == 1 || !shell.is_triangle();
   table_->values.reinit(iterator);
   mean_->table.values.reinit(iterator);
   for (TiedStrains& tie : ties_) tie.table->values.reinit(iterator);
 
-  const ShellCell& located = space_.shells()[cell];
-  const Shell& shell = space_.mesh().shells[located.shell];
   const double offset = space_.mesh().section_of(shell).offset;
   // One direction for the whole cell, so that components can be compared and averaged in it.
   const Vector3 along = space_.place(cell, {1, 0.5}) - space_.place(cell, {0, 0.5});
@@ -352,7 +353,7 @@ void ShellOperator::reinit(int cell) {
     ShellPoint& point = points_[q];
     point.strain.resize(shell_strains, 6 * space_.nodes_per_shell());
     for (int strain = 0; strain < shell_strains; ++strain)
-      if (!is_tied_[strain])
+      if (!is_tied(strain))
         covariant_strain(surface, table_->shapes[q], static_cast<ShellStrain>(strain), offset,
                          point.strain.row(strain));
     point.place = to_vector(table_->values.quadrature_point(static_cast<unsigned>(q)));
@@ -364,7 +365,7 @@ void ShellOperator::reinit(int cell) {
                      located.origin + located.size * places_.col(static_cast<Eigen::Index>(q)));
     turns.push_back(turn_to(surface, point.e_1, point.e_2));
   }
-  const bool is_balanced = !has_ties_ || (space_.degree() > 1 && mean_->is_even());
+  const bool is_balanced = !has_ties_ || !ties_membrane_ || (space_.degree() > 1 && mean_->is_even());
   mean_->strains.resize(3, 0);
   if (!is_balanced) find_mean_strains(offset);
   tie_strains(offset);
@@ -401,12 +402,13 @@ void ShellOperator::tie_strains(double offset) {
   row.resize(6 * space_.nodes_per_shell());
   for (ShellPoint& point : points_)
     for (int strain = 0; strain < shell_strains; ++strain)
-      if (is_tied_[strain]) point.strain.row(strain).setZero();
+      if (is_tied(strain)) point.strain.row(strain).setZero();
   for (const TiedStrains& tie : ties_)
     for (std::size_t k = 0; k < tie.table->shapes.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const Surface surface = surface_for(offset, tie.table->values, static_cast<unsigned>(k));
       for (const ShellStrain strain : tie.strains) {
+        if (!is_tied(strain)) continue;
         covariant_strain(surface, tie.table->shapes[k], strain, offset, row);
         // Where both are Gauss points of one line most shares are nothing.
         for (std::size_t q = 0; q < points_.size(); ++q)

@@ -77,6 +77,9 @@ class ShellOperator {
   struct Tabulation;
   struct TiedStrains;
   struct Mean;
+  bool is_tied(int strain) const {
+    return is_tied_[strain] && (ties_membrane_ || strain > membrane_12);
+  }
   void tie_strains(double offset);
   void find_mean_strains(double offset);
 
@@ -87,6 +90,7 @@ class ShellOperator {
   std::unique_ptr<Tabulation> table_;
   std::vector<TiedStrains> ties_;
   std::array<bool, shell_strains> is_tied_{};
+  bool ties_membrane_ = true;  ///< of the cell
   std::unique_ptr<Mean> mean_;
 };
 

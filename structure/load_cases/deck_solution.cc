@@ -109,20 +109,51 @@ std::vector<SupportReaction> reactions_at(const Space& space,
   return reactions;
 }
 
+/// What springs to the ground do to their vertices.
+std::vector<SupportReaction> forces_of_ground(const Space& space, const Eigen::VectorXd& motion) {
+  std::vector<SupportReaction> forces;
+  for (const Spring& spring : space.mesh().springs)
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (spring.vertices[end] < 0 || spring.vertices[1 - end] >= 0) continue;
+      const int vertex = spring.vertices[end];
+      const Vector3 axis = spring.axes[end].col(spring.components[end] % 3);
+      const bool turns = spring.components[end] >= 3;
+      const Vector3 of_u = turns ? Vector3::Zero() : axis;
+      const Vector3 of_theta = turns ? axis : Vector3(spring.arms[end].cross(axis));
+      const auto moved = motion.segment<6>(6L * space.node_of_vertex(vertex));
+      const double force =
+          -spring.stiffness * (of_u.dot(moved.head<3>()) + of_theta.dot(moved.tail<3>()));
+      forces.push_back({vertex, force * of_u, force * of_theta});
+    }
+  return forces;
+}
+
+double size_of(const Space& space) {
+  return (space.nodes().rowwise().maxCoeff() - space.nodes().rowwise().minCoeff()).norm();
+}
+
+/// Where moments alone load the deck its forces are rounding, and the other way round: each is held
+/// against the larger of both, with the deck's size as the arm.
 void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& solution) {
   solution.applied = resultant(space, load);
   double forces = 0, moments = 0;
-  for (const SupportReaction& reaction : solution.reactions) {
+  const auto add = [&](const SupportReaction& reaction) {
     const Vector3& place = space.mesh().vertices[reaction.vertex];
     const Vector3 moment = place.cross(reaction.force) + reaction.moment;
     solution.supported.force += reaction.force;
     solution.supported.moment += moment;
     forces += reaction.force.norm();
     moments += moment.norm();
-  }
+  };
+  for (const SupportReaction& reaction : solution.reactions) add(reaction);
+  for (const SupportReaction& reaction : forces_of_ground(space, solution.motion))
+    add(reaction);
   const auto share = [](const Vector3& left, double of) { return of > 0 ? left.norm() / of : 0; };
-  solution.force_residual = share(solution.applied.force + solution.supported.force, forces);
-  solution.moment_residual = share(solution.applied.moment + solution.supported.moment, moments);
+  const double size = size_of(space);
+  solution.force_residual = share(solution.applied.force + solution.supported.force,
+                                  std::max(forces, size > 0 ? moments / size : 0));
+  solution.moment_residual = share(solution.applied.moment + solution.supported.moment,
+                                   std::max(moments, forces * size));
 }
 
 /// Solves the cases that some supports hold.

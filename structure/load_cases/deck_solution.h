@@ -24,10 +24,11 @@ struct DeckCaseSolution {
   int load_case = 0;       ///< place in Deck::load_cases
   Eigen::VectorXd motion;  ///< six rows a node, m and rad
   Wrench applied;          ///< of all loads, about the origin
-  Wrench supported;        ///< of all reactions, about the origin
+  Wrench supported;        ///< of all reactions and springs to the ground, about the origin
   std::vector<SupportReaction> reactions;
-  /// |loads + reactions| over the sum of the reactions' magnitudes (of forces, times the mesh's
-  /// radius of gyration, where moments are meant); 0 without any.
+  /// |loads + reactions| over the sum of the reactions' magnitudes; 0 without any. Forces are held
+  /// against moments, and moments against forces, with the mesh's size as the arm, where these are
+  /// more.
   double force_residual = 0, moment_residual = 0;
   double strain_energy = 0;    ///< J
   double estimated_error = 0;  ///< of the stress field, in the energy norm (BlockError)

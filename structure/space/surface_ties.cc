@@ -6,6 +6,8 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include "structure/mesh/fields.h"
+#include "structure/space/edge_nodes.h"
 #include "structure/space/space.h"
 
 namespace blocklift::structure {
@@ -76,22 +78,40 @@ class SurfaceSum {
 }  // namespace
 
 // Nodes of vertices that lie on a shell between its corners follow the shape of its cell there, or
-// the mean of the cells' along a line.
+// the mean of the cells' along a line. So do nodes within an edge between two such vertices: between
+// its vertices a seam would gape.
 void Space::add_surface_ties(dealii::AffineConstraints<double>& ties) const {
   if (mesh_->surface_points.empty()) return;
   std::vector<std::vector<int>> cells(mesh_->shells.size());
   for (std::size_t cell = 0; cell < shells_.size(); ++cell)
     cells[shells_[cell].shell].push_back(static_cast<int>(cell));
-  for (const SurfacePoint& point : mesh_->surface_points) {
-    const auto node = static_cast<dealii::types::global_dof_index>(node_of_vertex(point.vertex));
-    if (ties.is_constrained(node)) continue;
+  const auto tie = [&](int number, const auto& add_to) {
+    const auto node = static_cast<dealii::types::global_dof_index>(number);
+    if (ties.is_constrained(node)) return;
     SurfaceSum sum(*this, cells);
-    if (point.line.empty()) sum.add_place(point.shell, point.xi, 1);
-    for (const SurfaceStretch& stretch : point.line) sum.add_stretch(stretch);
+    add_to(sum);
     ties.add_line(node);
     for (const auto& [master, share] : sum.shares())
       ties.add_entry(node, static_cast<dealii::types::global_dof_index>(master), share);
+  };
+  std::map<int, ShellPlace> places;
+  for (const SurfacePoint& point : mesh_->surface_points) {
+    if (point.line.empty()) places[point.vertex] = {point.shell, point.xi};
+    tie(node_of_vertex(point.vertex), [&](SurfaceSum& sum) {
+      if (point.line.empty()) sum.add_place(point.shell, point.xi, 1);
+      for (const SurfaceStretch& stretch : point.line) sum.add_stretch(stretch);
+    });
   }
+  if (places.empty()) return;
+  const PlateFields fields = find_fields(*mesh_);
+  const FieldWalker walker(*mesh_, fields);
+  for_each_node_within_edges(*this, [&](int node, int from, int to, double) {
+    const auto at_from = places.find(from), at_to = places.find(to);
+    if (at_from == places.end() || at_to == places.end()) return;
+    auto place = walker.find(nodes_.col(node), at_from->second);
+    if (!place) place = walker.find(nodes_.col(node), at_to->second);
+    if (place) tie(node, [&](SurfaceSum& sum) { sum.add_place(place->shell, place->xi, 1); });
+  });
 }
 
 }  // namespace blocklift::structure
