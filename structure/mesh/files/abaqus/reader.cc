@@ -184,6 +184,16 @@ const std::vector<std::string>& all_names() {
   return all;
 }
 
+/// Blanks within its name do not count.
+bool is_keyword_read(const std::string& name) {
+  static const std::set<std::string, std::less<>> names = [] {
+    std::set<std::string, std::less<>> all;
+    for (const std::string& known : keywords_read()) all.insert(without_blanks(known));
+    return all;
+  }();
+  return names.contains(without_blanks(name));
+}
+
 /// Gives names that are written without the blanks within them, such as ENDSTEP, their own.
 void restore_blanks(std::vector<AbaqusBlock>& blocks) {
   std::map<std::string, std::string> name_of;
@@ -221,7 +231,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
                  const DeckOptions& options) {
   DeckLog log;
   DeckFiles files(log);
-  std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log);
+  std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log, is_keyword_read);
   restore_blanks(blocks);
   Deck deck;
   deck.path = path;
