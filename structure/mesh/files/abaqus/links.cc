@@ -97,45 +97,75 @@ class LinkBlocks {
     }
   }
 
+  /// What has a mass that can be spread, by its places in the mesh.
+  struct Cells {
+    std::vector<int> shells, beams, solids;
+
+    /// Are there none but these?
+    bool are_shells() const { return beams.empty() && solids.empty(); }
+    bool are_beams() const { return shells.empty() && solids.empty(); }
+    bool are_solids() const { return shells.empty() && beams.empty(); }
+  };
+
+  Cells cells_of(const AbaqusBlock& block) const {
+    Cells cells;
+    for (const int e : model_.elements_of(*scope_, block.required("ELSET"))) {
+      const AbaqusDeckElement& element = model_.elements[e];
+      if (element.shell >= 0 && mesh_.shells[element.shell].section < 0)
+        throw CardError{fmt::format("element {} has no section yet", element.label)};
+      if (element.shell >= 0)
+        cells.shells.push_back(element.shell);
+      else if (element.solid >= 0)
+        cells.solids.push_back(element.solid);
+      else if (!element.beams.empty())
+        cells.beams.insert(cells.beams.end(), element.beams.begin(), element.beams.end());
+      else if (element.kind == AbaqusKind::solid || element.kind == AbaqusKind::nothing)
+        model_.log.leave_out("*NONSTRUCTURAL MASS", "the part of elements that are left out");
+      else
+        model_.log.remark(block.line,
+                          "*NONSTRUCTURAL MASS: elements that are no shells, beams, trusses or "
+                          "solids get none of it");
+    }
+    return cells;
+  }
+
   // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER VOLUME | AREA | LENGTH, TOTAL MASS
   void add_spread_mass(const AbaqusBlock& block) {
     const std::string units = block.required("UNITS");
     double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
     const double length = model_.units.length;
-    std::vector<int> shells, beams;
-    for (const int e : model_.elements_of(*scope_, block.required("ELSET"))) {
-      const AbaqusDeckElement& element = model_.elements[e];
-      if (element.shell >= 0) shells.push_back(element.shell);
-      beams.insert(beams.end(), element.beams.begin(), element.beams.end());
-    }
+    const Cells cells = cells_of(block);
     if (units == "MASS PER VOLUME") {
-      add_mass_per_volume(shells, beams, value / (length * length * length));
+      add_mass_per_volume(cells, value / (length * length * length));
       return;
     }
-    if (units == "MASS PER AREA" && beams.empty()) {
+    if (units == "MASS PER AREA" && cells.are_shells()) {
       value /= length * length;
-    } else if (units == "MASS PER LENGTH" && shells.empty()) {
+    } else if (units == "MASS PER LENGTH" && cells.are_beams()) {
       value /= length;
-    } else if (units == "TOTAL MASS" && (shells.empty() || beams.empty())) {
-      const double size = shells.empty() ? total_length(mesh_, beams) : total_area(mesh_, shells);
+    } else if (units == "TOTAL MASS" &&
+               (cells.are_shells() || cells.are_beams() || cells.are_solids())) {
+      const double size = total_area(mesh_, cells.shells) + total_length(mesh_, cells.beams) +
+                          total_volume(mesh_, cells.solids);
       if (!(size > 0)) throw CardError{"there is nothing to spread it over"};
       value /= size;
     } else {
-      throw CardError{
-          fmt::format("UNITS = {} of these elements is not known; MASS PER VOLUME, MASS PER AREA "
-                      "of shells, MASS PER LENGTH of beams, TOTAL MASS of either are",
-                      units)};
+      throw CardError{fmt::format(
+          "UNITS = {} of these elements ({} shells, {} beams, {} solids) is not known; MASS PER "
+          "VOLUME, MASS PER AREA of shells alone, MASS PER LENGTH of beams alone, TOTAL MASS of "
+          "one of the three kinds are",
+          units, cells.shells.size(), cells.beams.size(), cells.solids.size())};
     }
-    add_mass_per_area(mesh_, shells, value);
-    add_mass_per_length(mesh_, beams, value);
+    add_mass_per_area(mesh_, cells.shells, value);
+    add_mass_per_length(mesh_, cells.beams, value);
+    add_mass_to_solids(mesh_, cells.solids, value);
   }
 
-  void add_mass_per_volume(const std::vector<int>& shells, const std::vector<int>& beams,
-                           double value) {
+  void add_mass_per_volume(const Cells& cells, double value) {
     std::map<double, std::vector<int>> of_thickness, of_area;
-    for (const int s : shells)
+    for (const int s : cells.shells)
       of_thickness[mesh_.section_of(mesh_.shells[s]).thickness].push_back(s);
-    for (const int b : beams) of_area[mesh_.section_of(mesh_.beams[b]).area].push_back(b);
+    for (const int b : cells.beams) of_area[mesh_.section_of(mesh_.beams[b]).area].push_back(b);
     for (const auto& [thickness, some] : of_thickness)
       add_mass_per_area(mesh_, some, value * thickness);
     for (const auto& [area, some] : of_area) add_mass_per_length(mesh_, some, value * area);
