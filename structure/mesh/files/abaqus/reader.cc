@@ -151,6 +151,121 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
   return names;
 }
 
+/// Keywords of Abaqus' and CalculiX' steps beyond those: other ways of solving, other loads, and
+/// what is printed.
+const std::set<std::string, std::less<>>& keywords_of_steps() {
+  static const std::set<std::string, std::less<>> names{"ADAPTIVE MESH",
+                                                        "ADAPTIVE MESH CONSTRAINT",
+                                                        "ADAPTIVE MESH CONTROLS",
+                                                        "ANNEAL",
+                                                        "BASE MOTION",
+                                                        "BUCKLING ENVELOPE",
+                                                        "BULK VISCOSITY",
+                                                        "C ADDED MASS",
+                                                        "CFILM",
+                                                        "CFLOW",
+                                                        "CFLUX",
+                                                        "CHANGE FRICTION",
+                                                        "COMPLEX FREQUENCY",
+                                                        "CONNECTOR LOAD",
+                                                        "CONNECTOR MOTION",
+                                                        "CONTACT CLEARANCE ASSIGNMENT",
+                                                        "CONTACT INTERFERENCE",
+                                                        "CONTACT PRINT",
+                                                        "CONTOUR INTEGRAL",
+                                                        "CORRELATION",
+                                                        "COUPLED TEMPERATURE-DISPLACEMENT",
+                                                        "COUPLED THERMAL-ELECTRICAL",
+                                                        "CRADIATE",
+                                                        "CYCLIC SYMMETRY MODEL",
+                                                        "D ADDED MASS",
+                                                        "DECHARGE",
+                                                        "DFLOW",
+                                                        "DFLUX",
+                                                        "DIRECT CYCLIC",
+                                                        "DSFLOW",
+                                                        "DSFLUX",
+                                                        "DYNAMIC TEMPERATURE-DISPLACEMENT",
+                                                        "ELECTROMAGNETIC",
+                                                        "ENERGY FILE",
+                                                        "ENERGY PRINT",
+                                                        "FIELD",
+                                                        "FILM",
+                                                        "FILTER",
+                                                        "FIXED MASS SCALING",
+                                                        "FLOW",
+                                                        "FOUNDATION",
+                                                        "GEOSTATIC",
+                                                        "GLOBAL DAMPING",
+                                                        "GREEN",
+                                                        "HEAT TRANSFER",
+                                                        "IMPEDANCE",
+                                                        "INCIDENT WAVE",
+                                                        "INCIDENT WAVE INTERACTION",
+                                                        "INCREMENTATION OUTPUT",
+                                                        "INERTIA RELIEF",
+                                                        "MASS ADJUST",
+                                                        "MASS DIFFUSION",
+                                                        "MASS FLOW RATE",
+                                                        "MATRIX GENERATE",
+                                                        "MATRIX OUTPUT",
+                                                        "MODAL FILE",
+                                                        "MODAL OUTPUT",
+                                                        "MODAL PRINT",
+                                                        "MODEL CHANGE",
+                                                        "MOTION",
+                                                        "NODE RESPONSE",
+                                                        "PRESSURE PENETRATION",
+                                                        "PRESSURE STRESS",
+                                                        "PRINT",
+                                                        "PSD-DEFINITION",
+                                                        "RADIATE",
+                                                        "RADIATION FILE",
+                                                        "RADIATION OUTPUT",
+                                                        "RADIATION PRINT",
+                                                        "RANDOM RESPONSE",
+                                                        "RESPONSE SPECTRUM",
+                                                        "RETAINED NODAL DOFS",
+                                                        "SELECT CYCLIC SYMMETRY MODES",
+                                                        "SELECT EIGENMODES",
+                                                        "SENSITIVITY",
+                                                        "SFILM",
+                                                        "SFLOW",
+                                                        "SIMPEDANCE",
+                                                        "SOILS",
+                                                        "SOLUTION TECHNIQUE",
+                                                        "SRADIATE",
+                                                        "STEADY STATE TRANSPORT",
+                                                        "SUBSTRUCTURE GENERATE",
+                                                        "SUBSTRUCTURE LOAD CASE",
+                                                        "SUBSTRUCTURE MATRIX OUTPUT",
+                                                        "SUBSTRUCTURE OUTPUT",
+                                                        "SURFACE OUTPUT",
+                                                        "TRANSPORT VELOCITY",
+                                                        "UNCOUPLED TEMPERATURE-DISPLACEMENT",
+                                                        "VARIABLE MASS SCALING",
+                                                        "VIEWFACTOR",
+                                                        "VISCO",
+                                                        "WAVE",
+                                                        "WIND",
+                                                        "FEASIBLE DIRECTION",
+                                                        "OBJECTIVE",
+                                                        "CONSTRAINT",
+                                                        "DESIGN RESPONSE",
+                                                        "CRACK PROPAGATION",
+                                                        "ROBUST DESIGN",
+                                                        "ELEMENT RESPONSE",
+                                                        "CHANGE CONTACT TYPE",
+                                                        "CHANGE SURFACE BEHAVIOR",
+                                                        "CECHARGE",
+                                                        "CECURRENT",
+                                                        "DECURRENT",
+                                                        "DSECHARGE",
+                                                        "DSECURRENT",
+                                                        "CREEP STRAIN RATE CONTROL"};
+  return names;
+}
+
 /// Keywords that there are, that are not known here, and what to give in their place.
 std::string_view instead_of_keyword(const std::string& keyword) {
   static const std::map<std::string, const char*, std::less<>> all{
@@ -167,6 +282,8 @@ std::string_view instead_of_keyword(const std::string& keyword) {
       {"USER ELEMENT", "elements of the user's own are not known"},
       {"PRE-TENSION SECTION", "a bolt's preload is not known; its solids or bars alone can stand"},
       {"EMBEDDED ELEMENT", "give embedded bars nodes of their host"},
+      {"LOAD CASE", "give each load case of a step a step of its own"},
+      {"END LOAD CASE", "give each load case of a step a step of its own"},
       {"SUBSTRUCTURE GENERATE", "give the parts themselves in place of a substructure"},
       {"MATRIX INPUT", "give the parts themselves in place of a matrix"}};
   const auto found = all.find(keyword);
@@ -177,7 +294,8 @@ std::string_view instead_of_keyword(const std::string& keyword) {
 const std::vector<std::string>& all_names() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names;
-    for (const auto* some : {&keywords_read(), &wishes(), &keywords_left_out()})
+    for (const auto* some :
+         {&keywords_read(), &wishes(), &keywords_left_out(), &keywords_of_steps()})
       for (const std::string& name : *some) names.push_back("*" + name);
     return names;
   }();
@@ -197,7 +315,8 @@ bool is_keyword_read(const std::string& name) {
 /// Gives names that are written without the blanks within them, such as ENDSTEP, their own.
 void restore_blanks(std::vector<AbaqusBlock>& blocks) {
   std::map<std::string, std::string> name_of;
-  for (const auto* names : {&keywords_read(), &wishes(), &keywords_left_out()})
+  for (const auto* names :
+       {&keywords_read(), &wishes(), &keywords_left_out(), &keywords_of_steps()})
     for (const std::string& name : *names) name_of.emplace(without_blanks(name), name);
   for (AbaqusBlock& block : blocks)
     if (const auto name = name_of.find(without_blanks(block.name)); name != name_of.end())
@@ -217,7 +336,7 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
       model.log.leave_out_wish("*" + block.name, "what is printed, or how it is solved");
     else if (keywords_left_out().count(block.name) > 0)
       model.log.leave_out("*" + block.name, "what no plate or beam meets in a static load case");
-    else if (in_step)
+    else if (in_step && keywords_of_steps().count(block.name) > 0)
       model.log.leave_out("*" + block.name, "what a step does beyond its supports and forces");
     else
       model.log.miss(block.line, "*" + block.name, model.options, all_names(),
