@@ -177,7 +177,6 @@ const std::set<std::string, std::less<>>& keywords_of_steps() {
                                                         "COUPLED TEMPERATURE-DISPLACEMENT",
                                                         "COUPLED THERMAL-ELECTRICAL",
                                                         "CRADIATE",
-                                                        "CYCLIC SYMMETRY MODEL",
                                                         "D ADDED MASS",
                                                         "DECHARGE",
                                                         "DFLOW",
@@ -191,10 +190,8 @@ const std::set<std::string, std::less<>>& keywords_of_steps() {
                                                         "ENERGY PRINT",
                                                         "FIELD",
                                                         "FILM",
-                                                        "FILTER",
                                                         "FIXED MASS SCALING",
                                                         "FLOW",
-                                                        "FOUNDATION",
                                                         "GEOSTATIC",
                                                         "GLOBAL DAMPING",
                                                         "GREEN",
@@ -218,7 +215,6 @@ const std::set<std::string, std::less<>>& keywords_of_steps() {
                                                         "PRESSURE PENETRATION",
                                                         "PRESSURE STRESS",
                                                         "PRINT",
-                                                        "PSD-DEFINITION",
                                                         "RADIATE",
                                                         "RADIATION FILE",
                                                         "RADIATION OUTPUT",
@@ -246,8 +242,6 @@ const std::set<std::string, std::less<>>& keywords_of_steps() {
                                                         "VARIABLE MASS SCALING",
                                                         "VIEWFACTOR",
                                                         "VISCO",
-                                                        "WAVE",
-                                                        "WIND",
                                                         "FEASIBLE DIRECTION",
                                                         "OBJECTIVE",
                                                         "CONSTRAINT",
@@ -340,7 +334,9 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
       model.log.leave_out("*" + block.name, "what a step does beyond its supports and forces");
     else
       model.log.miss(block.line, "*" + block.name, model.options, all_names(),
-                     instead_of_keyword(block.name));
+                     keywords_of_steps().count(block.name) > 0
+                         ? "it is known in steps alone, and stands in none"
+                         : instead_of_keyword(block.name));
   }
 }
 
