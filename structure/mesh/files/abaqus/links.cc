@@ -100,11 +100,6 @@ class LinkBlocks {
   /// What has a mass that can be spread, by its places in the mesh.
   struct Cells {
     std::vector<int> shells, beams, solids;
-
-    /// Are there none but these?
-    bool are_shells() const { return beams.empty() && solids.empty(); }
-    bool are_beams() const { return shells.empty() && solids.empty(); }
-    bool are_solids() const { return shells.empty() && beams.empty(); }
   };
 
   Cells cells_of(const AbaqusBlock& block) const {
@@ -129,46 +124,72 @@ class LinkBlocks {
     return cells;
   }
 
-  // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER VOLUME | AREA | LENGTH, TOTAL MASS
+  // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER VOLUME | AREA | LENGTH, TOTAL MASS,
+  // DISTRIBUTION = MASS PROPORTIONAL | VOLUME PROPORTIONAL (of a total)
   void add_spread_mass(const AbaqusBlock& block) {
     const std::string units = block.required("UNITS");
-    double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
+    const double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
     const double length = model_.units.length;
     const Cells cells = cells_of(block);
     if (units == "MASS PER VOLUME") {
-      add_mass_per_volume(cells, value / (length * length * length));
-      return;
-    }
-    if (units == "MASS PER AREA" && cells.are_shells()) {
-      value /= length * length;
-    } else if (units == "MASS PER LENGTH" && cells.are_beams()) {
-      value /= length;
-    } else if (units == "TOTAL MASS" &&
-               (cells.are_shells() || cells.are_beams() || cells.are_solids())) {
-      const double size = total_area(mesh_, cells.shells) + total_length(mesh_, cells.beams) +
-                          total_volume(mesh_, cells.solids);
-      if (!(size > 0)) throw CardError{"there is nothing to spread it over"};
-      value /= size;
+      add_in_proportion(cells, value / (length * length * length), false);
+    } else if (units == "TOTAL MASS") {
+      const bool is_by_mass = without_blanks(block.value("DISTRIBUTION")) != "VOLUMEPROPORTIONAL";
+      const double size = size_of(cells, is_by_mass);
+      if (!(size > 0))
+        throw CardError{fmt::format("there is no {} that the total could be spread by",
+                                    is_by_mass ? "mass" : "volume")};
+      add_in_proportion(cells, value / size, is_by_mass);
+    } else if (units == "MASS PER AREA" && cells.beams.empty() && cells.solids.empty()) {
+      add_mass_per_area(mesh_, cells.shells, value / (length * length));
+    } else if (units == "MASS PER LENGTH" && cells.shells.empty() && cells.solids.empty()) {
+      add_mass_per_length(mesh_, cells.beams, value / length);
     } else {
-      throw CardError{fmt::format(
-          "UNITS = {} of these elements ({} shells, {} beams, {} solids) is not known; MASS PER "
-          "VOLUME, MASS PER AREA of shells alone, MASS PER LENGTH of beams alone, TOTAL MASS of "
-          "one of the three kinds are",
-          units, cells.shells.size(), cells.beams.size(), cells.solids.size())};
+      throw CardError{
+          fmt::format("UNITS = {} of these elements ({} shells, {} beams, {} solids) is not known; "
+                      "MASS PER VOLUME, TOTAL MASS, MASS PER AREA of shells alone, MASS PER LENGTH "
+                      "of beams alone are",
+                      units, cells.shells.size(), cells.beams.size(), cells.solids.size())};
     }
-    add_mass_per_area(mesh_, cells.shells, value);
-    add_mass_per_length(mesh_, cells.beams, value);
-    add_mass_to_solids(mesh_, cells.solids, value);
   }
 
-  void add_mass_per_volume(const Cells& cells, double value) {
-    std::map<double, std::vector<int>> of_thickness, of_area;
-    for (const int s : cells.shells)
-      of_thickness[mesh_.section_of(mesh_.shells[s]).thickness].push_back(s);
-    for (const int b : cells.beams) of_area[mesh_.section_of(mesh_.beams[b]).area].push_back(b);
-    for (const auto& [thickness, some] : of_thickness)
-      add_mass_per_area(mesh_, some, value * thickness);
-    for (const auto& [area, some] : of_area) add_mass_per_length(mesh_, some, value * area);
+  /// Density by which masses count, or 1 where volumes do.
+  double density(int material, bool is_by_mass) const {
+    return is_by_mass ? mesh_.materials[material].density : 1.0;
+  }
+
+  /// Mass per area, or the thickness.
+  double of_shell(int shell, bool is_by_mass) const {
+    const ShellSection& section = mesh_.section_of(mesh_.shells[shell]);
+    return section.thickness * density(section.material, is_by_mass);
+  }
+
+  /// Mass per length, or the area.
+  double of_beam(int beam, bool is_by_mass) const {
+    const BeamSection& section = mesh_.section_of(mesh_.beams[beam]);
+    return section.area * density(section.material, is_by_mass);
+  }
+
+  /// Mass of all, or their volume, by the figures that mass is added by.
+  double size_of(const Cells& cells, bool is_by_mass) const {
+    double sum = 0;
+    for (const int s : cells.shells) sum += total_area(mesh_, {s}) * of_shell(s, is_by_mass);
+    for (const int b : cells.beams) sum += total_length(mesh_, {b}) * of_beam(b, is_by_mass);
+    for (const int s : cells.solids)
+      sum += total_volume(mesh_, {s}) * density(mesh_.solids[s].material, is_by_mass);
+    return sum;
+  }
+
+  /// Adds mass by the cells' volumes, kg/m^3, or in a share of their own mass.
+  void add_in_proportion(const Cells& cells, double value, bool is_by_mass) {
+    std::map<double, std::vector<int>> shells, beams, solids;
+    for (const int s : cells.shells) shells[of_shell(s, is_by_mass)].push_back(s);
+    for (const int b : cells.beams) beams[of_beam(b, is_by_mass)].push_back(b);
+    for (const int s : cells.solids)
+      solids[density(mesh_.solids[s].material, is_by_mass)].push_back(s);
+    for (const auto& [figure, some] : shells) add_mass_per_area(mesh_, some, value * figure);
+    for (const auto& [figure, some] : beams) add_mass_per_length(mesh_, some, value * figure);
+    for (const auto& [figure, some] : solids) add_mass_to_solids(mesh_, some, value * figure);
   }
 
   // *SPRING, ELSET = / freedoms (none for SPRINGA) / stiffness

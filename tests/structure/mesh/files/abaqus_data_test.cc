@@ -132,6 +132,30 @@ TEST(AbaqusData, SpreadMassOfSolids) {
                 "1 solids) is not known"));
 }
 
+// By default in proportion to what the elements weigh: a light cube beside a heavy one, and a plate.
+TEST(AbaqusData, ATotalIsSpreadByMassOrVolume) {
+  const std::string cubes =
+      "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n"
+      "6, 1., 0., 1.\n7, 1., 1., 1.\n8, 0., 1., 1.\n9, 0., 0., 2.\n10, 1., 0., 2.\n"
+      "11, 1., 1., 2.\n12, 0., 1., 2.\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+      "*ELEMENT, TYPE=C3D8, ELSET=F\n2, 5, 6, 7, 8, 9, 10, 11, 12\n*ELEMENT, TYPE=S4, ELSET=P\n"
+      "3, 1, 2, 3, 4\n*ELSET, ELSET=ALL\nE, F, P\n" +
+      steel_of_plate +
+      "*MATERIAL, NAME=LIGHT\n*ELASTIC\n70.e9, .3\n*DENSITY\n2700.\n"
+      "*SOLID SECTION, ELSET=E, MATERIAL=Steel\n*SOLID SECTION, ELSET=F, MATERIAL=LIGHT\n"
+      "*SHELL SECTION, ELSET=P, MATERIAL=LIGHT\n.01\n"
+      "*NONSTRUCTURAL MASS, ELSET=ALL, UNITS=TOTAL MASS";
+  const Mesh by_mass = abaqus(cubes + "\n100.\n").mesh;
+  const double share = 100 / (7850 + 2700 + 27.0);
+  EXPECT_NEAR(by_mass.materials[by_mass.solids[0].material].density, 7850 * (1 + share), 1e-9);
+  EXPECT_NEAR(by_mass.materials[by_mass.solids[1].material].density, 2700 * (1 + share), 1e-9);
+  EXPECT_NEAR(by_mass.section_of(by_mass.shells[0]).mass_per_area, 27 * share, 1e-9);
+  const Mesh by_volume = abaqus(cubes + ", DISTRIBUTION=VOLUME PROPORTIONAL\n100.\n").mesh;
+  EXPECT_NEAR(by_volume.materials[by_volume.solids[0].material].density, 7850 + 100 / 2.01, 1e-9);
+  EXPECT_NEAR(by_volume.materials[by_volume.solids[1].material].density, 2700 + 100 / 2.01, 1e-9);
+  EXPECT_NEAR(mass_properties(by_volume).mass, 7850 + 2700 + 27 + 100, 1e-8);
+}
+
 // Only the elements of the set get heavier, and stay as stiff.
 TEST(AbaqusData, SpreadMassLeavesOtherSolidsOfTheMaterial) {
   const Deck deck = abaqus(
@@ -153,7 +177,8 @@ TEST(AbaqusData, ShearStiffnessOfShells) {
   const auto shear = [](const std::string& data) -> Eigen::Matrix2d {
     const Deck deck = abaqus(
         "*NODE\n1, 0., 0., 0.\n2, 1000., 0., 0.\n3, 1000., 1000., 0.\n4, 0., 1000., 0.\n"
-        "*ELEMENT, TYPE=S4R, ELSET=A\n1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC\n206000., .3\n"
+        "*ELEMENT, TYPE=S4R, ELSET=A\n1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC\n206000., "
+        ".3\n*DENSITY\n7.85e-9\n"
         "*SHELL SECTION, ELSET=A, MATERIAL=M\n10.\n*TRANSVERSE SHEAR STIFFNESS\n" +
             data + "\n",
         "mm-t-N");
