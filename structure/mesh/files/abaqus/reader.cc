@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/abaqus/parameters.h"
 #include "structure/mesh/files/deck/surface_points.h"
 
 namespace blocklift::structure {
@@ -354,6 +355,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
   deck.units = units;
   AbaqusModel model(log, deck, options);
   take_stock_of_keywords(model, blocks);
+  remark_on_unread_parameters(blocks, log);
   read_abaqus_cells(model, blocks);
   if (deck.mesh.vertices.empty()) log.complain({}, "the deck has no nodes");
   read_abaqus_sections(model);

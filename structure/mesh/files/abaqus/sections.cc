@@ -107,7 +107,8 @@ class Sections {
     const AbaqusBlock& block = *blocks.block;
     if (block.name == "SHELL GENERAL SECTION" && !block.has("MATERIAL") && !block.has("COMPOSITE"))
       throw CardError{"a section by its stiffness is not known; MATERIAL or COMPOSITE is due"};
-    for (const char* unknown : {"SHELL THICKNESS", "DENSITY"})
+    for (const char* unknown :
+         {"SHELL THICKNESS", "DENSITY", "SYMMETRIC", "BENDING ONLY", "MEMBRANE ONLY"})
       if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
     if (block.data.empty() && !block.has("NODAL THICKNESS"))
       throw CardError{"the thickness is missing"};

@@ -97,6 +97,24 @@ TEST(AbaqusData, FilesOfDataAreGuardedLikeThoseThatAreIncluded) {
   EXPECT_THAT(said("\n5, 1, 100.\n*AMPLITUDE, NAME=A, INPUT=gone.txt"), testing::IsEmpty());
 }
 
+TEST(AbaqusData, ParametersThatAreNotReadAreSaid) {
+  const auto remarks = [](const std::string& more) {
+    std::string all;
+    for (const DeckRemark& remark : abaqus(plate_of_two + more).remarks)
+      all += remark.place.substr(remark.place.find("deck.inp")) + ": " + remark.text + "\n";
+    return all;
+  };
+  EXPECT_THAT(remarks(""), testing::IsEmpty());
+  EXPECT_THAT(remarks("*NSET, NSET=X, INTERNAL, gene rate\n1, 3\n"), testing::IsEmpty());
+  EXPECT_EQ(remarks("*NODE, NSTE=X\n7, 5., 5., 5.\n"),
+            "deck.inp:18: *NODE: the parameter NSTE is not read (did you mean NSET?)\n");
+  EXPECT_EQ(remarks("*STEP\n*CLOAD, LOAD CASE=2\n5, 1, 1.\n*END STEP\n"),
+            "deck.inp:19: *CLOAD: the parameter LOAD CASE is not read\n");
+  std::string symmetric = plate_of_two;
+  symmetric.replace(symmetric.find("MATERIAL=Steel"), 14, "COMPOSITE, SYMMETRIC");
+  EXPECT_THAT(complaints_of_abaqus(symmetric), HasSubstr("SYMMETRIC is not known"));
+}
+
 TEST(AbaqusData, KeywordsOfStepsThatThereAreNotAreErrors) {
   const auto step = [](const std::string& keywords) {
     return plate_of_two + "*BOUNDARY\n1, 1, 6\n*STEP\n*STATIC\n" + keywords +
