@@ -150,7 +150,7 @@ TEST(AbaqusData, SpreadMassOfSolids) {
                 "1 solids) is not known"));
 }
 
-// By default in proportion to what the elements weigh: a light cube beside a heavy one, and a plate.
+// By default in proportion to what the elements weigh: a light cube, a heavy one, and a plate.
 TEST(AbaqusData, ATotalIsSpreadByMassOrVolume) {
   const std::string cubes =
       "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n"
