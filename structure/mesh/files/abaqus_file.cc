@@ -127,20 +127,14 @@ class AbaqusReader {
 
   void begin_keyword(Keyword keyword, int depth) {
     finish_keyword();
-    keyword_ = std::move(keyword);
+    const Keyword before = std::exchange(keyword_, std::move(keyword));
     if (keyword_.name == "INCLUDE") {
       const std::string input = required("INPUT");
-      const auto beside = std::filesystem::path(path_).parent_path() / input;
-      keyword_ = {};
-      if (!are_files_outside_allowed() && !leads_into(beside, {folder_}))
-        fail(
-            fmt::format("*INCLUDE: \"{}\" lies outside the folder of this mesh; only files in it "
-                        "or below are included, unless --allow-outside, or {}=1 in the "
-                        "environment, says otherwise",
-                        input, allow_outside_variable));
-      read_file(beside.string(), depth + 1);
-      keyword_ = {};
-    } else if (keyword_.name == "ELEMENT") {
+      keyword_ = before;  // whose lines of data the file may go on with
+      read_beside("INCLUDE", input, depth);
+      return;
+    }
+    if (keyword_.name == "ELEMENT") {
       const std::string type = upper(required("TYPE"));
       const auto nodes = nodes_of_type(type);
       if (!nodes)
@@ -156,6 +150,27 @@ class AbaqusReader {
     } else if (keyword_.name == "NSET" && keyword_.has("ELSET")) {
       nodes_of_element_set(keyword_.parameters["ELSET"]);
     }
+    if (keyword_.has("INPUT") && has_data_here(keyword_.name)) {
+      // By value: keywords that the file has, though it should not, take the place of this one.
+      const std::string name = keyword_.name, input = required("INPUT");
+      read_beside(name, input, depth);
+    }
+  }
+
+  static bool has_data_here(const std::string& keyword) {
+    return keyword == "NODE" || keyword == "ELEMENT" || keyword == "NSET" || keyword == "ELSET" ||
+           keyword == "SURFACE";
+  }
+
+  void read_beside(const std::string& keyword, const std::string& input, int depth) {
+    const auto beside = std::filesystem::path(path_).parent_path() / input;
+    if (!are_files_outside_allowed() && !leads_into(beside, {folder_}))
+      fail(
+          fmt::format("*{}: \"{}\" lies outside the folder of this mesh; only files in it "
+                      "or below are included, unless --allow-outside, or {}=1 in the "
+                      "environment, says otherwise",
+                      keyword, input, allow_outside_variable));
+    read_file(beside.string(), depth + 1);
   }
 
   std::string required(const std::string& parameter) const {

@@ -21,7 +21,8 @@ std::string canonical(std::string_view text) {
 
 class KeywordSplitter {
  public:
-  KeywordSplitter(DeckFiles& files, DeckLog& log) : files_(files), log_(log) {}
+  KeywordSplitter(DeckFiles& files, DeckLog& log, const KeywordFilter& is_read)
+      : files_(files), log_(log), is_read_(is_read) {}
 
   std::vector<AbaqusBlock> split(const std::filesystem::path& path) {
     read(files_.open(path));
@@ -70,10 +71,12 @@ class KeywordSplitter {
       if (end >= keyword.size()) break;
       begin = end + 1;
     }
-    if (block.name == "INCLUDE")
+    if (block.name == "INCLUDE") {
       include(block, file);
-    else
-      blocks_.push_back(std::move(block));
+      return;
+    }
+    blocks_.push_back(std::move(block));
+    if (blocks_.back().has("INPUT") && is_read_(blocks_.back().name)) read_data_elsewhere(file);
   }
 
   static AbaqusBlock::Parameter parameter(std::string_view part) {
@@ -91,20 +94,49 @@ class KeywordSplitter {
 
   void include(const AbaqusBlock& block, const DeckFiles::File& file) {
     log_.read("*INCLUDE", block.line);
-    const AbaqusBlock::Parameter* input = block.find("INPUT");
     try {
-      if (input == nullptr) throw CardError{"INPUT = file is missing"};
-      std::string name = input->as_given;
-      std::replace(name.begin(), name.end(), '\\', '/');
-      read(files_.open_included(name, file));
+      read(open_input(block, file));
       log_.use("*INCLUDE");
     } catch (const CardError& error) {
       log_.complain(block.line, "*INCLUDE: " + error.text);
     }
   }
 
+  const DeckFiles::File& open_input(const AbaqusBlock& block, const DeckFiles::File& file) {
+    const AbaqusBlock::Parameter* input = block.find("INPUT");
+    if (input == nullptr || input->as_given.empty()) throw CardError{"INPUT = file is missing"};
+    std::string name = input->as_given;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return files_.open_included(name, file);
+  }
+
+  /// Gives the last block the lines of the file that its INPUT names: they stand before those below
+  /// the keyword itself.
+  void read_data_elsewhere(const DeckFiles::File& from) {
+    AbaqusBlock& block = blocks_.back();
+    try {
+      const DeckFiles::File& file = open_input(block, from);
+      for (std::size_t i = 0; i < file.lines.size(); ++i) {
+        const SourceLine place{file.number, static_cast<int>(i) + 1};
+        const std::string_view text = trimmed(file.lines[i]);
+        if (text.empty() || text.substr(0, 2) == "**") continue;
+        if (text.front() == '*')
+          log_.complain(place,
+                        fmt::format("\"{}\" in the file of INPUT = of *{}: that has lines of "
+                                    "data alone; *INCLUDE takes a file with keywords",
+                                    text, block.name));
+        else
+          block.data.push_back({place, text});
+      }
+      files_.close();
+    } catch (const CardError& error) {
+      log_.complain(block.line, fmt::format("*{}: {}", block.name, error.text));
+    }
+  }
+
   DeckFiles& files_;
   DeckLog& log_;
+  const KeywordFilter& is_read_;
   std::vector<AbaqusBlock> blocks_;
 };
 
@@ -153,8 +185,8 @@ std::string AbaqusBlock::required_as_given(std::string_view parameter) const {
 }
 
 std::vector<AbaqusBlock> read_abaqus_keywords(DeckFiles& files, const std::filesystem::path& path,
-                                              DeckLog& log) {
-  return KeywordSplitter(files, log).split(path);
+                                              DeckLog& log, const KeywordFilter& is_read) {
+  return KeywordSplitter(files, log, is_read).split(path);
 }
 
 long abaqus_label(std::string_view text, const char* what) {

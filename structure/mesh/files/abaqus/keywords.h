@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,9 +44,14 @@ struct AbaqusBlock {
 /// Blanks within names of keywords and parameters are free.
 std::string without_blanks(std::string_view name);
 
-/// Splits a deck into keywords, with the files that it includes. Complaints go into the log.
+/// Whether something holds for the keyword of a name, in capitals, without its asterisk.
+using KeywordFilter = std::function<bool(const std::string&)>;
+
+/// Splits a deck into keywords, with the files that it includes and those that have the lines of
+/// data of a keyword (INPUT = file). Complaints go into the log.
+/// @param is_read keywords whose lines of data are wanted.
 std::vector<AbaqusBlock> read_abaqus_keywords(DeckFiles& files, const std::filesystem::path& path,
-                                              DeckLog& log);
+                                              DeckLog& log, const KeywordFilter& is_read);
 
 /// The number in a field. @throws CardError if there is none.
 long abaqus_label(std::string_view text, const char* what);

@@ -97,48 +97,99 @@ class LinkBlocks {
     }
   }
 
-  // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER VOLUME | AREA | LENGTH, TOTAL MASS
-  void add_spread_mass(const AbaqusBlock& block) {
-    const std::string units = block.required("UNITS");
-    double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
-    const double length = model_.units.length;
-    std::vector<int> shells, beams;
+  /// What has a mass that can be spread, by its places in the mesh.
+  struct Cells {
+    std::vector<int> shells, beams, solids;
+  };
+
+  Cells cells_of(const AbaqusBlock& block) const {
+    Cells cells;
     for (const int e : model_.elements_of(*scope_, block.required("ELSET"))) {
       const AbaqusDeckElement& element = model_.elements[e];
-      if (element.shell >= 0) shells.push_back(element.shell);
-      beams.insert(beams.end(), element.beams.begin(), element.beams.end());
+      if (element.shell >= 0 && mesh_.shells[element.shell].section < 0)
+        throw CardError{fmt::format("element {} has no section yet", element.label)};
+      if (element.shell >= 0)
+        cells.shells.push_back(element.shell);
+      else if (element.solid >= 0)
+        cells.solids.push_back(element.solid);
+      else if (!element.beams.empty())
+        cells.beams.insert(cells.beams.end(), element.beams.begin(), element.beams.end());
+      else if (element.kind == AbaqusKind::solid || element.kind == AbaqusKind::nothing)
+        model_.log.leave_out("*NONSTRUCTURAL MASS", "the part of elements that are left out");
+      else
+        model_.log.remark(block.line,
+                          "*NONSTRUCTURAL MASS: elements that are no shells, beams, trusses or "
+                          "solids get none of it");
     }
-    if (units == "MASS PER VOLUME") {
-      add_mass_per_volume(shells, beams, value / (length * length * length));
-      return;
-    }
-    if (units == "MASS PER AREA" && beams.empty()) {
-      value /= length * length;
-    } else if (units == "MASS PER LENGTH" && shells.empty()) {
-      value /= length;
-    } else if (units == "TOTAL MASS" && (shells.empty() || beams.empty())) {
-      const double size = shells.empty() ? total_length(mesh_, beams) : total_area(mesh_, shells);
-      if (!(size > 0)) throw CardError{"there is nothing to spread it over"};
-      value /= size;
-    } else {
-      throw CardError{
-          fmt::format("UNITS = {} of these elements is not known; MASS PER VOLUME, MASS PER AREA "
-                      "of shells, MASS PER LENGTH of beams, TOTAL MASS of either are",
-                      units)};
-    }
-    add_mass_per_area(mesh_, shells, value);
-    add_mass_per_length(mesh_, beams, value);
+    return cells;
   }
 
-  void add_mass_per_volume(const std::vector<int>& shells, const std::vector<int>& beams,
-                           double value) {
-    std::map<double, std::vector<int>> of_thickness, of_area;
-    for (const int s : shells)
-      of_thickness[mesh_.section_of(mesh_.shells[s]).thickness].push_back(s);
-    for (const int b : beams) of_area[mesh_.section_of(mesh_.beams[b]).area].push_back(b);
-    for (const auto& [thickness, some] : of_thickness)
-      add_mass_per_area(mesh_, some, value * thickness);
-    for (const auto& [area, some] : of_area) add_mass_per_length(mesh_, some, value * area);
+  // *NONSTRUCTURAL MASS, ELSET = , UNITS = MASS PER VOLUME | AREA | LENGTH, TOTAL MASS,
+  // DISTRIBUTION = MASS PROPORTIONAL | VOLUME PROPORTIONAL (of a total)
+  void add_spread_mass(const AbaqusBlock& block) {
+    const std::string units = block.required("UNITS");
+    const double value = abaqus_real(first_line(block), 0, "mass") * model_.units.mass();
+    const double length = model_.units.length;
+    const Cells cells = cells_of(block);
+    if (units == "MASS PER VOLUME") {
+      add_in_proportion(cells, value / (length * length * length), false);
+    } else if (units == "TOTAL MASS") {
+      const bool is_by_mass = without_blanks(block.value("DISTRIBUTION")) != "VOLUMEPROPORTIONAL";
+      const double size = size_of(cells, is_by_mass);
+      if (!(size > 0))
+        throw CardError{fmt::format("there is no {} that the total could be spread by",
+                                    is_by_mass ? "mass" : "volume")};
+      add_in_proportion(cells, value / size, is_by_mass);
+    } else if (units == "MASS PER AREA" && cells.beams.empty() && cells.solids.empty()) {
+      add_mass_per_area(mesh_, cells.shells, value / (length * length));
+    } else if (units == "MASS PER LENGTH" && cells.shells.empty() && cells.solids.empty()) {
+      add_mass_per_length(mesh_, cells.beams, value / length);
+    } else {
+      throw CardError{
+          fmt::format("UNITS = {} of these elements ({} shells, {} beams, {} solids) is not known; "
+                      "MASS PER VOLUME, TOTAL MASS, MASS PER AREA of shells alone, MASS PER LENGTH "
+                      "of beams alone are",
+                      units, cells.shells.size(), cells.beams.size(), cells.solids.size())};
+    }
+  }
+
+  /// Density by which masses count, or 1 where volumes do.
+  double density(int material, bool is_by_mass) const {
+    return is_by_mass ? mesh_.materials[material].density : 1.0;
+  }
+
+  /// Mass per area, or the thickness.
+  double of_shell(int shell, bool is_by_mass) const {
+    const ShellSection& section = mesh_.section_of(mesh_.shells[shell]);
+    return section.thickness * density(section.material, is_by_mass);
+  }
+
+  /// Mass per length, or the area.
+  double of_beam(int beam, bool is_by_mass) const {
+    const BeamSection& section = mesh_.section_of(mesh_.beams[beam]);
+    return section.area * density(section.material, is_by_mass);
+  }
+
+  /// Mass of all, or their volume, by the figures that mass is added by.
+  double size_of(const Cells& cells, bool is_by_mass) const {
+    double sum = 0;
+    for (const int s : cells.shells) sum += total_area(mesh_, {s}) * of_shell(s, is_by_mass);
+    for (const int b : cells.beams) sum += total_length(mesh_, {b}) * of_beam(b, is_by_mass);
+    for (const int s : cells.solids)
+      sum += total_volume(mesh_, {s}) * density(mesh_.solids[s].material, is_by_mass);
+    return sum;
+  }
+
+  /// Adds mass by the cells' volumes, kg/m^3, or in a share of their own mass.
+  void add_in_proportion(const Cells& cells, double value, bool is_by_mass) {
+    std::map<double, std::vector<int>> shells, beams, solids;
+    for (const int s : cells.shells) shells[of_shell(s, is_by_mass)].push_back(s);
+    for (const int b : cells.beams) beams[of_beam(b, is_by_mass)].push_back(b);
+    for (const int s : cells.solids)
+      solids[density(mesh_.solids[s].material, is_by_mass)].push_back(s);
+    for (const auto& [figure, some] : shells) add_mass_per_area(mesh_, some, value * figure);
+    for (const auto& [figure, some] : beams) add_mass_per_length(mesh_, some, value * figure);
+    for (const auto& [figure, some] : solids) add_mass_to_solids(mesh_, some, value * figure);
   }
 
   // *SPRING, ELSET = / freedoms (none for SPRINGA) / stiffness

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/abaqus/parameters.h"
 #include "structure/mesh/files/deck/surface_points.h"
 
 namespace blocklift::structure {
@@ -151,6 +152,115 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
   return names;
 }
 
+/// Keywords of Abaqus' and CalculiX' steps beyond those: other ways of solving, other loads, and
+/// what is printed.
+const std::set<std::string, std::less<>>& keywords_of_steps() {
+  static const std::set<std::string, std::less<>> names{"ADAPTIVE MESH",
+                                                        "ADAPTIVE MESH CONSTRAINT",
+                                                        "ADAPTIVE MESH CONTROLS",
+                                                        "ANNEAL",
+                                                        "BASE MOTION",
+                                                        "BUCKLING ENVELOPE",
+                                                        "BULK VISCOSITY",
+                                                        "C ADDED MASS",
+                                                        "CFILM",
+                                                        "CFLOW",
+                                                        "CFLUX",
+                                                        "CHANGE FRICTION",
+                                                        "COMPLEX FREQUENCY",
+                                                        "CONNECTOR LOAD",
+                                                        "CONNECTOR MOTION",
+                                                        "CONTACT CLEARANCE ASSIGNMENT",
+                                                        "CONTACT INTERFERENCE",
+                                                        "CONTACT PRINT",
+                                                        "CONTOUR INTEGRAL",
+                                                        "CORRELATION",
+                                                        "COUPLED TEMPERATURE-DISPLACEMENT",
+                                                        "COUPLED THERMAL-ELECTRICAL",
+                                                        "CRADIATE",
+                                                        "D ADDED MASS",
+                                                        "DECHARGE",
+                                                        "DFLOW",
+                                                        "DFLUX",
+                                                        "DIRECT CYCLIC",
+                                                        "DSFLOW",
+                                                        "DSFLUX",
+                                                        "DYNAMIC TEMPERATURE-DISPLACEMENT",
+                                                        "ELECTROMAGNETIC",
+                                                        "ENERGY FILE",
+                                                        "ENERGY PRINT",
+                                                        "FIELD",
+                                                        "FILM",
+                                                        "FIXED MASS SCALING",
+                                                        "FLOW",
+                                                        "GEOSTATIC",
+                                                        "GLOBAL DAMPING",
+                                                        "GREEN",
+                                                        "HEAT TRANSFER",
+                                                        "IMPEDANCE",
+                                                        "INCIDENT WAVE",
+                                                        "INCIDENT WAVE INTERACTION",
+                                                        "INCREMENTATION OUTPUT",
+                                                        "INERTIA RELIEF",
+                                                        "MASS ADJUST",
+                                                        "MASS DIFFUSION",
+                                                        "MASS FLOW RATE",
+                                                        "MATRIX GENERATE",
+                                                        "MATRIX OUTPUT",
+                                                        "MODAL FILE",
+                                                        "MODAL OUTPUT",
+                                                        "MODAL PRINT",
+                                                        "MODEL CHANGE",
+                                                        "MOTION",
+                                                        "NODE RESPONSE",
+                                                        "PRESSURE PENETRATION",
+                                                        "PRESSURE STRESS",
+                                                        "PRINT",
+                                                        "RADIATE",
+                                                        "RADIATION FILE",
+                                                        "RADIATION OUTPUT",
+                                                        "RADIATION PRINT",
+                                                        "RANDOM RESPONSE",
+                                                        "RESPONSE SPECTRUM",
+                                                        "RETAINED NODAL DOFS",
+                                                        "SELECT CYCLIC SYMMETRY MODES",
+                                                        "SELECT EIGENMODES",
+                                                        "SENSITIVITY",
+                                                        "SFILM",
+                                                        "SFLOW",
+                                                        "SIMPEDANCE",
+                                                        "SOILS",
+                                                        "SOLUTION TECHNIQUE",
+                                                        "SRADIATE",
+                                                        "STEADY STATE TRANSPORT",
+                                                        "SUBSTRUCTURE GENERATE",
+                                                        "SUBSTRUCTURE LOAD CASE",
+                                                        "SUBSTRUCTURE MATRIX OUTPUT",
+                                                        "SUBSTRUCTURE OUTPUT",
+                                                        "SURFACE OUTPUT",
+                                                        "TRANSPORT VELOCITY",
+                                                        "UNCOUPLED TEMPERATURE-DISPLACEMENT",
+                                                        "VARIABLE MASS SCALING",
+                                                        "VIEWFACTOR",
+                                                        "VISCO",
+                                                        "FEASIBLE DIRECTION",
+                                                        "OBJECTIVE",
+                                                        "CONSTRAINT",
+                                                        "DESIGN RESPONSE",
+                                                        "CRACK PROPAGATION",
+                                                        "ROBUST DESIGN",
+                                                        "ELEMENT RESPONSE",
+                                                        "CHANGE CONTACT TYPE",
+                                                        "CHANGE SURFACE BEHAVIOR",
+                                                        "CECHARGE",
+                                                        "CECURRENT",
+                                                        "DECURRENT",
+                                                        "DSECHARGE",
+                                                        "DSECURRENT",
+                                                        "CREEP STRAIN RATE CONTROL"};
+  return names;
+}
+
 /// Keywords that there are, that are not known here, and what to give in their place.
 std::string_view instead_of_keyword(const std::string& keyword) {
   static const std::map<std::string, const char*, std::less<>> all{
@@ -167,6 +277,8 @@ std::string_view instead_of_keyword(const std::string& keyword) {
       {"USER ELEMENT", "elements of the user's own are not known"},
       {"PRE-TENSION SECTION", "a bolt's preload is not known; its solids or bars alone can stand"},
       {"EMBEDDED ELEMENT", "give embedded bars nodes of their host"},
+      {"LOAD CASE", "give each load case of a step a step of its own"},
+      {"END LOAD CASE", "give each load case of a step a step of its own"},
       {"SUBSTRUCTURE GENERATE", "give the parts themselves in place of a substructure"},
       {"MATRIX INPUT", "give the parts themselves in place of a matrix"}};
   const auto found = all.find(keyword);
@@ -177,17 +289,29 @@ std::string_view instead_of_keyword(const std::string& keyword) {
 const std::vector<std::string>& all_names() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names;
-    for (const auto* some : {&keywords_read(), &wishes(), &keywords_left_out()})
+    for (const auto* some :
+         {&keywords_read(), &wishes(), &keywords_left_out(), &keywords_of_steps()})
       for (const std::string& name : *some) names.push_back("*" + name);
     return names;
   }();
   return all;
 }
 
+/// Blanks within its name do not count.
+bool is_keyword_read(const std::string& name) {
+  static const std::set<std::string, std::less<>> names = [] {
+    std::set<std::string, std::less<>> all;
+    for (const std::string& known : keywords_read()) all.insert(without_blanks(known));
+    return all;
+  }();
+  return names.contains(without_blanks(name));
+}
+
 /// Gives names that are written without the blanks within them, such as ENDSTEP, their own.
 void restore_blanks(std::vector<AbaqusBlock>& blocks) {
   std::map<std::string, std::string> name_of;
-  for (const auto* names : {&keywords_read(), &wishes(), &keywords_left_out()})
+  for (const auto* names :
+       {&keywords_read(), &wishes(), &keywords_left_out(), &keywords_of_steps()})
     for (const std::string& name : *names) name_of.emplace(without_blanks(name), name);
   for (AbaqusBlock& block : blocks)
     if (const auto name = name_of.find(without_blanks(block.name)); name != name_of.end())
@@ -207,11 +331,13 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
       model.log.leave_out_wish("*" + block.name, "what is printed, or how it is solved");
     else if (keywords_left_out().count(block.name) > 0)
       model.log.leave_out("*" + block.name, "what no plate or beam meets in a static load case");
-    else if (in_step)
+    else if (in_step && keywords_of_steps().count(block.name) > 0)
       model.log.leave_out("*" + block.name, "what a step does beyond its supports and forces");
     else
       model.log.miss(block.line, "*" + block.name, model.options, all_names(),
-                     instead_of_keyword(block.name));
+                     keywords_of_steps().count(block.name) > 0
+                         ? "it is known in steps alone, and stands in none"
+                         : instead_of_keyword(block.name));
   }
 }
 
@@ -221,7 +347,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
                  const DeckOptions& options) {
   DeckLog log;
   DeckFiles files(log);
-  std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log);
+  std::vector<AbaqusBlock> blocks = read_abaqus_keywords(files, path, log, is_keyword_read);
   restore_blanks(blocks);
   Deck deck;
   deck.path = path;
@@ -229,6 +355,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
   deck.units = units;
   AbaqusModel model(log, deck, options);
   take_stock_of_keywords(model, blocks);
+  remark_on_unread_parameters(blocks, log);
   read_abaqus_cells(model, blocks);
   if (deck.mesh.vertices.empty()) log.complain({}, "the deck has no nodes");
   read_abaqus_sections(model);

@@ -27,6 +27,11 @@ bool is_detail(const std::string& name) {
          name == "TRANSVERSE SHEAR STIFFNESS" || name == "BEAM SECTION OFFSET";
 }
 
+bool may_precede_detail(const std::string& name) {
+  return is_detail(name) || name == "SHELL SECTION" || name == "SHELL GENERAL SECTION" ||
+         name == "BEAM SECTION" || name == "BEAM GENERAL SECTION";
+}
+
 class Sections {
  public:
   explicit Sections(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
@@ -46,6 +51,10 @@ class Sections {
           blocks.details.push_back(scope.blocks[j]);
         const std::string& name = scope.blocks[i]->name;
         const AbaqusBlock& block = *scope.blocks[i];
+        if (is_detail(name) && (i == 0 || !may_precede_detail(scope.blocks[i - 1]->name)))
+          model_.log.complain(block.line, fmt::format("*{}: it is to follow a section of shells or "
+                                                      "beams, and follows none",
+                                                      name));
         if (name == "SHELL SECTION" || name == "SHELL GENERAL SECTION")
           section(blocks, [&] { add_shells(blocks); });
         if (name == "BEAM SECTION")
@@ -98,7 +107,8 @@ class Sections {
     const AbaqusBlock& block = *blocks.block;
     if (block.name == "SHELL GENERAL SECTION" && !block.has("MATERIAL") && !block.has("COMPOSITE"))
       throw CardError{"a section by its stiffness is not known; MATERIAL or COMPOSITE is due"};
-    for (const char* unknown : {"SHELL THICKNESS", "DENSITY"})
+    for (const char* unknown :
+         {"SHELL THICKNESS", "DENSITY", "SYMMETRIC", "BENDING ONLY", "MEMBRANE ONLY"})
       if (block.has(unknown)) throw CardError{fmt::format("{} is not known", unknown)};
     if (block.data.empty() && !block.has("NODAL THICKNESS"))
       throw CardError{"the thickness is missing"};
@@ -121,6 +131,9 @@ class Sections {
         section.material = abaqus_material(model_, name);
     }
     if (!(section.thickness > 0)) throw CardError{"the thickness must be positive"};
+    for (const AbaqusBlock* detail : blocks.details)
+      if (detail->name == "TRANSVERSE SHEAR STIFFNESS")
+        model_.guarded(*detail, [&] { read_shear_stiffness(*detail, section); });
     section.offset = -offset_share(block) * section.thickness;
     section.label = static_cast<long>(mesh_.shell_sections.size()) + 1;
     const auto place = static_cast<int>(mesh_.shell_sections.size());
@@ -183,7 +196,10 @@ class Sections {
         {place, thickness}, static_cast<int>(mesh_.shell_sections.size()));
     if (!is_new) return found->second;
     ShellSection own = mesh_.shell_sections[place];
-    if (own.laminate >= 0) throw CardError{"layers cannot have the thickness of their nodes"};
+    if (own.laminate >= 0)
+      throw CardError{
+          "layers, and plates with a *TRANSVERSE SHEAR STIFFNESS, cannot have the "
+          "thickness of their nodes"};
     own.offset *= thickness / own.thickness;
     own.thickness = thickness;
     own.label = static_cast<long>(mesh_.shell_sections.size()) + 1;
@@ -267,6 +283,33 @@ class Sections {
     if (nearest.is_exact()) return;
     section.laminate = static_cast<int>(mesh_.laminates.size());
     mesh_.laminates.push_back(laminate);
+  }
+
+  // *TRANSVERSE SHEAR STIFFNESS / K11, K22, K12, force by length; of K11 and K22 one that is not
+  // given, or zero, is as the other.
+  void read_shear_stiffness(const AbaqusBlock& block, ShellSection& section) {
+    if (block.data.empty()) throw CardError{"a line of data is missing"};
+    const Fields fields = block.data.front().fields();
+    double k_11 = abaqus_real(fields, 0, "stiffness K11", 0.0);
+    double k_22 = abaqus_real(fields, 1, "stiffness K22", 0.0);
+    const double k_12 = abaqus_real(fields, 2, "stiffness K12", 0.0);
+    if (k_11 == 0) k_11 = k_22;
+    if (k_22 == 0) k_22 = k_11;
+    if (!(k_11 > 0 && k_22 > 0 && k_11 * k_22 > k_12 * k_12))
+      throw CardError{fmt::format(
+          "K11 = {}, K22 = {}, K12 = {}: K11 and K22 must be positive, and K12^2 less than K11 K22",
+          k_11, k_22, k_12)};
+    Laminate own = section.laminate >= 0
+                       ? mesh_.laminates[section.laminate]
+                       : homogeneous(mesh_.materials[section.material], section.thickness);
+    own.shear << k_11, k_12, k_12, k_22;
+    own.shear *= model_.units.force / model_.units.length;
+    if (section.laminate >= 0) {
+      mesh_.laminates[section.laminate] = own;
+    } else if (!nearest_plate(own, section.thickness).is_exact()) {
+      section.laminate = static_cast<int>(mesh_.laminates.size());
+      mesh_.laminates.push_back(own);
+    }
   }
 
   /// Axis 1 of a plate's material by its section's orientation.

@@ -2,7 +2,10 @@
 
 #include <map>
 
+#include <Eigen/LU>
+
 #include "structure/mesh/mass_properties.h"
+#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -42,6 +45,16 @@ void add_mass_per_length(Mesh& mesh, const std::vector<int>& beams, double mass)
   }
 }
 
+void add_mass_to_solids(Mesh& mesh, const std::vector<int>& solids, double mass) {
+  std::map<int, int> heavier;
+  for (const int s : solids) {
+    int& material = mesh.solids[s].material;
+    const std::size_t known = mesh.materials.size();
+    material = heavier_copy(material, mass, mesh.materials, &Material::density, heavier);
+    if (mesh.materials.size() > known) mesh.materials.back().name += " with spread mass";
+  }
+}
+
 double total_area(const Mesh& mesh, const std::vector<int>& shells) {
   double sum = 0;
   for (const int s : shells) sum += area(mesh, mesh.shells[s]);
@@ -53,6 +66,20 @@ double total_length(const Mesh& mesh, const std::vector<int>& beams) {
   for (const int b : beams) {
     const auto& ends = mesh.beams[b].vertices;
     sum += (mesh.vertices[ends[1]] - mesh.vertices[ends[0]]).norm();
+  }
+  return sum;
+}
+
+double total_volume(const Mesh& mesh, const std::vector<int>& solids) {
+  double sum = 0;
+  for (const int s : solids) {
+    const Solid& solid = mesh.solids[s];
+    const ElementKind& kind = topology_of(solid.shape).kind;
+    const Eigen::Matrix3Xd places = places_of(mesh, solid);
+    for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
+      const Eigen::Matrix3d jacobian = places * kind.gradients.middleRows<3>(3 * q).transpose();
+      sum += kind.weights[q] * jacobian.determinant();
+    }
   }
   return sum;
 }

@@ -226,8 +226,9 @@ class CaseControl {
  private:
   // LOAD SID S S1 L1 S2 L2 ...
   void read_combination(const CardView& card) {
-    const double factor = card.real(1, "factor");
+    // Of a card that is refused nothing is left but its set, which is not said to be missing.
     auto& parts = combinations_[card.label(0, "load set")];
+    const double factor = card.real(1, "factor");
     for (std::size_t i = 2; i + 1 < card.size(); i += 2)
       if (card.has(i) || card.has(i + 1))
         parts.emplace_back(card.label(i + 1, "load set"), factor * card.real(i, "factor"));
@@ -378,17 +379,19 @@ class CaseControl {
   void add_load(DeckLoadCase& load_case, long set, double factor) const {
     const auto found = load_sets_.find(set);
     if (found == load_sets_.end()) {
-      if (is_left_out(set)) return;
+      if (may_have_loads(set)) return;
       throw CardError{fmt::format("load set {} does not exist", set)};
     }
     load_case.loads.emplace_back(found->second, factor);
   }
 
-  /// Whether a set has loads that are noted as left out.
-  bool is_left_out(long set) const {
+  /// Whether cards name a set of loads that holds none: that they are left out or wrong has been
+  /// said at their lines.
+  bool may_have_loads(long set) const {
     const auto& cards = model_.bulk.cards;
     return std::any_of(cards.begin(), cards.end(), [&](const NastranCard& card) {
-      return is_load_left_out(card.name) && to_integer(CardView(model_.bulk, card).text(0)) == set;
+      return may_be_nastran_load(card.name) &&
+             to_integer(CardView(model_.bulk, card).text(0)) == set;
     });
   }
 

@@ -85,17 +85,16 @@ class Links {
     double weight = 0;
     Components counts{};
     std::vector<Components> counts_of;
+    bool is_after_um = false;
     for (std::size_t i = 4; i < card.size(); ++i) {
       if (!card.has(i)) continue;
       if (card.is(i, "ALPHA")) {
         model_.log.leave_out("RBE3", "ALPHA (thermal expansion)");
         break;
       }
-      if (card.is(i, "UM")) {
-        // Which freedoms the solver eliminates does not change the motion.
-        model_.log.leave_out("RBE3", "UM (which freedoms are eliminated)");
-        break;
-      }
+      // UM says which freedoms the solver eliminates; the motion is the same for any of them.
+      is_after_um = is_after_um || card.is(i, "UM");
+      if (is_after_um) continue;
       if (!card.is_integer(i) || (link.vertices.empty() && weight == 0)) {
         weight = card.real(i, "weight");
         counts = card.components(++i, "components that count");

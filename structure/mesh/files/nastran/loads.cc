@@ -70,10 +70,25 @@ class Loads {
   // FORCE SID G CID F N1 N2 N3
   void add_vector(const CardView& card, bool is_moment) {
     const int vertex = model_.vertex(card, 1, "grid");
-    const Vector3 direction(card.real(4, "component", 0.0), card.real(5, "component", 0.0),
-                            card.real(6, "component", 0.0));
+    const double factor = card.real(3, "factor");
+    const Vector3 direction = direction_of(card, 4, factor != 0);
     const Eigen::Matrix3d axes = model_.axes_at(card.integer(2, "coordinate system", 0), vertex);
-    add_point(card, vertex, card.real(3, "factor") * (axes * direction), is_moment);
+    add_point(card, vertex, factor * (axes * direction), is_moment);
+  }
+
+  /// Three components from a field on, which are not all zero where the load has a size.
+  static Vector3 direction_of(const CardView& card, std::size_t first, bool has_size) {
+    const Vector3 direction(card.real(first, "component", 0.0),
+                            card.real(first + 1, "component", 0.0),
+                            card.real(first + 2, "component", 0.0));
+    if (!has_size || !direction.isZero(0)) return direction;
+    std::string given;
+    for (std::size_t i = first; i < first + 3; ++i)
+      given += fmt::format("{}{}", i == first ? "" : ", ", card.has(i) ? card.text(i) : "blank");
+    throw CardError{
+        fmt::format("the direction of a load of set {} (fields {} to {}) is {}; at least one "
+                    "component must not be zero",
+                    card.text(0), first + 2, first + 4, given)};
   }
 
   // FORCE1 SID G F G1 G2: from G1 to G2; FORCE2 ... G3 G4: across G1 G2 and G3 G4
@@ -92,11 +107,11 @@ class Loads {
 
   // GRAV SID CID A N1 N2 N3
   void add_gravity(const CardView& card) {
-    const Vector3 direction(card.real(3, "component", 0.0), card.real(4, "component", 0.0),
-                            card.real(5, "component", 0.0));
+    const double acceleration = card.real(2, "acceleration");
+    const Vector3 direction = direction_of(card, 3, acceleration != 0);
     const long system = card.integer(1, "coordinate system", 0);
     const Eigen::Matrix3d axes = model_.systems.get(system).axes;
-    set(card).gravity += card.real(2, "acceleration") * model_.units.length * (axes * direction);
+    set(card).gravity += acceleration * model_.units.length * (axes * direction);
   }
 
   // RFORCE SID G CID A R1 R2 R3 METHOD / RACC MB IDRF: revolutions per unit of time, and of its
@@ -107,14 +122,15 @@ class Loads {
       throw CardError{"RFORCE for a part of a superelement (MB) is not known"};
     if (card.has(10) && !card.is(10, "0"))
       throw CardError{"RFORCE on some elements (IDRF) is not known; rotation of all is due"};
-    const Vector3 direction(card.real(4, "component", 0.0), card.real(5, "component", 0.0),
-                            card.real(6, "component", 0.0));
+    const double velocity = card.real(3, "angular velocity", 0.0);
+    const double acceleration = card.real(8, "angular acceleration", 0.0);
+    const Vector3 direction = direction_of(card, 4, velocity != 0 || acceleration != 0);
     const Eigen::Matrix3d axes = model_.systems.get(card.integer(2, "coordinate system", 0)).axes;
     const Vector3 revolution = 2 * std::numbers::pi * (axes * direction);
     Spin spin;
     if (card.has(1) && !card.is(1, "0")) spin.place = model_.place(model_.vertex(card, 1, "grid"));
-    spin.velocity = card.real(3, "angular velocity", 0.0) * revolution;
-    spin.acceleration = card.real(8, "angular acceleration", 0.0) * revolution;
+    spin.velocity = velocity * revolution;
+    spin.acceleration = acceleration * revolution;
     set(card).spins.push_back(spin);
   }
 
@@ -137,13 +153,19 @@ class Loads {
     }
   }
 
+  /// Notes that a load is left out, and says so at its line, for its set lacks it.
+  void leave_out(const CardView& card, const char* what) const {
+    model_.log.leave_out(card.name(), what);
+    model_.log.remark(card.line(), fmt::format("{}: a load of set {} is left out: {}", card.name(),
+                                               card.text(0), what));
+  }
+
   /// -1: an element that is no plate; a load of it is left out.
   int shell(const CardView& card, long label) const {
     const auto found = model_.shell_of.find(label);
     if (found != model_.shell_of.end()) return found->second;
     if (model_.any_elements.count(label) > 0) {
-      model_.log.leave_out(
-          card.name(), "pressure on what is no plate, or on solids without the grids of a face");
+      leave_out(card, "pressure on what is no plate, or on solids without the grids of a face");
       return -1;
     }
     throw CardError{fmt::format("a pressure of set {} is on element {}, which does not exist",
@@ -177,6 +199,7 @@ class Loads {
                 Vector3::Zero());
       return;
     }
+    (void)card.label(2, "element");  // one at least
     for (std::size_t i = 2; i < card.size(); ++i)
       if (card.has(i)) add_plate_load(card, card.label(i, "element"), pressure, Vector3::Zero());
   }
@@ -215,7 +238,7 @@ class Loads {
                                        card.real(4, "pressure", first),
                                        card.real(5, "pressure", first)};
     if ((card.has(12) && !card.is(12, "SURF")) || (card.has(13) && !card.is(13, "NORM"))) {
-      model_.log.leave_out(card.name(), "loads with SORL and LDIR other than SURF and NORM");
+      leave_out(card, "loads with SORL and LDIR other than SURF and NORM");
       return;
     }
     Vector3 direction = Vector3::Zero();
@@ -250,7 +273,7 @@ class Loads {
       if (model_.any_elements.count(label) == 0)
         throw CardError{fmt::format("a load of set {} is on element {}, which does not exist",
                                     card.text(0), label)};
-      model_.log.leave_out(card.name(), "loads on what is no bar");
+      leave_out(card, "loads on what is no bar");
       return;
     }
     const Beam& beam = mesh_.beams[found->second];
@@ -269,7 +292,7 @@ class Loads {
                           card.has(6) && std::abs(card.real(6, "place") - end) < 1e-4 * end &&
                           std::abs(card.real(7, "load", p) - p) <= 1e-6 * std::abs(p);
     if (direction == directions.end() || !is_whole) {
-      model_.log.leave_out(card.name(), "loads other than even forces over the whole length");
+      leave_out(card, "loads other than even forces over the whole length");
       return;
     }
     for (const int piece : model_.pieces_of_beam(found->second))

@@ -139,8 +139,9 @@ void read_nastran_cases(NastranModel& model);
 std::map<long, int> read_nastran_loads(NastranModel& model);
 /// Counts all cards; complains of those that no stage reads, notes those that have no use here.
 void take_stock_of_nastran_cards(NastranModel& model);
-/// Whether a card is a load that is noted as left out.
-bool is_load_left_out(std::string_view name);
+/// Whether a card is a load, read or noted as left out, or one of a name that is not known, which
+/// may stand for a load's.
+bool may_be_nastran_load(std::string_view name);
 
 /// A property or material that something needs is wrong, and that has been said at its own line.
 struct UnusableProperty : CardError {};

@@ -3,6 +3,7 @@
 #include "structure/mesh/files/nastran/reader.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -176,13 +177,37 @@ void note_element(NastranModel& model, const NastranCard& card) {
   }
 }
 
+/// Says where a card of one line has more than its fields.
+void remark_on_surplus_fields(NastranModel& model, const NastranCard& card) {
+  static const std::map<std::string_view, std::size_t> fields_of{
+      {"GRID", 8},    {"FORCE", 7},   {"FORCE1", 5}, {"FORCE2", 7}, {"MOMENT", 7},
+      {"MOMENT1", 5}, {"MOMENT2", 7}, {"GRAV", 7},   {"PLOAD", 6},  {"PLOAD1", 8},
+      {"SPC", 7},     {"CELAS1", 6},  {"CELAS2", 8}, {"CMASS1", 6}, {"CMASS2", 6},
+      {"CROD", 4},    {"CTUBE", 4},   {"CONROD", 8}, {"PROD", 6}};
+  const auto known = fields_of.find(card.name);
+  if (known == fields_of.end()) return;
+  const CardView view(model.bulk, card);
+  std::size_t i = known->second;
+  while (i < view.size() && !view.has(i)) ++i;
+  if (i < view.size())
+    model.log.remark(card.line,
+                     fmt::format("{}: what it has beyond field {} of its first line is not read, "
+                                 "for the card ends there",
+                                 card.name, known->second + 1));
+}
+
 }  // namespace
 
-bool is_load_left_out(std::string_view name) {
-  return std::any_of(reasons().begin(), reasons().end(), [&](const Reason& reason) {
-    return reason.has_loads &&
-           std::find(reason.names.begin(), reason.names.end(), name) != reason.names.end();
-  });
+bool may_be_nastran_load(std::string_view name) {
+  static const std::set<std::string_view> loads{"FORCE",   "FORCE1",  "FORCE2", "MOMENT",
+                                                "MOMENT1", "MOMENT2", "GRAV",   "RFORCE",
+                                                "PLOAD",   "PLOAD1",  "PLOAD2", "PLOAD4"};
+  if (loads.contains(name)) return true;
+  if (cards_read().contains(name) || name.starts_with("TABLE")) return false;
+  for (const Reason& reason : reasons())
+    if (std::find(reason.names.begin(), reason.names.end(), name) != reason.names.end())
+      return reason.has_loads;
+  return true;
 }
 
 void take_stock_of_nastran_cards(NastranModel& model) {
@@ -205,7 +230,10 @@ void take_stock_of_nastran_cards(NastranModel& model) {
       model.log.leave_out(card.name, "of solids, which were to be left out");
       continue;
     }
-    if (cards_read().count(card.name) > 0) continue;
+    if (cards_read().count(card.name) > 0) {
+      remark_on_surplus_fields(model, card);
+      continue;
+    }
     if (const auto found = left_out.find(card.name); found != left_out.end())
       model.log.leave_out(card.name, found->second);
     else if (card.name.starts_with("TABLE"))

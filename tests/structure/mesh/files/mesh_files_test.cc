@@ -127,6 +127,20 @@ TEST_F(MeshFiles, AbaqusIncludesNothingFromOutsideItsFolder) {
   EXPECT_THAT(error_of(write("bricks.inp", deck)), testing::HasSubstr("lies outside"));
 }
 
+// The lines of data of a keyword alone, below it or named by it.
+TEST_F(MeshFiles, AbaqusReadsLinesOfDataFromFilesOfTheirOwn) {
+  write("upper.inc", std::string(upper_nodes).substr(6));
+  for (const char* how : {"*NODE\n*INCLUDE, INPUT=upper.inc", "*NODE, NSET=All, INPUT=upper.inc"}) {
+    std::string deck = two_bricks;
+    deck.replace(deck.find("*INCLUDE"), 25, how);
+    EXPECT_EQ(error_of(write("bricks.inp", deck)), "") << how;
+  }
+  std::string deck = two_bricks;
+  deck.replace(deck.find("*INCLUDE"), 25, "*NODE, INPUT=../../upper.inc");
+  EXPECT_THAT(error_of(write("bricks.inp", deck)),
+              testing::HasSubstr("bricks.inp:11: *NODE: \"../../upper.inc\" lies outside"));
+}
+
 TEST_F(MeshFiles, AbaqusSetsStayInBounds) {
   write("upper.inc", upper_nodes);
   const auto with_set = [&](const std::string& lines) {

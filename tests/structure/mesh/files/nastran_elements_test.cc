@@ -309,6 +309,11 @@ RBE1,14,4,123456
   EXPECT_THAT(mesh.distributing_links[0].vertices, ElementsAre(0, 1, 2, 3));
   EXPECT_THAT(mesh.distributing_links[0].weights, ElementsAre(1, 1, 2.5, 2.5));
   EXPECT_THAT(entry(deck, "RBE2").left_out, HasSubstr("thermal"));
+  // Which freedoms UM has the solver eliminate changes nothing.
+  EXPECT_THAT(entry(deck, "RBE3").left_out, testing::IsEmpty());
+  const std::string pair = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
+  const Deck warmed = nastran(pair + "RBE3,12,,1,123,1.,123,2,3\n,UM,2,123,,,,,\n,ALPHA,1.2-5\n");
+  EXPECT_THAT(entry(warmed, "RBE3").left_out, HasSubstr("thermal"));
 }
 
 TEST(NastranReader, Springs) {

@@ -1,0 +1,85 @@
+// Nastran's loads that say nothing, are left out or are wrong, and what else is said of them.
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/structure/mesh/files/deck_text.h"
+
+namespace blocklift::structure::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::string plate_and_bar =
+    "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,2.,0.\nGRID,4,,0.,2.,0.\n"
+    "CQUAD4,10,5,1,2,3,4\nPSHELL,5,7,.01,7,,7\nMAT1,7,206.+9,,.3,7850.\n"
+    "CBAR,20,8,1,2,0.,0.,1.\nPBAR,8,7,.01,1.-5,1.-5,1.-5\nSPC1,1,123456,1,4\n";
+
+std::string with_case(const std::string& cards, int load) {
+  return "CEND\nSPC = 1\nLOAD = " + std::to_string(load) + "\nBEGIN BULK\n" + plate_and_bar +
+         cards + "ENDDATA\n";
+}
+
+TEST(NastranLoads, ALoadWithoutDirectionIsRefused) {
+  const auto said = [](const std::string& cards) {
+    return complaints_of_nastran(plate_and_bar + cards);
+  };
+  EXPECT_THAT(said("FORCE,3,2,,100.,0.,0.,0.\n"),
+              HasSubstr("deck.bdf:11: error: FORCE: the direction of a load of set 3 (fields 6 to "
+                        "8) is 0., 0., 0.; at least one component must not be zero"));
+  EXPECT_THAT(said("FORCE,3,2,,100.\n,0.,0.,1.\n"),
+              HasSubstr("FORCE: the direction of a load of set 3 (fields 6 to 8) is blank, blank, "
+                        "blank; at least one"));
+  EXPECT_THAT(said("MOMENT,3,2,,100.,,0.\n"), HasSubstr("is blank, 0., blank; at least one"));
+  EXPECT_THAT(said("GRAV,3,,9.81\n"),
+              HasSubstr("GRAV: the direction of a load of set 3 (fields 5 to 7) is blank, blank, "
+                        "blank; at least one"));
+  EXPECT_THAT(said("RFORCE,3,1,,2.\n"), HasSubstr("RFORCE: the direction of a load of set 3"));
+  // A load of no size needs none.
+  EXPECT_THAT(said("FORCE,3,2,,0.\nGRAV,3,,0.\n"), IsEmpty());
+}
+
+TEST(NastranLoads, FieldsBeyondACardsEndAreSaid) {
+  const Deck deck = nastran(plate_and_bar + "FORCE,3,2,,100.,0.,0.,1.\n,0.,0.,1.\nENDDATA\n");
+  ASSERT_EQ(deck.remarks.size(), 1U);
+  EXPECT_THAT(deck.remarks[0].place, HasSubstr("deck.bdf:11"));
+  EXPECT_THAT(deck.remarks[0].text, HasSubstr("FORCE: what it has beyond field 8 of its first line "
+                                              "is not read"));
+  EXPECT_TRUE(nastran(plate_and_bar + "FORCE,3,2,,100.,0.,0.,1.\nENDDATA\n").remarks.empty());
+}
+
+TEST(NastranLoads, WhatIsLeftOutIsSaidAtItsLine) {
+  const Deck deck = nastran(with_case("PLOAD4,3,10,.1\n,0,0.,0.,0.,LINE,X\n", 3));
+  ASSERT_EQ(deck.remarks.size(), 1U);
+  EXPECT_THAT(deck.remarks[0].place, HasSubstr("deck.bdf:15"));
+  EXPECT_EQ(deck.remarks[0].text,
+            "PLOAD4: a load of set 3 is left out: loads with SORL and LDIR other than SURF and "
+            "NORM");
+  ASSERT_EQ(deck.load_cases.size(), 1U);
+  EXPECT_TRUE(deck.load_cases[0].loads.empty());
+  EXPECT_FALSE(entry(deck, "PLOAD4").is_wish);
+  EXPECT_THAT(
+      nastran(plate_and_bar + "PLOAD1,2,20,FZ,FR,0.,1.,.5,1.\nENDDATA\n").remarks.at(0).text,
+      HasSubstr("PLOAD1: a load of set 2 is left out: loads other than even forces"));
+}
+
+TEST(NastranLoads, ASetOfWrongLoadsIsNotSaidToBeMissing) {
+  for (const std::string cards : {"FORCE,3,66,,1.,1.\n", "FORC,3,2,,1.,1.\n", "PLOAD4,3,10,1.O\n",
+                                  "PLOAD2,3,7.\n", "LOAD,3,1.O,1.,4\nFORCE,4,2,,1.,1.\n"}) {
+    const std::string text = complaints_of_nastran(with_case(cards, 3));
+    EXPECT_THAT(text, HasSubstr("deck.bdf:15: error: ")) << cards;
+    EXPECT_THAT(text, Not(HasSubstr("load set 3"))) << cards;
+  }
+  const std::string other = "FORCE,4,2,,1.,1.\nDESVAR,3,T1,1.,.1,5.\n";
+  EXPECT_THAT(complaints_of_nastran(with_case(other, 3)),
+              HasSubstr("subcase 1: load set 3 does not exist"));
+  EXPECT_THAT(complaints_of_nastran(with_case("LOAD,3,1.,1.,5\n", 3)),
+              HasSubstr("subcase 1: load set 5 does not exist"));
+}
+
+}  // namespace
+}  // namespace blocklift::structure::test
