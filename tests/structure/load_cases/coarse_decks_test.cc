@@ -13,6 +13,10 @@
 namespace blocklift::structure {
 namespace {
 
+// Of reactions, which are K q - f: a bar resists stretching some thousand times as much as bending,
+// and its stiffness is rounded to 1e-16 of the former.
+constexpr double balanced = 1e-7;
+
 DeckSolution solve_coarse(const Deck& deck, int degree) {
   Mesh mesh = deck.mesh;
   for (Material& material : mesh.materials) material.yield_stress = 235e6;
@@ -20,8 +24,10 @@ DeckSolution solve_coarse(const Deck& deck, int degree) {
 }
 
 // A bar of 100 x 200 mm and 4 m between two nodes.
-std::string one_bar(const std::string& supports_and_loads) {
-  return "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
+std::string one_bar(const std::string& supports_and_loads,
+                    const std::string& control = "LOAD = 2\n") {
+  return "SOL 101\nCEND\nSPC = 1\n" + control +
+         "BEGIN BULK\n"
          "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\n"
          "CBAR,1,1,1,2,0.,1.,0.\n"
          "PBAR,1,1,0.02,6.6666667-5,1.6666667-5,4.58-5\n"
@@ -48,8 +54,8 @@ TEST(CoarseDecks, BarBetweenTwoHingesBendsInItsMiddle) {
 
 // 12 E I d / l^3 with d = 5 mm: 12.5 kN; 6 E I d / l^2 bends the ends by 37.5 MPa.
 TEST(CoarseDecks, ClampThatSettlesPullsBySlopeDeflection) {
-  const DeckSolution solution =
-      solve_coarse(test::nastran(one_bar("SPC1,1,123456,1\nSPC1,1,13456,2\nSPC,1,2,2,0.005\n")), 1);
+  const DeckSolution solution = solve_coarse(
+      test::nastran(one_bar("SPC1,1,123456,1\nSPC1,1,13456,2\nSPC,1,2,2,0.005\n", "")), 1);
   const DeckCaseSolution& one = solution.cases[0];
   for (const SupportReaction& reaction : one.reactions)
     EXPECT_NEAR(reaction.force.norm(), 12.5e3, 5e-3 * 12.5e3);  // and its shear
@@ -60,8 +66,8 @@ TEST(CoarseDecks, ClampThatSettlesPullsBySlopeDeflection) {
 TEST(CoarseDecks, BalanceUnderAMomentIsRounding) {
   const DeckSolution solution =
       solve_coarse(test::nastran(one_bar("SPC1,1,123456,1\nMOMENT,2,2,,1000.,0.,0.,1.\n")), 1);
-  EXPECT_LT(solution.cases[0].force_residual, 1e-9);
-  EXPECT_LT(solution.cases[0].moment_residual, 1e-9);
+  EXPECT_LT(solution.cases[0].force_residual, balanced);
+  EXPECT_LT(solution.cases[0].moment_residual, balanced);
 }
 
 TEST(CoarseDecks, SpringsToTheGroundAreInTheBalance) {
@@ -69,9 +75,9 @@ TEST(CoarseDecks, SpringsToTheGroundAreInTheBalance) {
       test::nastran(one_bar("SPC1,1,123456,1\nCELAS2,9,50000.,2,2\nFORCE,2,2,,1000.,0.,1.,0.\n")),
       1);
   const DeckCaseSolution& one = solution.cases[0];
-  EXPECT_LT(one.force_residual, 1e-9);
-  EXPECT_LT(one.moment_residual, 1e-9);
-  EXPECT_NEAR(one.supported.force.y(), -1000, 1e-6);
+  EXPECT_LT(one.force_residual, balanced);
+  EXPECT_LT(one.moment_residual, balanced);
+  EXPECT_NEAR(one.supported.force.y(), -1000, 1000 * balanced);
 }
 
 // Two plates of 1 x 1 m, clamped at x = 0; nodes 3 and 6 at x = 2.
@@ -131,7 +137,8 @@ TEST(CoarseDecks, TiedSeamDoesNotGapeBetweenItsNodes) {
 }
 
 // A cantilever of 1 x 0.1 m, 10 mm thick, of 4 x 2 squares cut into triangles, bent in its plane:
-// P l^3 / 3 E I + P l / (5/6 G A).
+// P l^3 / 3 E I + P l / (5/6 G A). The clamp holds the plate across, too, and its shear as it leaves
+// the clamp: half a percent.
 TEST(CoarseDecks, TrianglesBendInTheirPlane) {
   constexpr int m = 4, n = 2;
   std::string text = "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n";
@@ -151,7 +158,7 @@ TEST(CoarseDecks, TrianglesBendInTheirPlane) {
   const Deck deck = test::nastran(text + "ENDDATA\n");
   const double inertia = 0.01 * 1e-3 / 12, shear = 5. / 6 * 2e11 / 2.6 * 1e-3;
   const double expected = 100 / (3 * 2e11 * inertia) + 100 / shear;
-  for (const auto& [degree, tolerance] : {std::pair{2, 0.02}, std::pair{3, 0.005}}) {
+  for (const auto& [degree, tolerance] : {std::pair{2, 0.02}, std::pair{3, 0.01}}) {
     const DeckCaseSolution one = solve_coarse(deck, degree).cases[0];
     const double work = 2 * one.strain_energy / 100;  // the load's mean displacement
     EXPECT_NEAR(work, expected, tolerance * expected) << "degree " << degree;

@@ -174,7 +174,7 @@ TEST(Taper, WhatIsNotKnownIsRefused) {
                "COMPOSITE, NODAL THICKNESS\n0.03, 3, M, 0.\n0.02, 3, N, 0.\n");
   text.insert(text.find("*SHELL SECTION"), "*MATERIAL, NAME=N\n*ELASTIC\n1.e11, 0.3\n");
   EXPECT_THAT(test::complaints_of_abaqus(text),
-              ::testing::HasSubstr("layers cannot have the thickness of their nodes"));
+              ::testing::HasSubstr("cannot have the thickness of their nodes"));
 }
 
 // CalculiX asks no section: shells at nodes without a thickness keep their section's there.

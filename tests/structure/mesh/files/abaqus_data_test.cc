@@ -50,6 +50,7 @@ TEST(AbaqusData, KeywordsReadTheFileThatInputNames) {
   const Deck deck = read_abaqus(
       folder.write("deck.inp", plate_of_two +
                                    "*NODE, INPUT=more\\nodes.txt, NSET=X\n9, 4., 0., 0.\n"
+                                   "*NSET, NSET=Y\nX\n"
                                    "*ELEMENT, TYPE=S4R, ELSET=A, INPUT=\"elements.txt\"\n"
                                    "*EQUATION, INPUT=means.txt\n*MPC, INPUT=pairs.txt\n"
                                    "*BOUNDARY, INPUT=held.txt\n*STEP\n*STATIC\n"
@@ -61,7 +62,7 @@ TEST(AbaqusData, KeywordsReadTheFileThatInputNames) {
   ASSERT_EQ(deck.mesh.vertices.size(), 9U);
   expect_near(deck.mesh.vertices[7], Vector3(3, 1, 0), 1e-12);
   const auto set = std::find_if(deck.sets.begin(), deck.sets.end(),
-                                [](const NamedSet& one) { return one.name == "X"; });
+                                [](const NamedSet& one) { return one.name == "Y"; });
   ASSERT_NE(set, deck.sets.end());
   EXPECT_THAT(set->vertices, ElementsAre(6, 7, 8));
   EXPECT_EQ(deck.mesh.shells.size(), 3U);
