@@ -51,7 +51,9 @@ struct ShellPoint {
 /// (Bucalem and Bathe 1993 for p = 2). What that takes from the mean membrane strain of a cell
 /// which is no parallelogram is given back evenly, so that constant stress does the same work on
 /// tied strains as on those of the displacements: without it distorted cells fail the patch test
-/// (for the mean of assumed strains see Simo and Hughes 1986). Source of the drilling term: Hughes
+/// (for the mean of assumed strains see Simo and Hughes 1986). A triangle is a cell with an edge that
+/// is a point, towards which xi loses its meaning: from degree 2 on its membrane strains are those of
+/// the displacements, for tied ones lock. Source of the drilling term: Hughes
 /// and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121, with a hundredth of their
 /// stiffness G t: where plates meet, the slope of one is the drilling of another.
 ///
