@@ -21,10 +21,13 @@ int usable_threads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-namespace {
-
-void deal_out(int count, int batch_size, int threads,
-              const std::function<void(int first, int count)>& work) {
+void in_batches(int count, int batch_size, int threads,
+                const std::function<void(int first, int count)>& work) {
+  if (threads <= 0) threads = usable_threads();
+  threads = std::min(threads, (count + batch_size - 1) / batch_size);
+  // Not for some of the works alone: sums would depend on what goes on beside them, and when.
+  std::optional<OneBlasThread> for_each_of_several;
+  if (threads > 1) for_each_of_several.emplace();
   std::atomic<int> next{0};
   std::exception_ptr failure;
   int failed = count;  // first number of the lowest batch that has failed
@@ -52,20 +55,8 @@ void deal_out(int count, int batch_size, int threads,
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace
-
-void in_batches(int count, int batch_size, int threads,
-                const std::function<void(int first, int count)>& work) {
-  if (threads <= 0) threads = usable_threads();
-  threads = std::min(threads, (count + batch_size - 1) / batch_size);
-  std::optional<OneBlasThread> for_each_of_several;
-  if (threads > 1) for_each_of_several.emplace();
-  deal_out(count, batch_size, threads, work);
-}
-
 void side_by_side(const std::function<void()>& first, const std::function<void()>& second) {
-  deal_out(2, 1, std::min(2, usable_threads()),
-           [&](int which, int) { which == 0 ? first() : second(); });
+  in_batches(2, 1, 0, [&](int which, int) { which == 0 ? first() : second(); });
 }
 
 void for_each(int count, int threads, const std::function<void(int)>& work) {

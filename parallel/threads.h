@@ -17,8 +17,7 @@ int usable_threads();
 void in_batches(int count, int batch_size, int threads,
                 const std::function<void(int first, int count)>& work);
 
-/// Two works at the same time if two threads are usable; each has all threads of BLAS. If both
-/// throw, the first's exception is thrown on.
+/// Two works at the same time if two threads are usable. Exceptions and BLAS as above.
 void side_by_side(const std::function<void()>& first, const std::function<void()>& second);
 
 /// Deals the numbers 0 .. count - 1 out one by one: work(i). Exceptions and threads as above.
