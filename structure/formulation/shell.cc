@@ -365,7 +365,8 @@ void ShellOperator::reinit(int cell) {
                      located.origin + located.size * places_.col(static_cast<Eigen::Index>(q)));
     turns.push_back(turn_to(surface, point.e_1, point.e_2));
   }
-  const bool is_balanced = !has_ties_ || !ties_membrane_ || (space_.degree() > 1 && mean_->is_even());
+  const bool is_balanced =
+      !has_ties_ || !ties_membrane_ || (space_.degree() > 1 && mean_->is_even());
   mean_->strains.resize(3, 0);
   if (!is_balanced) find_mean_strains(offset);
   tie_strains(offset);

@@ -146,14 +146,13 @@ void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& s
     moments += moment.norm();
   };
   for (const SupportReaction& reaction : solution.reactions) add(reaction);
-  for (const SupportReaction& reaction : forces_of_ground(space, solution.motion))
-    add(reaction);
+  for (const SupportReaction& reaction : forces_of_ground(space, solution.motion)) add(reaction);
   const auto share = [](const Vector3& left, double of) { return of > 0 ? left.norm() / of : 0; };
   const double size = size_of(space);
   solution.force_residual = share(solution.applied.force + solution.supported.force,
                                   std::max(forces, size > 0 ? moments / size : 0));
-  solution.moment_residual = share(solution.applied.moment + solution.supported.moment,
-                                   std::max(moments, forces * size));
+  solution.moment_residual =
+      share(solution.applied.moment + solution.supported.moment, std::max(moments, forces * size));
 }
 
 /// Solves the cases that some supports hold.

@@ -373,8 +373,8 @@ OverShell over_square(const Mesh& mesh, int shell, const Vector3& place,
                       const Eigen::Vector2d& start) {
   OverShell over{start, {}};
   iterate([&]() -> Eigen::Vector2d {
-    const Eigen::Vector2d change = least_squares(
-        tangents(mesh, shell, over.xi), place - position(mesh, mesh.shells[shell], over.xi));
+    Eigen::Vector2d change = least_squares(tangents(mesh, shell, over.xi),
+                                           place - position(mesh, mesh.shells[shell], over.xi));
     over.xi = (over.xi + change).cwiseMax(1 - far_outside).cwiseMin(far_outside);
     return change;
   });
@@ -407,7 +407,7 @@ OverShell over_triangle(const Mesh& mesh, int shell, const Vector3& place,
       Eigen::Matrix<double, 3, 2> by_shares;
       by_shares.col(0) = g.col(0) / (1 - xi.y());
       by_shares.col(1) = g.col(1) + xi.x() * by_shares.col(0);
-      const Eigen::Vector2d change = least_squares(by_shares, place - position(mesh, triangle, xi));
+      Eigen::Vector2d change = least_squares(by_shares, place - position(mesh, triangle, xi));
       shares = (shares + change).cwiseMax(1 - far_outside).cwiseMin(far_outside);
       return change;
     });

@@ -16,8 +16,8 @@
 #include "structure/index.h"
 #include "structure/large_pages.h"
 #include "structure/mesh/solid_shape.h"
-#include "structure/space/joints.h"
 #include "structure/space/edge_nodes.h"
+#include "structure/space/joints.h"
 #include "structure/space/links.h"
 #include "structure/space/space_implementation.h"
 

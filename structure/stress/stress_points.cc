@@ -101,8 +101,7 @@ Eigen::MatrixXd StressPoints::stresses(int first, int count,
       continue;
     }
     const BeamPointOf& point = beam_points_[first + i - shell_points_];
-    if (i == shells || point.at == 0)
-      of_end = beam_stresses(space_, point.cell, point.xi, motions);
+    if (i == shells || point.at == 0) of_end = beam_stresses(space_, point.cell, point.xi, motions);
     rows.row(6 * i) = of_end.row(point.at);
   }
   return rows;

@@ -37,7 +37,7 @@ class StressPoints {
   struct BeamPointOf {
     int cell = 0;
     double xi = 0;  ///< on its unit length
-    int at = 0;  ///< place in stress_points(section)
+    int at = 0;     ///< place in stress_points(section)
   };
   int points_per_cell() const { return 2 * space_.nodes_per_shell(); }
   std::unique_ptr<ShellStress> borrow() const;

@@ -78,9 +78,8 @@ class Loads {
 
   /// Three components from a field on, which are not all zero where the load has a size.
   static Vector3 direction_of(const CardView& card, std::size_t first, bool has_size) {
-    const Vector3 direction(card.real(first, "component", 0.0),
-                            card.real(first + 1, "component", 0.0),
-                            card.real(first + 2, "component", 0.0));
+    Vector3 direction(card.real(first, "component", 0.0), card.real(first + 1, "component", 0.0),
+                      card.real(first + 2, "component", 0.0));
     if (!has_size || !direction.isZero(0)) return direction;
     std::string given;
     for (std::size_t i = first; i < first + 3; ++i)
