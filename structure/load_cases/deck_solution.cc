@@ -15,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/load_cases/deck_loads.h"
 #include "structure/load_cases/deck_supports.h"
+#include "structure/mesh/spring_motion.h"
 #include "structure/response/loose_block.h"
 #include "structure/space/freedom_text.h"
 #include "structure/stopwatch.h"
@@ -116,14 +117,10 @@ std::vector<SupportReaction> forces_of_ground(const Space& space, const Eigen::V
     for (std::size_t end = 0; end < 2; ++end) {
       if (spring.vertices[end] < 0 || spring.vertices[1 - end] >= 0) continue;
       const int vertex = spring.vertices[end];
-      const Vector3 axis = spring.axes[end].col(spring.components[end] % 3);
-      const bool turns = spring.components[end] >= 3;
-      const Vector3 of_u = turns ? Vector3::Zero() : axis;
-      const Vector3 of_theta = turns ? axis : Vector3(spring.arms[end].cross(axis));
-      const auto moved = motion.segment<6>(6L * space.node_of_vertex(vertex));
+      const Eigen::Matrix<double, 6, 1> factors = spring_motion(spring, end);
       const double force =
-          -spring.stiffness * (of_u.dot(moved.head<3>()) + of_theta.dot(moved.tail<3>()));
-      forces.push_back({vertex, force * of_u, force * of_theta});
+          -spring.stiffness * factors.dot(motion.segment<6>(6L * space.node_of_vertex(vertex)));
+      forces.push_back({vertex, force * factors.head<3>(), force * factors.tail<3>()});
     }
   return forces;
 }

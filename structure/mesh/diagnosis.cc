@@ -15,6 +15,7 @@
 #include "algebra/decompositions.h"
 #include "structure/index.h"
 #include "structure/mesh/solid_shape.h"
+#include "structure/mesh/spring_motion.h"
 
 namespace blocklift::structure {
 
@@ -435,12 +436,12 @@ class Doctor {
     bool has_ground = false;
     for (const Spring& spring : mesh_.springs) {
       for (std::size_t end = 0; end < 2; ++end) {
-        const int v = spring.vertices[end], c = spring.components[end];
+        const int v = spring.vertices[end];
         if (v < 0) {
           has_ground = true;
           continue;
         }
-        resist(v, motion(spring.axes[end].col(c % 3), spring.arms[end], c >= 3));
+        resist(v, spring_motion(spring, end));
       }
       if (spring.vertices[0] < 0 || spring.vertices[1] < 0)
         add("springs to the ground", Severity::warning, spring.label,

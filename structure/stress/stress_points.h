@@ -11,8 +11,8 @@
 namespace blocklift::structure {
 
 /// Where the stress of a block is looked at: the nodes of its shells' cells on both surfaces, as
-/// each cell sees them (a hundredth of the cell inside it), the ends of its beams at their
-/// sections' outer points, and the corners of its solids.
+/// each cell sees them (a hundredth of the cell inside it), the ends and the middles of its beams'
+/// cells at their sections' outer points, and the corners of its solids.
 ///
 /// Stresses are (11, 22, 0, 12, 0, 0) along directions of each cell's own, Pa: invariants can be
 /// compared, components of different cells cannot. A beam has (11, 0, 0, 0, 0, 0),

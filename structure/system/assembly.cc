@@ -18,6 +18,7 @@
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
+#include "structure/mesh/spring_motion.h"
 #include "structure/system/linear_solver.h"
 
 namespace blocklift::structure {
@@ -201,13 +202,9 @@ class ElementStiffness {
     std::vector<double> row;
     for (std::size_t end = 0; end < 2; ++end) {
       if (spring.vertices[end] < 0) continue;
-      const Vector3 axis =
-          (end == 0 ? 1.0 : -1.0) * spring.axes[end].col(spring.components[end] % 3);
-      const bool turns = spring.components[end] >= 3;
-      const Vector3 of_u = turns ? Vector3::Zero() : axis;
-      const Vector3 of_theta = turns ? axis : Vector3(spring.arms[end].cross(axis));
-      row.insert(row.end(), of_u.begin(), of_u.end());
-      row.insert(row.end(), of_theta.begin(), of_theta.end());
+      const Eigen::Matrix<double, 6, 1> factors =
+          (end == 0 ? 1.0 : -1.0) * spring_motion(spring, end);
+      row.insert(row.end(), factors.begin(), factors.end());
     }
     const Eigen::Map<const Eigen::VectorXd> stretch(row.data(),
                                                     static_cast<Eigen::Index>(row.size()));
