@@ -55,7 +55,10 @@ struct ShellPoint {
 /// is a point, towards which xi loses its meaning: from degree 2 on its membrane strains are those of
 /// the displacements, for tied ones lock. Source of the drilling term: Hughes
 /// and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121, with a hundredth of their
-/// stiffness G t: where plates meet, the slope of one is the drilling of another.
+/// stiffness G t: where plates meet, the slope of one is the drilling of another. Facets that stand
+/// for curved plating (find_facets) have all of it. Where they meet, a twisting moment m leaves
+/// m times the kink to the drilling of either, and what gives way there adds (thickness / radius)^2
+/// over that share to the twist, however fine the facets are.
 ///
 /// One object serves one thread.
 class ShellOperator {
@@ -119,6 +122,7 @@ class ShellStiffness {
   const Space& space_;
   Eigen::VectorXd weights_;
   ShellOperator operator_;
+  std::vector<bool> is_facet_;  ///< of the mesh's shells
   Eigen::MatrixXd rooted_, stiffness_;
 };
 

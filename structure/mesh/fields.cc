@@ -12,43 +12,12 @@
 #include <Eigen/Dense>
 
 #include "algebra/decompositions.h"
+#include "structure/mesh/shell_edges.h"
 #include "structure/mesh/solid_lugs.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-/// Edges of a shell in the order in which its outline runs round: corners at their ends.
-constexpr std::array<std::array<int, 2>, 4> round_edges{{{0, 1}, {1, 3}, {3, 2}, {2, 0}}};
-
-Eigen::Vector2d corner_place(int corner) { return {corner & 1, corner >> 1}; }
-
-struct EdgeOfShell {
-  int shell = 0;
-  int edge = 0;  ///< place in round_edges
-};
-
-using EdgeKey = std::pair<int, int>;
-using EdgeMap = std::map<EdgeKey, std::vector<EdgeOfShell>>;
-
-int vertex_of(const Mesh& mesh, int shell, int corner) {
-  return mesh.shells[shell].vertices[corner];
-}
-
-EdgeKey key_of(const Mesh& mesh, const EdgeOfShell& edge) {
-  return std::minmax(vertex_of(mesh, edge.shell, round_edges[edge.edge][0]),
-                     vertex_of(mesh, edge.shell, round_edges[edge.edge][1]));
-}
-
-EdgeMap collect_edges(const Mesh& mesh) {
-  EdgeMap edges;
-  for (int shell = 0; shell < static_cast<int>(mesh.shells.size()); ++shell)
-    for (int edge = 0; edge < 4; ++edge) {
-      const EdgeKey key = key_of(mesh, {shell, edge});
-      if (key.first != key.second) edges[key].push_back({shell, edge});
-    }
-  return edges;
-}
 
 /// Where lugs of solids stand: edges of shells, joints as those with lugs of shells are, and the
 /// vertices at the ends, their toes.
@@ -74,28 +43,6 @@ BelowLugs find_below_lugs(const Mesh& mesh, const EdgeMap& edges) {
   return below;
 }
 
-Eigen::Matrix<double, 3, 2> tangents(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
-  const Shell& s = mesh.shells[shell];
-  Eigen::Matrix<double, 3, 2> g;
-  if (s.curvature < 0) {
-    const auto v = [&](std::size_t i) { return mesh.vertices[s.vertices[i]]; };
-    g.col(0) = (1 - xi.y()) * (v(1) - v(0)) + xi.y() * (v(3) - v(2));
-    g.col(1) = (1 - xi.x()) * (v(2) - v(0)) + xi.x() * (v(3) - v(1));
-    return g;
-  }
-  const double step = 1e-4;
-  for (int a = 0; a < 2; ++a) {
-    const Eigen::Vector2d along = step * Eigen::Vector2d::Unit(a);
-    g.col(a) = (position(mesh, s, xi + along) - position(mesh, s, xi - along)) / (2 * step);
-  }
-  return g;
-}
-
-Vector3 normal_at(const Mesh& mesh, int shell, const Eigen::Vector2d& xi) {
-  const Eigen::Matrix<double, 3, 2> g = tangents(mesh, shell, xi);
-  return Vector3(g.col(0)).cross(Vector3(g.col(1))).normalized();
-}
-
 /// Of one material and, where they meet, of one thickness.
 bool same_section(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b) {
   const auto thickness = [&](const EdgeOfShell& edge) {
@@ -106,19 +53,6 @@ bool same_section(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b) 
   return mesh.section_of(mesh.shells[a.shell]).material ==
              mesh.section_of(mesh.shells[b.shell]).material &&
          std::abs(thickness(a) - thickness(b)) < 1e-6 * thickness(a);
-}
-
-/// Two shells that go on into one another across an edge. The normals are those in the edge's
-/// middle, since curved shells are smooth where they meet and not in their middles.
-bool is_smooth(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b, double kink) {
-  const auto middle = [](const EdgeOfShell& e) -> Eigen::Vector2d {
-    const Eigen::Vector2d on_edge =
-        0.5 * (corner_place(round_edges[e.edge][0]) + corner_place(round_edges[e.edge][1]));
-    return on_edge + 0.01 * (Eigen::Vector2d(0.5, 0.5) - on_edge);
-  };
-  const double cosine =
-      std::abs(normal_at(mesh, a.shell, middle(a)).dot(normal_at(mesh, b.shell, middle(b))));
-  return cosine > std::cos(kink);
 }
 
 /// Does the second shell run round the edge the same way as the first? Then their normals disagree.
@@ -153,7 +87,7 @@ class FieldFinder {
     for (const auto& [key, shells] : edges_) {
       const bool is_inside = shells.size() == 2 && meeting(key) == 2 &&
                              joins(key, shells[0], shells[1]) &&
-                             is_smooth(mesh, shells[0], shells[1], kink);
+                             kink_between(mesh, shells[0], shells[1]) < kink;
       if (is_inside) {
         inside_.insert(key);
       } else {

@@ -1,6 +1,8 @@
 #include <cmath>
 #include <functional>
+#include <string>
 #include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -105,30 +107,41 @@ VerificationCase curved_beam() {
 }
 
 // 12 x 1.1 x 0.32, twisted by 90 degrees from root to tip.
+Mesh twisted_strip(int cells, int across, int order) {
+  return testing::sheet_mesh(
+      [](double x, double y) -> Vector3 {
+        const double a = M_PI / 2 * x, s = 1.1 * (y - 0.5);
+        return {12 * x, s * std::sin(a), s * std::cos(a)};
+      },
+      cells, across, 0.32, {"unit", 29e6, 0.22, 0, 1}, order);
+}
+
+void add_twisted_rows(const Mesh& mesh, int degree, const std::string& cells,
+                      std::vector<VerificationRow>& rows) {
+  for (const auto& [what, direction, reference] :
+       {std::tuple{"in-plane shear", Vector3(Vector3::UnitY()), 0.005424},
+        {"out-of-plane shear", Vector3(Vector3::UnitZ()), 0.001754}}) {
+    const double deflection = end_deflection(
+        mesh, degree, Vector3::Zero(), Vector3::UnitX(),
+        [](const Vector3& p) { return p.x() > 12 - 1e-9; }, 1.1, direction);
+    rows.push_back(compare(fmt::format("{}, {} of degree {}", what, cells, degree), "1", reference,
+                           deflection, 0.01 * reference));
+  }
+}
+
 VerificationCase twisted_beam() {
   return {.name = "macneal-twisted-beam",
           .stage = "structure",
           .source = macneal_harder,
           .compute = [] {
             std::vector<VerificationRow> rows;
-            for (const auto& [degree, cells] : {std::pair{2, 12}, {3, 6}, {3, 12}, {4, 6}}) {
-              const Mesh mesh = testing::sheet_mesh(
-                  [](double x, double y) -> Vector3 {
-                    const double a = M_PI / 2 * x, s = 1.1 * (y - 0.5);
-                    return {12 * x, s * std::sin(a), s * std::cos(a)};
-                  },
-                  cells, 2, 0.32, {"unit", 29e6, 0.22, 0, 1}, degree);
-              const auto along = [&, d = degree](const Vector3& direction) {
-                return end_deflection(
-                    mesh, d, Vector3::Zero(), Vector3::UnitX(),
-                    [](const Vector3& p) { return p.x() > 12 - 1e-9; }, 1.1, direction);
-              };
-              rows.push_back(
-                  compare(fmt::format("in-plane shear, {} x 2 cells of degree {}", cells, degree),
-                          "1", 0.005424, along(Vector3::UnitY()), 0.01 * 0.005424));
-              rows.push_back(compare(
-                  fmt::format("out-of-plane shear, {} x 2 cells of degree {}", cells, degree), "1",
-                  0.001754, along(Vector3::UnitZ()), 0.01 * 0.001754));
+            for (const auto& [degree, cells] : {std::pair{2, 12}, {3, 6}, {3, 12}, {4, 6}})
+              add_twisted_rows(twisted_strip(cells, 2, degree), degree,
+                               fmt::format("{} x 2 cells", cells), rows);
+            for (const int degree : {2, 3}) {
+              Mesh mesh = twisted_strip(24, 4, 1);
+              testing::divide_into_triangles(mesh, true);
+              add_twisted_rows(mesh, degree, "24 x 4 x 2 flat triangles", rows);
             }
             return rows;
           }};
