@@ -7,6 +7,7 @@
 #include <numeric>
 #include <sstream>
 
+#include <Eigen/Geometry>
 #include <kinsol/kinsol.h>
 
 #include "algebra/factors.h"
@@ -22,6 +23,10 @@ namespace {
 
 // Stiffness added to every direction, relative to its weight over 1 m: holds neutral directions.
 constexpr double holding_stiffness = 1e-7;
+
+// Of the couple that holds a heading, over weight times radius of gyration: a wind whose moment is a
+// hundredth of that turns the body by 1e-4 rad.
+constexpr double heading_stiffness = 100;
 
 // Steps with the stiffness of an equilibrium before are taken as long as each leaves at most this
 // part of the residual: a step with a stiffness of its own takes as long as some ten of them.
@@ -41,6 +46,9 @@ struct EquilibriumSolver::Implementation {
   [[noreturn]] void report_weightless(int velocity) const;
   void calc_residual(const Eigen::VectorXd& u, const Contacts* set, Eigen::VectorXd& residual);
   void calc_stiffness(const Eigen::VectorXd& u, const Contacts* set, Eigen::MatrixXd& stiffness);
+  Vector3 plumb_in_held_body() const;
+  double heading_spring() const;
+  void hold_heading();
   double scaled_norm(const Eigen::VectorXd& residual) const;
   bool newton();
   bool newton_with_known_stiffness(Eigen::VectorXd& u);
@@ -71,6 +79,7 @@ struct EquilibriumSolver::Implementation {
       free_weight;         ///< for each free velocity: force that its residual is compared with
   Eigen::VectorXd weight;  ///< the same for each unknown
   Eigen::MatrixXd mass;    ///< of the unknowns
+  Eigen::Index held = -1;  ///< where the turns of the body whose heading is held begin; -1: none
   Contacts contacts;       ///< fixed set of acting ropes and pads
   bool contacts_known = false;
   TangentMatrices tangent_matrices;
@@ -105,6 +114,14 @@ EquilibriumSolver::Implementation::Implementation(const LiftSystem& lift, Equili
       tangent_matrices(lift),
       context(sundials::make_context()) {
   make_kinsol(system.nv_free());
+  if (!settings.held_heading) return;
+  const Body& body = mechanism.body(settings.held_heading->body);
+  const std::vector<int>& free = mechanism.free_velocities();
+  const auto first = std::find(free.begin(), free.end(), body.v_offset);
+  if (body.joint.kind != JointKind::free || body.parent != world_index || first == free.end())
+    throw ModelError("the heading of body \"" + body.name +
+                     "\" cannot be held: it must have a free joint to the world");
+  held = first - free.begin();
 }
 
 // KINSOL for n unknowns.
@@ -193,6 +210,7 @@ void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, 
   compute_inverse_dynamics(mechanism, w.kinematics, w.v, w.vdot, w.loads.F_Bo_W, inverse, tau);
   Eigen::Index i = 0;
   for (const int k : mechanism.free_velocities()) free_force[i++] = w.loads.tau[k] - tau[k];
+  if (held >= 0) hold_heading();
   if (w.loops) {
     compute_loops(mechanism, w.kinematics, w.q, w.v, w.loops->loops);
     coordinates.balance(free_force, w.loops->lambda);
@@ -210,8 +228,30 @@ void EquilibriumSolver::Implementation::calc_stiffness(const Eigen::VectorXd& u,
   // Newton's method asks for the residual at each of its points before it asks for the stiffness.
   if (!set || set != evaluated_set || u != evaluated) calc_residual(u, set, residual_here);
   calc_tangent_matrices(system, time, w, tangent_matrices);
+  if (held >= 0) {
+    const Vector3 plumb_B = plumb_in_held_body();
+    tangent_matrices.stiffness.block<3, 3>(held, held) +=
+        heading_spring() * plumb_B * plumb_B.transpose();
+  }
   result = coordinates.seen_along(tangent_matrices.stiffness);
   result.diagonal() += holding_stiffness * weight;
+}
+
+// The increments of a free joint turn about the body's axes.
+Vector3 EquilibriumSolver::Implementation::plumb_in_held_body() const {
+  return w.kinematics.X_WB[settings.held_heading->body].R.row(2).transpose();
+}
+
+double EquilibriumSolver::Implementation::heading_spring() const {
+  return heading_stiffness * free_weight.segment<3>(held).maxCoeff();
+}
+
+// The couple about the plumb for the part of the turn away from the held heading that is about it.
+void EquilibriumSolver::Implementation::hold_heading() {
+  const Matrix3& R_WB = w.kinematics.X_WB[settings.held_heading->body].R;
+  const Eigen::Quaterniond turn(R_WB * settings.held_heading->R_WB.transpose());
+  const double angle = 2 * std::atan(turn.z() / turn.w());
+  free_force.segment<3>(held) -= heading_spring() * angle * plumb_in_held_body();
 }
 
 double EquilibriumSolver::Implementation::scaled_norm(const Eigen::VectorXd& residual) const {

@@ -283,7 +283,7 @@ Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w) {
 }
 
 double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w, BodyIndex body,
-                            TangentMatrices& tangent) {
+                            TangentMatrices& tangent, bool heading_is_held) {
   const Mechanism& mechanism = system.mechanism();
   const Body& b = mechanism.body(body);
   const std::vector<int>& free = mechanism.free_velocities();
@@ -302,6 +302,11 @@ double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w
   const Matrix3& R_WB = w.kinematics.X_WB[body].R;
   tilts.middleCols<3>(turn - free.begin()) = R_WB.topRows<2>();
   Eigen::MatrixXd stiffness = tangent.stiffness;
+  if (heading_is_held) {
+    const double firm = stiffness.diagonal().cwiseAbs().maxCoeff();
+    const Eigen::Index first = turn - free.begin();
+    stiffness.block<3, 3>(first, first) += firm * R_WB.row(2).transpose() * R_WB.row(2);
+  }
   if (w.loops) {
     const Eigen::MatrixXd basis = motions_of_loops(mechanism, w);
     stiffness = basis.transpose() * tangent.stiffness * basis;

@@ -94,9 +94,11 @@ Linearisation linearise(const LiftSystem& system, double t, LiftWorkspace& w);
 /// largest.
 /// @param tangent a workspace; overwritten.
 /// @param body a child of the world on a free joint that no drive moves.
+/// @param heading_is_held its turn about the plumb is no way to give way (HeldHeading): wind that
+///   would turn it round is not what tips it over.
 /// @throws ModelError if it is none, or has no weight.
 double calc_righting_height(const LiftSystem& system, double t, LiftWorkspace& w, BodyIndex body,
-                            TangentMatrices& tangent);
+                            TangentMatrices& tangent, bool heading_is_held = false);
 
 /// Linearises where the lift hangs at rest at each of the ascending times (s), following the
 /// equilibrium from a guess q_start (nq) at t = 0 in steps of at most `interval` (s).

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "dynamics/simulation/held_heading.h"
 #include "dynamics/simulation/lift_system.h"
 #include "pipeline/build/build_marine.h"
 #include "pipeline/files/lift_case/lift_case.h"
@@ -139,6 +140,10 @@ struct BuiltLift {
   dynamics::Arrangement arrangement = {};
   /// Of the fault that comes at its worst instant, if there is one.
   std::optional<WorstInstant> worst = {};
+
+  /// Of a load that turns on one hook, which nothing but wind does: at rest it is held as the case
+  /// has it.
+  std::optional<dynamics::HeldHeading> held_heading = {};
 
   /// The lift whose static equilibria are asked.
   const dynamics::LiftSystem& at_rest() const { return calm ? *calm : system; }

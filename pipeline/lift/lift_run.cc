@@ -67,18 +67,19 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
         dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
   // Both histories begin at the same equilibrium.
   Eigen::VectorXd q = system.q_start();
-  dynamics::EquilibriumSolver(at_rest).solve(0, q);
+  const dynamics::EquilibriumSettings rest{.held_heading = model.held_heading};
+  dynamics::EquilibriumSolver(at_rest, rest).solve(0, q);
   Eigen::VectorXd righting_height =
       Eigen::VectorXd::Constant(times.size(), std::numeric_limits<double>::quiet_NaN());
   std::function<void(Eigen::Index, double, dynamics::LiftWorkspace&)> observe;
   dynamics::TangentMatrices tangent(at_rest);
   if (extent.righting_height)
     observe = [&](Eigen::Index sample, double time, dynamics::LiftWorkspace& w) {
-      righting_height[sample] =
-          dynamics::calc_righting_height(at_rest, time, w, model.load, tangent);
+      righting_height[sample] = dynamics::calc_righting_height(
+          at_rest, time, w, model.load, tangent, model.held_heading.has_value());
     };
   dynamics::History static_history = dynamics::static_sweep(
-      at_rest, times, q, {}, report("static sweep"), observe, extent.recording());
+      at_rest, times, q, rest, report("static sweep"), observe, extent.recording());
   std::vector<NaturalModes> natural_modes;
   if (extent.natural_modes)
     natural_modes =

@@ -159,8 +159,8 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
   const std::vector<Instant> instants = instants_of(model, static_history);
   std::vector<double> times;
   for (const Instant& instant : instants) times.push_back(instant.time);
-  std::vector<dynamics::Linearisation> results =
-      dynamics::linearise_sweep(model.at_rest(), times, q_start, interval);
+  std::vector<dynamics::Linearisation> results = dynamics::linearise_sweep(
+      model.at_rest(), times, q_start, interval, {.held_heading = model.held_heading});
   std::vector<NaturalModes> all;
   for (std::size_t i = 0; i < instants.size(); ++i)
     all.push_back({instants[i].name, std::move(results[i])});

@@ -40,7 +40,7 @@ class SlingStates {
     const dynamics::LiftSystem& at_rest = model.at_rest();
     q_ = at_rest.q_start();
     time_ = time;
-    dynamics::EquilibriumSolver solver(at_rest);
+    dynamics::EquilibriumSolver solver(at_rest, {.held_heading = model.held_heading});
     solver.solve(0, q_);
     double now = 0;
     while (now < time) {
@@ -56,7 +56,7 @@ class SlingStates {
       for (RopeInCase& rope : case_.ropes)
         if (rope.name.value == slings_[i]) rope.length.value = lengths[i];
     const BuiltLift model = build_lift(case_, load_, nullptr, flexibility_);
-    dynamics::EquilibriumSolver solver(model.at_rest());
+    dynamics::EquilibriumSolver solver(model.at_rest(), {.held_heading = model.held_heading});
     Eigen::VectorXd q = q_;
     solver.solve(time_, q);
     return state_of(model, solver.workspace());

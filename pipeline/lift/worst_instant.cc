@@ -69,7 +69,8 @@ class Search {
                                       lift_case.dynamics.sample_interval)),
         watch_(fault, undisturbed_),
         q_(undisturbed_.system.q_start()) {
-    dynamics::EquilibriumSolver(undisturbed_.at_rest()).solve(0, q_);
+    dynamics::EquilibriumSolver(undisturbed_.at_rest(), {.held_heading = undisturbed_.held_heading})
+        .solve(0, q_);
     find_moving();
   }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
 
 #include "pipeline/lift/sling_ends.h"
 
@@ -52,6 +55,20 @@ void add_attitude(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   };
   add_rise("trim", 0, "angle of the load's x axis above the level");
   add_rise("list", 1, "angle of the load's y axis above the level");
+  measures.push_back(make_measure(lift,
+                                  {.subject = "load",
+                                   .kind = "turn",
+                                   .unit = "rad",
+                                   .extreme = Extreme::largest_magnitude,
+                                   .meaning = "turn of the load about the plumb away from where it "
+                                              "hangs at the start"},
+                                  [&](const dynamics::History& history, Eigen::Index sample) {
+                                    const Eigen::Quaterniond turn(
+                                        attitude(history, sample) *
+                                        attitude(lift.static_history, 0).transpose());
+                                    const double angle = 2 * std::atan2(turn.z(), turn.w());
+                                    return std::remainder(angle, 2 * std::numbers::pi);
+                                  }));
 }
 
 /// Against the level, of a pull upwards, rad; no number where there is none.

@@ -400,6 +400,11 @@ std::vector<std::string> list_assumptions(const Assessment& assessment) {
   std::vector<std::string> list;
   if (assessment.lift) {
     add_lift_assumptions(assessment.lift_case, list);
+    if (assessment.lift && assessment.lift->model.held_heading)
+      list.push_back(
+          "Nothing but wind turns the load about its one hook: at rest it is held at the heading "
+          "of "
+          "the case, as tag lines do; in motion nothing holds it.");
     if (assessment.lift_case.sea) {
       add_sea_assumptions(assessment.lift_case, *assessment.lift, list);
     }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/simulation/linearisation.h"
 #include "tests/dynamics/simulation/sample_lifts.h"
 
 namespace blocklift::dynamics {
@@ -102,6 +103,87 @@ TEST(Equilibrium, FindsItsWayFromARoughGuess) {
   const Eigen::VectorXd T = tensions(solver.workspace());
   EXPECT_NEAR(T.sum(), 10e3 * g, 1e-3 * 10e3 * g);
   EXPECT_LT(q[2], 0.0);
+}
+
+/// A load of 5 t on one rope from 10 m above its pin, in wind along +x on a flat area whose centre of
+/// pressure is 0.5 m beside its centre of mass; drawn at a heading.
+LiftSystem load_in_wind(double speed, double heading) {
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -g});
+  builder.add_body({.name = "load",
+                    .joint = {.kind = JointKind::free},
+                    .mass = 5e3,
+                    .I_BBcm_B = Vector3(4e3, 6e3, 8e3).asDiagonal()});
+  Mechanism mechanism = builder.build();
+  std::vector<Rope> ropes;
+  ropes.emplace_back(mechanism,
+                     RopeDefinition{.name = "sling",
+                                    .points = {{world_index, {0, 0, 12}}, {1, {0, 0, 2}}},
+                                    .axial_stiffness = 1e8,
+                                    .unstretched_length = 10});
+  ForceElements elements;
+  std::get<std::vector<WindArea>>(elements).emplace_back(
+      Wind::level(speed, 0), WindArea::Definition{.name = "side",
+                                                  .centre_of_pressure = {1, {0, 0.5, 0}},
+                                                  .area = 10,
+                                                  .coefficient = 1.2,
+                                                  .normal_B = Vector3::UnitX()});
+  Eigen::VectorXd q = mechanism.zero_configuration();
+  q.tail<4>() = quaternion_exponential({0, 0, heading});
+  return LiftSystem({.mechanism = std::move(mechanism),
+                     .ropes = std::move(ropes),
+                     .supports = {},
+                     .elements = std::move(elements),
+                     .operation = OperationBuilder().build(1.0),
+                     .q_start = q,
+                     .v_start = {}});
+}
+
+// What hangs on one point turns its edge to the wind, unless its heading is held: then the wind
+// presses on it, sideways by F = 1/2 rho C A U^2 cos^2 of the heading.
+TEST(Equilibrium, HeldHeadingFeelsTheWind) {
+  for (const double heading : {0.0, 0.4, -1.0, 3.0}) {
+    const LiftSystem lift = load_in_wind(15, heading);
+    const Matrix3 R_WB(Eigen::AngleAxisd(heading, Vector3::UnitZ()));
+    EquilibriumSolver solver(lift, {.held_heading = HeldHeading{1, R_WB}});
+    Eigen::VectorXd q = lift.q_start();
+    solver.solve(0.0, q);
+    const LiftWorkspace& w = solver.workspace();
+    const Vector3 x_W = w.kinematics.X_WB[1].R.col(0);
+    EXPECT_NEAR(std::remainder(std::atan2(x_W.y(), x_W.x()) - heading, 2 * M_PI), 0, 1e-3);
+    const Vector3 force = 0.5 * 1.25 * 1.2 * 10 * 15 * 15 * std::abs(x_W.x()) * x_W.x() * x_W;
+    const Vector3 pull =
+        w.rope_loads[0].tension *
+        Vector3(-q.head<3>() - w.kinematics.X_WB[1].R * Vector3(0, 0, 2) + Vector3(0, 0, 12))
+            .normalized();
+    EXPECT_LT((pull + force - Vector3(0, 0, 5e3 * g)).norm(), 1e-5 * 5e3 * g) << heading;
+  }
+}
+
+TEST(Equilibrium, HeldHeadingIsThatOfABodyOnAFreeJoint) {
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -g});
+  builder.add_body({.name = "load", .joint = {.kind = JointKind::translational}, .mass = 10e3});
+  const LiftSystem lift({.mechanism = builder.build(),
+                         .ropes = {},
+                         .supports = {},
+                         .elements = {},
+                         .operation = OperationBuilder().build(1.0),
+                         .q_start = Vector3::Zero(),
+                         .v_start = {}});
+  EXPECT_THAT(([&] { EquilibriumSolver(lift, {.held_heading = HeldHeading{.body = 1}}); }),
+              ThrowsMessage<ModelError>(HasSubstr("must have a free joint")));
+}
+
+// Wind that would turn a load round is not what tips it over: the pin is 2 m above its centre.
+TEST(Equilibrium, TurningInTheWindIsNoTipping) {
+  const LiftSystem lift = load_in_wind(2, M_PI / 2);
+  EquilibriumSolver solver(lift, {.held_heading = HeldHeading{
+                                      1, Matrix3(Eigen::AngleAxisd(M_PI / 2, Vector3::UnitZ()))}});
+  Eigen::VectorXd q = lift.q_start();
+  solver.solve(0.0, q);
+  TangentMatrices tangent(lift);
+  EXPECT_NEAR(calc_righting_height(lift, 0.0, solver.workspace(), 1, tangent, true), 2, 0.01);
 }
 
 // A V of two ropes: T = m g / (2 cos a), with the angle that the stretched ropes have.
