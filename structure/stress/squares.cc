@@ -15,6 +15,7 @@
 #include "structure/formulation/shell.h"
 #include "structure/large_pages.h"
 #include "structure/response/cell_finder.h"
+#include "structure/stress/bilinear_shear.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
@@ -338,6 +339,31 @@ void find_shares(const Space& space, const FieldWalker& walker, const CellFinder
   }
 }
 
+/// Takes from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a motion) the
+/// shear that cells of degree 1 do not bear.
+void take_excess_shear(const Space& space, const FieldWalker& walker, const CellFinder& cells,
+                       const Square& square, const auto& by_rows, Eigen::MatrixXd& strain) {
+  const double half = square.size / 2;
+  for (std::size_t i = 0; i < side_points.size(); ++i)
+    for (std::size_t j = 0; j < side_points.size(); ++j) {
+      const Vector3 place = square.centre_B + (square.size * side_points[i] - half) * square.e_1 +
+                            (square.size * side_points[j] - half) * square.e_2;
+      const auto found = walker.find(place, start_of(square));
+      if (!found)
+        throw std::logic_error("a square of the checked stress leaves its field of plates");
+      const CellPlace at = cells.find(*found);
+      const BilinearShear shear(space, at.cell);
+      const Eigen::Matrix<double, 3, 4> excess = shear.excess_at(at.xi);
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(strain.cols());
+      for (int node = 0; node < 4; ++node)
+        sum += excess.col(node).transpose() *
+               by_rows.template middleRows<3>(
+                   6 * static_cast<Eigen::Index>(space.shell_nodes(at.cell)[node]));
+      const double area = side_weights[i] * side_weights[j] * square.size * square.size;
+      strain -= area * shear.turned_to(square.e_1, square.e_2) * sum;
+    }
+}
+
 /// Where the thickness varies a square has that of its middle, m.
 double thickness_of(const Mesh& mesh, const FieldWalker& walker, const Square& square) {
   const Shell& shell = mesh.shells[square.shell];
@@ -422,6 +448,7 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
                       along_2.transpose() * across[0].middleRows<3>(row);
       };
       sum(strain, square.e_1, square.e_2, 0);
+      if (space.degree() == 1) take_excess_shear(space, walker, cells, square, by_rows, strain);
       // e . (theta x n) = theta . (n x e)
       sum(curvature, normal.cross(square.e_1), normal.cross(square.e_2), 3);
       const double area = square.size * square.size;

@@ -30,7 +30,8 @@ struct Square {
 /// narrow end takes a smaller square. The mean strain is the integral of the displacement along the
 /// square's outline,
 ///   mean e_ab = 1/A int sym(u_a nu_b) ds,   mean k_ab = 1/A int sym((theta x n)_a nu_b) ds,
-/// which converges with the displacement, also where the strain itself has no limit.
+/// which converges with the displacement, also where the strain itself has no limit. Of cells of
+/// degree 1 the membrane shear is that of their stiffness (BilinearShear).
 class CheckedStress {
  public:
   /// @param motions freedoms x m, m and rad. The model must outlive this object.
