@@ -51,6 +51,7 @@ class MeasureChecks {
     add_at_most("sidelead", "sidelead: largest angle across the plane of the radius",
                 value_of(limits.largest_sidelead));
     add_at_least("clearance", "clearance: smallest distance", limits.smallest_clearance);
+    add_ground();
     add_at_most("heel", "heel: largest of a vessel", value_of(limits.largest_heel));
     add_at_least("freeboard", "freeboard: lowest point of a deck over calm water",
                  value_of(limits.smallest_freeboard));
@@ -96,6 +97,20 @@ class MeasureChecks {
     if (!limit) return;
     if (const auto worst = worst_of(kind))
       note(*worst, check_at_least(name, worst->peak.value, *limit, worst->measure->unit));
+  }
+
+  /// A load that goes into the ground where nothing of the case bears it there.
+  void add_ground() {
+    constexpr double sunk = 0.1;  // m: pads and uneven ground
+    const LiftMeasure* distance = find("load to ground", "clearance");
+    if (!distance || case_.ground_contact) return;
+    const MeasurePeak peak = find_peak(lift_, *distance);
+    if (peak.value >= -sunk) return;
+    Check check = check_at_most("ground: how far the load reaches below it, where nothing bears it",
+                                -peak.value, sunk, "m");
+    check.time = peak.time;
+    check.note = fmt::format("ground at z = {:g} m", *case_.ground_height());
+    checks_.push_back(std::move(check));
   }
 
   /// A bar against buckling by its compression alone, and with bending; of a frame the worst side.
