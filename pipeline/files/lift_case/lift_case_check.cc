@@ -213,7 +213,7 @@ void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostic
 }
 
 /// Limits of what the case does not have: they would hold nothing, and nobody would see it.
-void check_limits(const LiftCase& lift_case, Diagnostics& diagnostics) {
+void check_limits_hold_something(const LiftCase& lift_case, Diagnostics& diagnostics) {
   const CheckSettings& checks = lift_case.checks;
   const auto refuse = [&](const std::optional<Located<double>>& limit, const char* key,
                           const char* lack, const char* advice) {
@@ -343,7 +343,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_afloat(lift_case, diagnostics);
   check_ground(lift_case, diagnostics);
   check_flexibility(lift_case.dynamics, diagnostics);
-  check_limits(lift_case, diagnostics);
+  check_limits_hold_something(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_standard(lift_case, diagnostics);
