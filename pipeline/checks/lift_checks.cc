@@ -11,6 +11,7 @@
 
 #include "dynamics/marine/hull/hydrostatics.h"
 #include "pipeline/checks/loop_loads.h"
+#include "pipeline/checks/lost_load.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/standards/sling_factor.h"
 
@@ -239,6 +240,7 @@ std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
     checks.push_back(std::move(check));
   }
   if (lift_case.checks.largest_swing) add_swing(lift, *lift_case.checks.largest_swing, checks);
+  if (std::optional<Check> held = check_held(lift_case, lift)) checks.push_back(std::move(*held));
   return checks;
 }
 

@@ -26,7 +26,8 @@ std::optional<RopeBend> find_bend(const RopeInCase& rope, const LiftRun& lift);
 double bend_efficiency(const RopeInCase& rope, const LiftRun& lift);
 
 /// Ropes and tackle against breaking load, hooks and cranes against capacity, slack and swing; each
-/// by the larger of the static and the dynamic history.
+/// by the larger of the static and the dynamic history. Of a load whose ropes have all parted,
+/// whether it is borne: check_held.
 std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift);
 
 /// Do the case's rules allow more near corners of the structure than in fields?

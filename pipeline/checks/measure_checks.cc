@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,13 @@
 namespace blocklift::pipeline {
 
 namespace {
+
+/// Of the falls of a block that turns, where the case gives none: there they turn it back most, rad.
+constexpr double usual_falls_twist = std::numbers::pi / 2;
+
+std::optional<double> value_of(const std::optional<Located<double>>& limit) {
+  return limit ? std::optional(limit->value) : std::nullopt;
+}
 
 /// The furthest out among the measures of a kind.
 struct Worst {
@@ -30,21 +38,23 @@ class MeasureChecks {
 
   std::vector<Check> list() {
     const CheckSettings& limits = case_.checks;
-    add_at_most("twist of falls", "twist of falls: largest of a hook block that turns",
-                limits.largest_falls_twist);
+    add_at_most(
+        "twist of falls", "twist of falls: largest of a hook block that turns",
+        limits.largest_falls_twist ? value_of(limits.largest_falls_twist) : usual_falls_twist);
     add_at_most("tilt", "tilt: angle of the load against the plumb", limits.largest_tilt);
     add_at_least("sling angle", "angle of slings: smallest against the level",
                  limits.smallest_sling_angle);
     add_at_least("righting height", "righting height: how far the suspension is from tipping",
                  limits.smallest_righting_height);
     add_at_most("offlead", "offlead: largest angle in the plane of the radius",
-                limits.largest_offlead);
+                value_of(limits.largest_offlead));
     add_at_most("sidelead", "sidelead: largest angle across the plane of the radius",
-                limits.largest_sidelead);
+                value_of(limits.largest_sidelead));
     add_at_least("clearance", "clearance: smallest distance", limits.smallest_clearance);
-    add_at_most("heel", "heel: largest of a vessel", limits.largest_heel);
+    add_ground();
+    add_at_most("heel", "heel: largest of a vessel", value_of(limits.largest_heel));
     add_at_least("freeboard", "freeboard: lowest point of a deck over calm water",
-                 limits.smallest_freeboard);
+                 value_of(limits.smallest_freeboard));
     for (const SpreaderInCase& bar : case_.spreaders) add_spreader(bar);
     add_tackles();
     for (const TuggerInCase& line : case_.tuggers) add_line("tugger", line);
@@ -87,6 +97,20 @@ class MeasureChecks {
     if (!limit) return;
     if (const auto worst = worst_of(kind))
       note(*worst, check_at_least(name, worst->peak.value, *limit, worst->measure->unit));
+  }
+
+  /// A load that goes into the ground where nothing of the case bears it there.
+  void add_ground() {
+    constexpr double sunk = 0.1;  // m: pads and uneven ground
+    const LiftMeasure* distance = find("load to ground", "clearance");
+    if (!distance || case_.ground_contact) return;
+    const MeasurePeak peak = find_peak(lift_, *distance);
+    if (peak.value >= -sunk) return;
+    Check check = check_at_most("ground: how far the load reaches below it, where nothing bears it",
+                                -peak.value, sunk, "m");
+    check.time = peak.time;
+    check.note = fmt::format("ground at z = {:g} m", *case_.ground_height());
+    checks_.push_back(std::move(check));
   }
 
   /// A bar against buckling by its compression alone, and with bending; of a frame the worst side.

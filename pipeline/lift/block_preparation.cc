@@ -89,6 +89,22 @@ bool stand_padeyes(const BlockModel& block, structure::Mesh& mesh, Diagnostics& 
 
 }  // namespace
 
+bool check_stated_mass(const BlockModel& block, const structure::MassProperties& mass,
+                       Diagnostics& diagnostics) {
+  constexpr double overlap = 0.05;  // of the steel's mass
+  if (!block.mass || mass.mass >= (1 - overlap) * mass.steel_mass) return true;
+  const char* const steel = block.mesh ? "mesh" : "plates";
+  diagnostics.error(
+      block.mass->mark,
+      fmt::format("the block's mass is stated as {:.4g} t, and its {} alone weigh{} {:.4g} t",
+                  mass.mass / 1e3, steel, block.mesh ? "s" : "", mass.steel_mass / 1e3),
+      {fmt::format("give the mass in the lift, outfitting included; or mend thicknesses, openings "
+                   "and densities of the {0}; or leave mass and centre_of_mass out: then they are "
+                   "those of the {0}",
+                   steel)});
+  return false;
+}
+
 std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
                                                           const std::string& name,
                                                           const StructureSettings& settings,
@@ -109,9 +125,10 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
     if (!stand_padeyes(block, mesh, diagnostics)) return nullptr;
     auto model = std::make_unique<structure::ElasticModel>(
         std::move(mesh), resolution, stated(block.mass), stated(block.centre_of_mass));
+    const bool mass_is_sound = check_stated_mass(block, model->mass_properties(), diagnostics);
     const bool edges_are_sound = check_edges(block, model->space(), diagnostics);
     const bool spots_are_sound = check_hot_spots(settings, model->space(), diagnostics);
-    return edges_are_sound && spots_are_sound ? std::move(model) : nullptr;
+    return mass_is_sound && edges_are_sound && spots_are_sound ? std::move(model) : nullptr;
   } catch (const structure::ModelError& error) {
     diagnostics.error(block.place, error.what());
     return nullptr;

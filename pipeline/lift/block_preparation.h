@@ -6,20 +6,31 @@
 #include "pipeline/files/lift_case/lift_case.h"
 #include "structure/response/elastic_model.h"
 #include "structure/response/unit_responses.h"
+#include "structure/rigid_body.h"
 
 namespace blocklift::pipeline {
 
 /// Mesh, mass and load vectors of a block model.
 ///
 /// What the mesh generator and the spreading of outfitting refuse (parts that run into one another,
-/// that nothing joins or that carry a mass they cannot have; elements that no memory holds) is
-/// wrong in the input: it is said as a complaint about the block's file.
+/// that nothing joins or that carry a mass they cannot have; elements that no memory holds), and a
+/// stated mass below that of the plates, is wrong in the input: it is said as a complaint about the
+/// block's file.
 /// @param name of the block, for messages.
 /// @returns null after a complaint.
 std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
                                                           const std::string& name,
                                                           const StructureSettings& settings,
                                                           Diagnostics& diagnostics);
+
+/// Complains, at its place, about a stated mass that is less than that of the plates alone: nothing
+/// would be left for outfitting, and steel of its own density would not be in the lift.
+///
+/// Up to a twentieth less is taken: shells overlap at joints and follow middle planes.
+/// @param mass of the block with what it states.
+/// @returns whether it had nothing to complain of.
+bool check_stated_mass(const BlockModel& block, const structure::MassProperties& mass,
+                       Diagnostics& diagnostics);
 
 /// Stiffness of the block, its factor, and responses to unit loads. The model must outlive them.
 ///

@@ -135,7 +135,7 @@ double borne_load(const SpreaderInCase& in_its_place, const LiftSpreader& spread
 }
 
 double spreader_factor(const CheckSettings& checks) {
-  return checks.spreader_factor.value_or(checks.yield_factor);
+  return checks.spreader_factor ? checks.spreader_factor->value : checks.yield_factor;
 }
 
 void add_spreader_measures(const LiftCase& lift_case, const LiftRun& lift,

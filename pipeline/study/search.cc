@@ -83,8 +83,13 @@ class Problem {
 
   BoundOfSearch state(const Member& member, std::size_t bound) const {
     const FigureBound& one = study_.subject_to[bound];
-    return {one.figure.value, limits_[bound], member.figure(one.figure.value),
-            one.at_least.has_value(), margin(member, bound) < near_limit * size(bound)};
+    const double left = margin(member, bound) / size(bound);
+    return {.figure = one.figure.value,
+            .limit = limits_[bound],
+            .value = member.figure(one.figure.value),
+            .is_least = one.at_least.has_value(),
+            .is_active = std::abs(left) < near_limit,
+            .is_exceeded = !(left >= -rounding)};
   }
 
   Eigen::VectorXd shares_of(const Eigen::VectorXd& values) const {

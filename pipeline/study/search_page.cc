@@ -22,6 +22,11 @@ const char* edge_text(int at_edge) {
   return at_edge < 0 ? "at its lowest" : at_edge > 0 ? "at its highest" : "";
 }
 
+const char* state_text(const BoundOfSearch& bound) {
+  if (bound.is_exceeded) return bound.is_least ? "missed" : "exceeded";
+  return bound.is_active ? "reached" : "";
+}
+
 /// "smallest ropes, R1, max static tension: 39.2 kN in member 31".
 std::string found_text(const StudyResults& results) {
   const SearchResults& search = *results.search;
@@ -102,7 +107,7 @@ std::string search_text(const StudyResults& results) {
       bounds.add_row(
           {results.shown(bound.figure).name,
            (bound.is_least ? ">= " : "<= ") + with_unit(results, bound.figure, bound.limit),
-           with_unit(results, bound.figure, bound.value), bound.is_active ? "reached" : ""});
+           with_unit(results, bound.figure, bound.value), state_text(bound)});
     text += "\n" + bounds.text();
   }
   text += "\n";
@@ -138,7 +143,7 @@ std::string search_section(const StudyResults& results) {
     for (const BoundOfSearch& bound : search.bounds)
       text += row({results.shown(bound.figure).name,
                    (bound.is_least ? "≥ " : "≤ ") + with_unit(results, bound.figure, bound.limit),
-                   with_unit(results, bound.figure, bound.value), bound.is_active ? "reached" : ""},
+                   with_unit(results, bound.figure, bound.value), state_text(bound)},
                   "td");
     text += "</table></div>\n";
   }

@@ -165,7 +165,8 @@ Json search_json(const StudyResults& results) {
     bounds.push_back({{"figure", bound.figure},
                       {bound.is_least ? "at_least" : "at_most", bound.limit},
                       {"value", number_or_null(bound.value)},
-                      {"is_active", bound.is_active}});
+                      {"is_active", bound.is_active},
+                      {"is_exceeded", bound.is_exceeded}});
   Json json{{"figure", search.figure},
             {"sought", search.is_largest ? "largest" : "smallest"},
             {"is_feasible", search.is_feasible},

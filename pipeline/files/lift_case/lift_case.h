@@ -311,19 +311,20 @@ struct CheckSettings {
   double lug_consequence_factor = 0;      ///< on forces and stresses of padeyes
   double lug_side_load = 0;               ///< least force along a padeye's pin, share of the rope's
   std::optional<double> buckling_factor;  ///< absent: yield_factor
-  std::optional<double> spreader_factor;  ///< absent: yield_factor
-  double smallest_tension = 0;            ///< N
-  std::optional<double> largest_swing;    ///< rad
-  double largest_falls_twist = 0;         ///< of hook blocks that turn, rad
+  std::optional<Located<double>> spreader_factor;  ///< absent: yield_factor
+  double smallest_tension = 0;                     ///< N
+  std::optional<double> largest_swing;             ///< rad
+  /// Of hook blocks that turn, rad; absent: a quarter of a turn.
+  std::optional<Located<double>> largest_falls_twist;
   // Of the lift's measures; absent: not checked.
-  std::optional<double> largest_tilt;              ///< of the load, rad
-  std::optional<double> smallest_sling_angle;      ///< against the level, rad
-  std::optional<double> largest_offlead;           ///< rad
-  std::optional<double> largest_sidelead;          ///< rad
-  std::optional<double> smallest_clearance;        ///< m
-  std::optional<double> smallest_righting_height;  ///< m
-  std::optional<double> largest_heel;              ///< of vessels, rad
-  std::optional<double> smallest_freeboard;        ///< of vessels, m
+  std::optional<double> largest_tilt;                 ///< of the load, rad
+  std::optional<double> smallest_sling_angle;         ///< against the level, rad
+  std::optional<Located<double>> largest_offlead;     ///< rad
+  std::optional<Located<double>> largest_sidelead;    ///< rad
+  std::optional<double> smallest_clearance;           ///< m
+  std::optional<double> smallest_righting_height;     ///< m
+  std::optional<Located<double>> largest_heel;        ///< of vessels, rad
+  std::optional<Located<double>> smallest_freeboard;  ///< of vessels, m
 };
 
 /// A published or measured pair of largest loads, N.

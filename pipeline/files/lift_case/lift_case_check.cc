@@ -212,6 +212,44 @@ void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostic
   refuse(dynamics.modal_damping, "modal_damping");
 }
 
+/// Limits of what the case does not have: they would hold nothing, and nobody would see it.
+void check_limits_hold_something(const LiftCase& lift_case, Diagnostics& diagnostics) {
+  const CheckSettings& checks = lift_case.checks;
+  const auto refuse = [&](const std::optional<Located<double>>& limit, const char* key,
+                          const char* lack, const char* advice) {
+    if (!limit) return;
+    diagnostics.error(limit->mark, fmt::format("checks has {}, but {}", key, lack), {advice});
+  };
+  const auto none_of_cranes = [&](const auto& has) {
+    return std::none_of(
+        lift_case.cranes.begin(), lift_case.cranes.end(),
+        [&](const CraneInCase& crane) { return !crane.model || has(*crane.model); });
+  };
+  if (none_of_cranes([](const CraneModel& crane) { return crane.radius_from.has_value(); })) {
+    constexpr const char* lack = "no crane says from where its radius counts";
+    constexpr const char* advice =
+        "give the crane a radius_from: {body: world, position: [0 m, 0 m, 0 m]}, or hold the "
+        "tackles by swing";
+    refuse(checks.largest_offlead, "offlead", lack, advice);
+    refuse(checks.largest_sidelead, "sidelead", lack, advice);
+  }
+  const auto turns = [](const HoistModel& hoist) { return hoist.hook_block.turning.has_value(); };
+  if (none_of_cranes([&](const CraneModel& crane) {
+        return std::any_of(crane.hoists.begin(), crane.hoists.end(), turns);
+      }))
+    refuse(checks.largest_falls_twist, "falls_twist", "no crane has a hook block that turns",
+           "give a hook_block the key turning, or leave falls_twist out");
+  if (lift_case.vessels.empty()) {
+    constexpr const char* lack = "the case has no vessels";
+    constexpr const char* advice = "it is that of vessels, not of the load: leave it out";
+    refuse(checks.largest_heel, "heel", lack, advice);
+    refuse(checks.smallest_freeboard, "freeboard", lack, advice);
+  }
+  if (lift_case.spreaders.empty())
+    refuse(checks.spreader_factor, "spreader_factor", "the case has no spreaders",
+           "spreaders are bars and frames under the key spreaders: leave spreader_factor out");
+}
+
 /// A ship that is given as a block and as a vessel is one.
 void check_weights(const LoadInCase& load, Diagnostics& diagnostics) {
   if (!load.model || !load.vessel || !load.model->mass) return;
@@ -305,6 +343,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_afloat(lift_case, diagnostics);
   check_ground(lift_case, diagnostics);
   check_flexibility(lift_case.dynamics, diagnostics);
+  check_limits_hold_something(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_standard(lift_case, diagnostics);

@@ -119,7 +119,8 @@ Format<CheckSettings> checks_format() {
       .optional("buckling_factor", &CheckSettings::buckling_factor, number(Range::at_least(1)),
                 "critical stress of a plate panel over the stress in it, and on the forces in bars "
                 "as columns; the yield factor if left out")
-      .optional("spreader_factor", &CheckSettings::spreader_factor, number(Range::at_least(1)),
+      .optional("spreader_factor", &CheckSettings::spreader_factor,
+                located(number(Range::at_least(1))),
                 "on the forces in spreaders, against yield and buckling; the yield factor if left "
                 "out")
       .by_default("smallest_tension", &CheckSettings::smallest_tension,
@@ -128,21 +129,22 @@ Format<CheckSettings> checks_format() {
       .optional("swing", &CheckSettings::largest_swing,
                 quantity(Dimension::angle, Range::positive()),
                 "largest angle of a hoist's tackle against the vertical; not checked if left out")
-      .by_default("falls_twist", &CheckSettings::largest_falls_twist,
-                  quantity(Dimension::angle, Range::positive()), "90 deg",
-                  "largest twist of the falls of a hook block that turns; at 90 deg they turn it "
-                  "back most, at 180 deg they cross")
+      .optional("falls_twist", &CheckSettings::largest_falls_twist,
+                located(quantity(Dimension::angle, Range::positive())),
+                "largest twist of the falls of a hook block that turns; at 90 deg they turn it "
+                "back most, at 180 deg they cross; 90 deg if left out")
       .optional("tilt", &CheckSettings::largest_tilt, quantity(Dimension::angle, Range::positive()),
                 "largest angle of the load's z axis against the plumb; not checked if left out")
       .optional("sling_angle", &CheckSettings::smallest_sling_angle,
                 quantity(Dimension::angle, Range::not_negative()),
                 "smallest angle of a sling against the level; not checked if left out")
-      .optional(
-          "offlead", &CheckSettings::largest_offlead, quantity(Dimension::angle, Range::positive()),
-          "largest angle of a tackle out of the plumb in the plane of the crane's radius; not "
-          "checked if left out")
+      .optional("offlead", &CheckSettings::largest_offlead,
+                located(quantity(Dimension::angle, Range::positive())),
+                "largest angle of a tackle out of the plumb in the plane of the crane's radius, of "
+                "cranes that have a radius_from; not checked if left out")
       .optional("sidelead", &CheckSettings::largest_sidelead,
-                quantity(Dimension::angle, Range::positive()), "the same across that plane")
+                located(quantity(Dimension::angle, Range::positive())),
+                "the same across that plane")
       .optional("clearance", &CheckSettings::smallest_clearance,
                 quantity(Dimension::length, Range::not_negative()),
                 "smallest distance of load, hooks, spreaders, tackles and cranes from one another, "
@@ -154,10 +156,12 @@ Format<CheckSettings> checks_format() {
                 "least moment against a tilt of the hanging load over its weight and the tilt, "
                 "0 m or more; not checked if left out")
       .optional(
-          "heel", &CheckSettings::largest_heel, quantity(Dimension::angle, Range::positive()),
+          "heel", &CheckSettings::largest_heel,
+          located(quantity(Dimension::angle, Range::positive())),
           "largest heel of a vessel, also behind a load that is lost (faults); not checked if "
           "left out")
-      .optional("freeboard", &CheckSettings::smallest_freeboard, quantity(Dimension::length),
+      .optional("freeboard", &CheckSettings::smallest_freeboard,
+                located(quantity(Dimension::length)),
                 "smallest height of a vessel's deck over calm water; not checked if left out");
   return table.format();
 }

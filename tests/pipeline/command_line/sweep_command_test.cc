@@ -285,6 +285,19 @@ TEST_F(SweepCommand, SearchesForTheBestWithinBounds) {
   EXPECT_EQ(none.exit_code, 3) << none.err;
   EXPECT_THAT(none.out, HasSubstr("no member keeps to all bounds"));
   EXPECT_THAT(none.out, HasSubstr("<= 45.00 °"));
+  EXPECT_THAT(none.out, HasSubstr("missed"));
+  EXPECT_THAT(none.out, ::testing::Not(HasSubstr("reached")));
+  const auto bounds = nlohmann::json::parse(text_of_file("none/study.json"))["search"]["bounds"];
+  EXPECT_TRUE(bounds[0]["is_exceeded"].get<bool>());
+  EXPECT_FALSE(bounds[0]["is_active"].get<bool>());
+  EXPECT_FALSE(bounds[1]["is_exceeded"].get<bool>());
+
+  write_study(search + "subject_to: [{figure: ropes.R2.max_static_tension_N, at_most: 1 kN}]\n");
+  const Outcome beyond = run("sweep study.yaml -o beyond");
+  EXPECT_EQ(beyond.exit_code, 3) << beyond.err;
+  EXPECT_THAT(beyond.out, HasSubstr("exceeded"));
+  EXPECT_THAT(beyond.out, ::testing::Not(HasSubstr("reached")));
+  EXPECT_THAT(text_of_file("beyond/study.html"), HasSubstr("<td>exceeded</td>"));
 }
 
 // What was "measured" is the tension of a lift whose sling is softer than the case says.

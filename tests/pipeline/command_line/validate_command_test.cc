@@ -178,6 +178,30 @@ TEST(ValidateCommand, SaysWhatTheMeshGeneratorWillRefuse) {
   }
 }
 
+TEST(ValidateCommand, SaysThatABlockWeighsLessThanItsPlates) {
+  const TemporaryFolder folder;
+  SampleLift lift;
+  lift.block = with(lift.block, "mass: 10 t", "mass: 1.8 t");
+  lift.write(folder);
+  // Bottom, webs without the hole, what pads are thicker, and lugs: 1,965.6 kg.
+  const std::string complaint =
+      "plate.yaml:4:7: error: the block's mass is stated as 1.8 t, and its plates alone weigh "
+      "1.966 t\n"
+      "    give the mass in the lift, outfitting included; or mend thicknesses, openings and "
+      "densities of the plates; or leave mass and centre_of_mass out: then they are those of the "
+      "plates\n1 error\n";
+  for (const char* file :
+       {"validate case.yaml", "validate plate.yaml", "assess case.yaml", "simulate case.yaml"}) {
+    const Outcome outcome = run_blocklift(file);
+    EXPECT_EQ(outcome.exit_code, 2) << file;
+    EXPECT_EQ(outcome.err, complaint) << file;
+    EXPECT_FALSE(fs::exists("results"));
+  }
+  // Within a twentieth, as shells that overlap at joints may make it.
+  folder.write("plate.yaml", with(lift.block, "mass: 1.8 t", "mass: 1.9 t"));
+  EXPECT_EQ(run_blocklift("validate case.yaml").exit_code, 0);
+}
+
 TEST(ValidateCommand, RefusesAnEmptyName) {
   const Outcome outcome = run_blocklift("validate ''");
   EXPECT_EQ(outcome.exit_code, 2);

@@ -2,10 +2,12 @@
 #include "pipeline/measures/vessel_measures.h"
 
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 
 #include "pipeline/build/build_lift.h"
+#include "pipeline/checks/lost_load.h"
 #include "pipeline/checks/measure_checks.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -81,6 +83,23 @@ TEST(VesselMeasures, AVesselHeelsToTheOtherSideWhenItsLoadIsLost) {
     freeboard_checked |= check.name.starts_with("freeboard") && check.pass;
   }
   EXPECT_TRUE(heel_checked && freeboard_checked);
+
+  // The lift itself fails, for its load is lost; one that floats when it is let go is not.
+  const std::optional<Check> lost = check_held(lift_case, run);
+  ASSERT_TRUE(lost);
+  EXPECT_FALSE(lost->pass);
+  EXPECT_EQ(lost->demand, 0);
+  LiftRun launched = run;
+  auto& pose =
+      launched.dynamic_result.history.bodies[static_cast<std::size_t>(launched.model.load) - 1]
+          .pose;
+  pose.rightCols<5>().setZero();
+  pose.col(3).setOnes();  // upright
+  pose.col(2).setConstant(-80e3 / (1025.0 * 16 * 8));
+  const std::optional<Check> afloat = check_held(lift_case, launched);
+  ASSERT_TRUE(afloat);
+  EXPECT_TRUE(afloat->pass);
+  EXPECT_NEAR(afloat->demand, 1, 1e-6);
 }
 
 }  // namespace

@@ -75,6 +75,22 @@ TEST_F(Members, HaveTheFiguresOfAWholeRun) {
   }
 }
 
+// The mesh of a study stays; what its members state is held against it all the same.
+TEST_F(Members, CannotWeighLessThanTheirPlates) {
+  folder_.write(
+      "study.yaml",
+      "study: small\ncase: lift\ndesign: grid\nrun: simulate\nfigures: "
+      "[ropes.R1.max_dynamic_tension_N]\nvary: {w: {keys: ['block:mass'], values: [8 t, 3 "
+      "t]}}\n");
+  const StudyFile study = read_study("study.yaml");
+  StudyBlocks blocks(study, "members");
+  std::filesystem::create_directories("members");
+  const Eigen::MatrixXd design = make_design(study);
+  EXPECT_EQ(run_member(study, design.row(0), 0, blocks).failure, "");
+  EXPECT_NE(run_member(study, design.row(1), 1, blocks).failure.find("its plates alone weigh"),
+            std::string::npos);
+}
+
 TEST_F(Members, HaveTheStressOfAWholeRun) {
   const std::string stress = "structure.history.dynamic.checked_von_mises_Pa";
   const std::string increase = "structure.history.stress_increase_percent";

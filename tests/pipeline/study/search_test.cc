@@ -81,6 +81,7 @@ TEST(Search, KeepsToABoundThatBinds) {
   EXPECT_NEAR(found.value, 0.08, 1e-3);
   EXPECT_GE(found.bounds.at(0).value, 0.5 * (1 - 1e-8));
   EXPECT_TRUE(found.bounds.at(0).is_active);
+  EXPECT_FALSE(found.bounds.at(0).is_exceeded);
   const std::vector<double> so_far = best_so_far(study, found);
   EXPECT_EQ(so_far.back(), found.value);
   for (std::size_t m = 1; m < so_far.size(); ++m) {
@@ -102,6 +103,8 @@ TEST(Search, EndsAtEdgesAndSaysWhatCannotBe) {
   study.subject_to = {at_least("sum", 3)};
   const SearchResults none = search(study, bowl);
   EXPECT_FALSE(none.is_feasible);
+  EXPECT_TRUE(none.bounds.at(0).is_exceeded);
+  EXPECT_FALSE(none.bounds.at(0).is_active);
   EXPECT_NEAR(none.value, 2, 0.05);
   for (const double value : best_so_far(study, none)) EXPECT_TRUE(std::isnan(value));
 }
