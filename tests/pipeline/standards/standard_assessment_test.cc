@@ -345,8 +345,8 @@ StandardInCase by_nd_0027_on_two_hooks() {
   return standard;
 }
 
-// Tilt of 3 degrees: 1.047654 on the first hook, (10 sin 3 + 12 cos 3) / (25 cos 3 - 4 sin 3) / 0.48
-// = 1.052498 on the second one. A lug's surroundings take that of their own sling, as its load
+// Tilt of 3 degrees: 1.047654 on the first hook, 1.052498 on the second one,
+// (10 sin 3 + 12 cos 3) / (25 cos 3 - 4 sin 3) / 0.48. A lug's surroundings take that of their own sling, as its load
 // does, other places the larger one; centre 1.10 and yaw 1.05 everywhere, members about lugs
 // 1.15 (0027/ND, table 11-1). Motion contains tilt and yaw.
 TEST(StandardAssessment, TheStructureTakesCentreTiltAndYawOfItsSlings) {
@@ -366,8 +366,8 @@ TEST(StandardAssessment, TheStructureTakesCentreTiltAndYawOfItsSlings) {
 }
 
 // With a box of the centre the largest growth counts: 1.08 of R4. R2 bears a tenth of the others
-// and grows by half, which does not count, about its own lug neither. A sling to a spreader does not
-// pull at the structure.
+// and grows by half, which does not count, about its own lug neither. A sling to a spreader does
+// not pull at the structure.
 TEST(StandardAssessment, TheStructureTakesTheBoxOfSlingsThatBear) {
   StandardInCase standard = by_nd_0027_on_two_hooks();
   standard.centre_box = Vector3(0.1, 0.1, 0.1);
