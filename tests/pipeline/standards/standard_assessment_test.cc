@@ -346,9 +346,9 @@ StandardInCase by_nd_0027_on_two_hooks() {
 }
 
 // Tilt of 3 degrees: 1.047654 on the first hook, 1.052498 on the second one,
-// (10 sin 3 + 12 cos 3) / (25 cos 3 - 4 sin 3) / 0.48. A lug's surroundings take that of their own sling, as its load
-// does, other places the larger one; centre 1.10 and yaw 1.05 everywhere, members about lugs
-// 1.15 (0027/ND, table 11-1). Motion contains tilt and yaw.
+// (10 sin 3 + 12 cos 3) / (25 cos 3 - 4 sin 3) / 0.48. A lug's surroundings take that of their own
+// sling, as its load does, other places the larger one; centre 1.10 and yaw 1.05 everywhere,
+// members about lugs 1.15 (0027/ND, table 11-1). Motion contains tilt and yaw.
 TEST(StandardAssessment, TheStructureTakesCentreTiltAndYawOfItsSlings) {
   const StandardAssessment result =
       assess_standard(by_nd_0027_on_two_hooks(), four_slings_on_two_hooks());
