@@ -131,10 +131,11 @@ TableBalance balance_of_table(const std::vector<Vector3>& forces_B, double heigh
   return find_table_balance(forces, lugs, mass, 9.81);
 }
 
-const Vector3 quarter(0, 0, 19.62);  // of the weight, kN
+const Vector3 quarter_load(0, 0, 19.62);  // of the weight, kN
 
 TEST(TableBalance, AQuarterOfTheWeightAtEachLugIsAtRest) {
-  const TableBalance balance = balance_of_table({quarter, quarter, quarter, quarter});
+  const TableBalance balance =
+      balance_of_table({quarter_load, quarter_load, quarter_load, quarter_load});
   EXPECT_NEAR(balance.weight, 78.48e3, 1e-9);
   EXPECT_NEAR(balance.acceleration(), 0, 1e-12);
   EXPECT_NEAR(balance.lever(), 0, 1e-12);
@@ -144,7 +145,7 @@ TEST(TableBalance, AQuarterOfTheWeightAtEachLugIsAtRest) {
 }
 
 TEST(TableBalance, HalfTheWeightFallsWithHalfOfGravity) {
-  const Vector3 half = 0.5 * quarter;
+  const Vector3 half = 0.5 * quarter_load;
   const TableBalance balance = balance_of_table({half, half, half, half});
   EXPECT_NEAR(balance.acceleration(), -0.5, 1e-12);
   EXPECT_TRUE(balance.is_off_weight());
@@ -154,7 +155,7 @@ TEST(TableBalance, HalfTheWeightFallsWithHalfOfGravity) {
 // 78.48 kN at (2, 1) m: moments of 78.48 and -156.96 kN m over 8 and 16 t m2.
 TEST(TableBalance, TheWeightAtOneCornerTurnsTheBlock) {
   const Vector3 none = Vector3::Zero();
-  const TableBalance balance = balance_of_table({4 * quarter, none, none, none});
+  const TableBalance balance = balance_of_table({4 * quarter_load, none, none, none});
   EXPECT_FALSE(balance.is_off_weight());
   EXPECT_NEAR(balance.lever(), std::sqrt(5.0), 1e-12);
   EXPECT_TRUE(balance.turns());
@@ -164,11 +165,12 @@ TEST(TableBalance, TheWeightAtOneCornerTurnsTheBlock) {
 // Loads down on lugs above the centre press; on lugs below it, or sideways, they may hold a block
 // that hangs upside down or on its side.
 TEST(TableBalance, LoadsThatPressAreKnownFromThoseOfATurnedBlock) {
-  const std::vector<Vector3> down(4, -quarter), sideways(4, Vector3(0, 19.62, 0));
+  const std::vector<Vector3> down(4, -quarter_load), sideways(4, Vector3(0, 19.62, 0));
   EXPECT_TRUE(balance_of_table(down).presses_down());
   EXPECT_FALSE(balance_of_table(down, -1).presses_down());
   EXPECT_FALSE(balance_of_table(sideways).presses_down());
-  EXPECT_TRUE(balance_of_table({quarter, -quarter, -quarter, quarter}).bears_nothing());
+  EXPECT_TRUE(
+      balance_of_table({quarter_load, -quarter_load, -quarter_load, quarter_load}).bears_nothing());
 }
 
 }  // namespace
