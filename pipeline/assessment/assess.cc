@@ -27,6 +27,7 @@
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/kept_stages.h"
 #include "pipeline/lift/stopwatch.h"
+#include "pipeline/lift/table_balance.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/calculation_package.h"
 #include "pipeline/results/history_file.h"
@@ -248,6 +249,26 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
   block.padeyes = assess_padeyes(the_case, *block.responses, attachment, at_rest, in_motion);
 }
 
+/// Refuses a table whose loads at rest cannot hold the block up.
+/// @throws InputError at the table.
+void require_that_table_lifts(const LiftCase& the_case, const structure::ElasticModel& model) {
+  const LoadTable& table = *the_case.load_table;
+  const std::vector<structure::LiftingPoint>& lugs = model.mesh().lifting_points;
+  const TableBalance balance = find_table_balance(table_forces(table, table.static_loads, lugs),
+                                                  lugs, model.mass_properties(), the_case.gravity);
+  Diagnostics diagnostics;
+  const std::string sum = fmt::format(
+      "the static loads of the load table sum to ({:.4g}, {:.4g}, {:.4g}) kN in the block's frame",
+      balance.force_B.x() / 1e3, balance.force_B.y() / 1e3, balance.force_B.z() / 1e3);
+  if (balance.bears_nothing())
+    diagnostics.error(table.place, fmt::format("{}, which bears nothing of its weight, {:.4g} kN",
+                                               sum, balance.weight / 1e3));
+  else if (balance.presses_down())
+    diagnostics.error(table.place, sum + ": they press the block down at its lugs",
+                      {"direction is that of the pull on the block, [0, 0, 1] for plumb ropes"});
+  if (diagnostics.has_errors()) throw InputError(diagnostics);
+}
+
 /// Stresses under a table of loads.
 void assess_table(const LiftCase& the_case, const std::optional<KeptRefinement>& earlier,
                   const Progress& progress, UnfinishedRun* unfinished, BlockRun& block) {
@@ -333,6 +354,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* u
                                  the_case.structure, diagnostics);
   if (!block.model) throw InputError(diagnostics);
   block.mesh_s = watch.lap();
+  if (the_case.load_table) require_that_table_lifts(the_case, *block.model);
 
   const std::optional<KeptRefinement> earlier = find_refinement(unfinished);
   if (!the_case.load_table) {

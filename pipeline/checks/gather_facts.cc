@@ -108,6 +108,7 @@ class LiftedFacts {
       for (const LiftRope& rope : *slings) {
         Index sample = 0;
         SlingFacts sling = sling_facts(rope, on_hook, sample);
+        sling.is_at_load = slings != &rigging_.slings_to_bars();
         if (slings != &rigging_.baskets()) sling.computed = rigging_.of_sling(rope, sample);
         facts_.slings.push_back(std::move(sling));
       }
@@ -307,6 +308,7 @@ void add_stresses(const std::vector<StressOfPlace>& groups, const std::vector<St
     one.name = (is_at_lug ? "about lug " + place.name : place.material) + where;
     if (!is_at_lug) one.material = place.material;
     one.is_at_lug = is_at_lug;
+    if (is_at_lug) one.lug = place.name;
     one.at_rest = place.at_rest;
     one.in_motion = place.in_motion;
     one.yield = place.yield;

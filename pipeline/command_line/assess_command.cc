@@ -35,6 +35,7 @@
 #include "pipeline/results/mesh_error.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/standard_summary.h"
+#include "pipeline/results/table_summary.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
 
@@ -265,6 +266,10 @@ void print_results(const Assessment& assessment) {
     if (assessment.sling_lengths) print_sling_lengths(*assessment.sling_lengths);
     print_motion(*assessment.lift);
   }
+  if (const auto balances = find_table_balances(assessment)) {
+    fmt::print("\n");
+    print_wrapped(describe_balances(*balances));
+  }
   if (assessment.block.model) {
     print_block(assessment.block.assessment,
                 assessment.block.history ? &*assessment.block.history : nullptr);
@@ -338,6 +343,8 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   line.finish();
 
   print_results(assessment);
+  if (const auto balances = find_table_balances(assessment))
+    for (const std::string& doubt : list_doubts(*balances)) say_warning(doubt);
   if (assessment.lift) {
     for (const std::string& doubt : list_doubts(assessment.lift_case, *assessment.lift))
       say_warning(doubt);

@@ -268,6 +268,10 @@ void weigh_load(const ResultsReader& results, const MeasurementSettings& setting
             Eigen::Vector3d(c[0].get<double>(), c[1].get<double>(), c[2].get<double>());
     }
   }
+  // Where the measurement knows a line only, its point at the computed height can be compared.
+  const auto& computed = lift.weight->computed_centre_B;
+  if (const auto open = weighing->open_coordinate(); open && computed)
+    lift.weight->measured = weighing->with_open_coordinate((*computed)[*open]);
 }
 
 }  // namespace

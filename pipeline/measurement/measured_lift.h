@@ -48,6 +48,8 @@ struct HeldChannel {
 
 /// What the case was computed with, and what the load cells say.
 struct HeldWeight {
+  /// Where a coordinate of the centre of mass stays open, at that of the computed one, if there is
+  /// one.
   Weighing measured;
   TimeWindow window;
   std::optional<double> computed_mass;               ///< kg

@@ -63,16 +63,18 @@ Json channel_json(const HeldChannel& channel, bool looked_for_decay) {
 
 Json weight_json(const HeldWeight& weight) {
   const Weighing& ours = weight.measured;
+  const std::optional<Eigen::Index> open = ours.open_coordinate();
   // Along what stays open nothing is known.
   Json deviation = json_point(ours.centre_deviation);
-  for (Eigen::Index k = 0; k < 3; ++k)
-    if (ours.leaves_open(k)) deviation[static_cast<std::size_t>(k)] = nullptr;
+  if (open) deviation[static_cast<std::size_t>(*open)] = nullptr;
   return {{"from_s", weight.window.from},
           {"to_s", weight.window.to},
           {"mass_kg", ours.mass},
           {"mass_deviation_kg", json_number(ours.mass_deviation)},
           {"centre_of_mass_m", json_point(ours.centre_of_mass_B)},
           {"centre_deviation_m", std::move(deviation)},
+          {"open_coordinate", open ? Json(std::string(1, "xyz"[*open])) : Json()},
+          {"open_coordinate_is_computed", open && weight.computed_centre_B},
           {"open_direction", ours.open_direction_B ? json_point(*ours.open_direction_B) : Json()},
           {"force_residual_N", ours.force_residual},
           {"computed_mass_kg", weight.computed_mass ? Json(*weight.computed_mass) : Json()},

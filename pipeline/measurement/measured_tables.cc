@@ -10,6 +10,7 @@ namespace blocklift::pipeline {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr char coordinates[] = "xyz";
 
 MeasuredTable clocks_table(const MeasuredLift& lift) {
   MeasuredTable table{"Clocks", {{"record"}, {"shift s", 5}, {"correlation", 3}, {"how"}}, {}};
@@ -91,9 +92,9 @@ MeasuredTable decays_table(const MeasuredLift& lift) {
 }
 
 /// A row whose figures have digits of their own, since the column has several units.
-std::vector<TextTable::Cell> weight_row(const char* name, double measured, double deviation,
+std::vector<TextTable::Cell> weight_row(const std::string& name, double measured, double deviation,
                                         double computed) {
-  return {std::string(name), format_figure(measured, 5), format_figure(deviation, 2),
+  return {name, format_figure(measured, 5), format_figure(deviation, 2),
           format_figure(computed, 5)};
 }
 
@@ -106,8 +107,12 @@ MeasuredTable weight_table(const MeasuredLift& lift) {
   const Weighing& ours = weight.measured;
   table.rows.push_back(weight_row("mass t", ours.mass / 1000, ours.mass_deviation / 1000,
                                   weight.computed_mass ? *weight.computed_mass / 1000 : unknown));
-  for (const auto& [name, k] : {std::pair{"x m", 0}, std::pair{"y m", 1}, std::pair{"z m", 2}}) {
+  const std::optional<Eigen::Index> open = ours.open_coordinate();
+  for (const Eigen::Index k : {0, 1, 2}) {
     const double used = weight.computed_centre_B ? (*weight.computed_centre_B)[k] : unknown;
+    std::string name = fmt::format("{} m", coordinates[k]);
+    if (open && k != *open)
+      name += fmt::format(" at {} = {:.3f} m", coordinates[*open], ours.centre_of_mass_B[*open]);
     table.rows.push_back(
         weight_row(name, ours.centre_of_mass_B[k], ours.centre_deviation[k], used));
     if (!ours.leaves_open(k)) continue;
@@ -153,12 +158,19 @@ std::pair<std::string, double> shown_unit(const std::string& unit) {
 
 std::string weighing_remark(const MeasuredLift& lift) {
   if (!lift.weight || !lift.weight->measured.open_direction_B) return {};
-  const Eigen::Vector3d& along = *lift.weight->measured.open_direction_B;
-  const Eigen::Vector3d& point = lift.weight->measured.centre_of_mass_B;
+  const Weighing& ours = lift.weight->measured;
+  const Eigen::Vector3d& along = *ours.open_direction_B;
+  const Eigen::Vector3d& point = ours.centre_of_mass_B;
+  const Eigen::Index open = *ours.open_coordinate();
+  const std::string place = fmt::format("{} = {:.3f} m", coordinates[open], point[open]);
   return fmt::format(
-      "The load keeps its attitude, so that the height of its centre of mass stays open: it lies "
-      "on the line through ({:.3f}, {:.3f}, {:.3f}) m along ({:.3f}, {:.3f}, {:.3f})",
-      point.x(), point.y(), point.z(), along.x(), along.y(), along.z());
+      "The load keeps its attitude, so that {} of its centre of mass stays open: it lies on the "
+      "line through ({:.3f}, {:.3f}, {:.3f}) m along ({:.3f}, {:.3f}, {:.3f}). The other two are "
+      "those of the line at {}",
+      coordinates[open], point.x(), point.y(), point.z(), along.x(), along.y(), along.z(),
+      lift.weight->computed_centre_B
+          ? "the computed " + place
+          : place + ", its point nearest to the origin of the load's frame");
 }
 
 }  // namespace blocklift::pipeline

@@ -60,6 +60,27 @@ Eigen::Matrix4d scatter_covariance(const Eigen::VectorXd& residual,
 
 }  // namespace
 
+std::optional<Eigen::Index> Weighing::open_coordinate() const {
+  if (!open_direction_B) return std::nullopt;
+  Eigen::Index largest = 0;
+  open_direction_B->cwiseAbs().maxCoeff(&largest);
+  return largest;
+}
+
+Weighing Weighing::with_open_coordinate(double value) const {
+  const std::optional<Eigen::Index> open = open_coordinate();
+  if (!open) return *this;
+  const Eigen::Vector3d along = *open_direction_B / (*open_direction_B)[*open];
+  // Moves a point along the line into the plane in which that coordinate does not change.
+  Eigen::Matrix3d section = Eigen::Matrix3d::Identity();
+  section.col(*open) -= along;
+  Weighing there = *this;
+  there.centre_of_mass_B += (value - centre_of_mass_B[*open]) * along;
+  there.centre_covariance = section * centre_covariance * section.transpose();
+  there.centre_deviation = there.centre_covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  return there;
+}
+
 std::optional<Weighing> weigh(const std::vector<WeighingInstant>& instants, double gravity,
                               double cell_accuracy) {
   if (instants.size() < 2 * static_cast<std::size_t>(stretches)) return std::nullopt;
@@ -86,15 +107,13 @@ std::optional<Weighing> weigh(const std::vector<WeighingInstant>& instants, doub
     squares += residual[row] * residual[row];
   weighing.force_residual = std::sqrt(squares / static_cast<double>(instants.size()));
   if (rank < 4) weighing.open_direction_B = factors.right.col(3).tail<3>().normalized();
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    weighing.centre_of_mass_B[k] = system.length * solution[k + 1] / solution[0];
-    // c = L s / m: its derivatives with respect to s and m.
-    const double by_moment = system.length / solution[0];
-    const double by_mass = -weighing.centre_of_mass_B[k] / solution[0];
-    weighing.centre_deviation[k] = std::sqrt(by_moment * by_moment * covariance(k + 1, k + 1) +
-                                             2 * by_moment * by_mass * covariance(k + 1, 0) +
-                                             by_mass * by_mass * covariance(0, 0));
-  }
+  weighing.centre_of_mass_B = system.length / solution[0] * solution.tail<3>();
+  // c = L s / m: its derivatives with respect to m and s.
+  Eigen::Matrix<double, 3, 4> derivative;
+  derivative << -weighing.centre_of_mass_B / solution[0],
+      system.length / solution[0] * Eigen::Matrix3d::Identity();
+  weighing.centre_covariance = derivative * covariance * derivative.transpose();
+  weighing.centre_deviation = weighing.centre_covariance.diagonal().cwiseMax(0).cwiseSqrt();
   return weighing;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -18,18 +17,22 @@ struct WeighingInstant {
 
 /// Mass and centre of mass that hold the balance of measured forces best.
 struct Weighing {
-  double mass = 0;                                             ///< kg
-  double mass_deviation = 0;                                   ///< standard deviation, kg
-  Eigen::Vector3d centre_of_mass_B = Eigen::Vector3d::Zero();  ///< m
-  Eigen::Vector3d centre_deviation = Eigen::Vector3d::Zero();  ///< standard deviations, m
+  double mass = 0;                                              ///< kg
+  double mass_deviation = 0;                                    ///< standard deviation, kg
+  Eigen::Vector3d centre_of_mass_B = Eigen::Vector3d::Zero();   ///< m
+  Eigen::Vector3d centre_deviation = Eigen::Vector3d::Zero();   ///< standard deviations, m
+  Eigen::Matrix3d centre_covariance = Eigen::Matrix3d::Zero();  ///< m^2
   /// A load that keeps its attitude leaves open how high the centre of mass is: it lies on a line
-  /// in this direction (of unit length) through the point above, which is the one nearest to the
-  /// origin of the load's frame. Deviations are across the line then.
+  /// in this direction (of unit length) through the point above. As weigh() gives it, that is the
+  /// line's point nearest to the origin of the load's frame, and deviations are across the line.
   std::optional<Eigen::Vector3d> open_direction_B;
-  /// Whether a coordinate of the centre of mass (0, 1, 2) is mostly along that line.
-  bool leaves_open(Eigen::Index coordinate) const {
-    return open_direction_B && std::abs((*open_direction_B)[coordinate]) > 0.7;
-  }
+  /// Coordinate of the centre of mass (0, 1, 2) that is most along that line; none without a line.
+  std::optional<Eigen::Index> open_coordinate() const;
+  bool leaves_open(Eigen::Index coordinate) const { return open_coordinate() == coordinate; }
+  /// The same with the point of the line whose open coordinate is this one, m, and the deviations
+  /// of the other two there: what may be held against a centre of mass that is known otherwise.
+  /// It is itself where nothing is open.
+  Weighing with_open_coordinate(double value) const;
   double force_residual = 0;  ///< rms of what the vertical balance leaves, N
 };
 

@@ -7,6 +7,7 @@
 
 #include "pipeline/build/stiffener_plates.h"
 #include "pipeline/results/radiation_summary.h"
+#include "pipeline/results/table_summary.h"
 
 namespace blocklift::pipeline {
 
@@ -412,6 +413,8 @@ std::vector<std::string> list_assumptions(const Assessment& assessment) {
     list.push_back(
         "The forces at the lugs are those of the case's load table, all at once, balanced by the "
         "rigid-body acceleration that they give the block.");
+    if (const auto balances = find_table_balances(assessment))
+      list.push_back(describe_balances(*balances));
   }
   if (assessment.block.model) {
     add_block_assumptions(assessment, list);

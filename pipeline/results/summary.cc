@@ -23,6 +23,7 @@
 #include "pipeline/results/result_file.h"
 #include "pipeline/results/sling_summary.h"
 #include "pipeline/results/standard_summary.h"
+#include "pipeline/results/table_summary.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -351,6 +352,8 @@ Json structure_json(const Assessment& assessment) {
   }
   if (!assessment.block.padeyes.padeyes.empty())
     json["padeyes"] = padeyes_json(assessment.block.padeyes);
+  if (const auto balances = find_table_balances(assessment))
+    json["load_table"] = table_balances_json(*balances);
   if (assessment.block.history) json["history"] = history_json(*assessment.block.history);
   return json;
 }
@@ -531,6 +534,9 @@ Json make_summary(const Assessment& assessment) {
   if (lift) add_motion(assessment.lift_case, *lift, all_parts, summary);
   summary["timing"] = timing_json(assessment);
   if (lift) add_doubts(assessment.lift_case, *lift, summary);
+  if (const auto balances = find_table_balances(assessment))
+    for (std::string& doubt : list_doubts(*balances))
+      summary["warnings"].push_back(std::move(doubt));
   summary["assumptions"] = list_assumptions(assessment);
   return summary;
 }

@@ -43,6 +43,7 @@ struct SlingFacts {
   std::optional<double> bend_diameter;  ///< of what it is bent round, m; none: the standard's
   int slings_on_hook = 1;
   bool is_at_hook = false;       ///< it begins at the hook, not below a spreader
+  bool is_at_load = true;        ///< it pulls at the load, not at a spreader
   bool runs_over_edges = false;  ///< of the load, so that it does not pull at its lug alone
   double angle = 0;  ///< at its upper end to the plumb, at the largest load at rest, rad
 };
@@ -111,6 +112,7 @@ struct StressFacts {
   std::string name;        ///< material, or lug; with the site where the rules tell sites apart
   std::string material;    ///< empty about a lug
   bool is_at_lug = false;  ///< of members that frame into a lift point
+  std::string lug = {};    ///< that lift point
   double at_rest = 0, in_motion = 0;               ///< Pa
   double yield = 0;                                ///< Pa
   std::optional<structure::SquareSite> site = {};  ///< none: all places together

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,10 @@ namespace blocklift::pipeline {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
+
+/// A sling that bears less than this share of the most loaded one's load hardly stresses the
+/// structure, while its own load may grow by a large factor.
+constexpr double least_share_of_structure = 0.25;
 
 }  // namespace
 
@@ -66,20 +71,25 @@ void LoadFactors::add_contingency(ChainBuilder& chain) const {
               "weight class " + standard_.weight_class->value);
 }
 
-void LoadFactors::add_centre(ChainBuilder& chain, const ComputedFactors& computed) const {
+std::optional<LoadFactors::Factor> LoadFactors::centre(const ComputedFactors& computed) const {
   if (standard_.centre_box && computed.centre_box) {
     const Vector3& box = *standard_.centre_box;
-    chain.times(
+    return Factor{
         "centre of mass", computed.centre_box, computed.centre_box, "standard.centre_box",
-        fmt::format("at the worst corner of +-({:g}, {:g}, {:g}) m", box.x(), box.y(), box.z()));
-  } else if (const auto& factor = rules().centre_of_mass) {
-    chain.times("centre of mass", factor->value, factor->value, factor->clause,
-                standard_.centre_box ? "the box of the centre is not worked here: the rules' factor"
-                                     : "no box of the centre is given");
-  } else if (standard_.centre_box) {
-    chain.times("centre of mass", {}, {}, "standard.centre_box",
-                "not worked here, and the rules have no factor");
+        fmt::format("at the worst corner of +-({:g}, {:g}, {:g}) m", box.x(), box.y(), box.z())};
   }
+  if (const auto& factor = rules().centre_of_mass)
+    return Factor{"centre of mass", factor->value, factor->value, factor->clause,
+                  standard_.centre_box
+                      ? "the box of the centre is not worked here: the rules' factor"
+                      : "no box of the centre is given"};
+  if (standard_.centre_box)
+    return Factor{"centre of mass",
+                  {},
+                  {},
+                  "standard.centre_box",
+                  "not worked here, and the rules have no factor"};
+  return {};
 }
 
 void LoadFactors::add_amplification(ChainBuilder& chain, std::optional<double> simulated,
@@ -111,32 +121,93 @@ void LoadFactors::add_resharing(ChainBuilder& chain, const LoadFacts& load) {
   chain.times("re-sharing in motion", {}, load.resharing, "simulation", std::move(text));
 }
 
-void LoadFactors::add_tilt(ChainBuilder& chain, const ComputedFactors& computed) const {
-  if (!standard_.tilt) return;
+std::optional<LoadFactors::Factor> LoadFactors::tilt(const ComputedFactors& computed) const {
+  if (!standard_.tilt) return {};
   const TiltRule& rule = *find_by_name(rules().tilt, standard_.tilt->value);
-  if (!computed.two_hooks) {
-    chain.times("tilt", {}, {}, rule.clause,
-                "not worked: the formula is for a load on two hooks or two cranes");
-    return;
-  }
+  if (!computed.two_hooks)
+    return Factor{"tilt",
+                  {},
+                  {},
+                  rule.clause,
+                  "not worked: the formula is for a load on two hooks or two cranes"};
   const TwoHooks& hooks = *computed.two_hooks;
   const double span = std::hypot(hooks.span(), hooks.height - hooks.other_height);
   double angle = rule.angle;
   if (rule.height && *rule.height < span) angle = std::max(angle, std::asin(*rule.height / span));
-  chain.times("tilt", tilt_factor(hooks, angle), {}, rule.clause,
-              fmt::format("{:.2f} degrees; lift points {:.2f} and {:.2f} m from the centre, {:.2f} "
-                          "and {:.2f} m above it",
-                          angle / degree, hooks.along, hooks.other_along, hooks.height,
-                          hooks.other_height));
+  return Factor{"tilt",
+                tilt_factor(hooks, angle),
+                {},
+                rule.clause,
+                fmt::format("{:.2f} degrees; lift points {:.2f} and {:.2f} m from the centre, "
+                            "{:.2f} and {:.2f} m above it",
+                            angle / degree, hooks.along, hooks.other_along, hooks.height,
+                            hooks.other_height)};
+}
+
+std::optional<LoadFactors::Factor> LoadFactors::yaw(int slings_on_hook) const {
+  if (!rules().yaw || !standard_.tilt) return {};
+  const bool several = slings_on_hook > 1;
+  return Factor{"yaw",
+                several ? std::optional(rules().yaw->value) : std::nullopt,
+                {},
+                rules().yaw->clause,
+                several ? fmt::format("{} slings on the hook", slings_on_hook)
+                        : "one sling on the hook: it does not apply"};
+}
+
+void LoadFactors::add(ChainBuilder& chain, std::optional<Factor> factor) {
+  if (factor)
+    chain.times(factor->name, factor->standard, factor->simulated, factor->clause,
+                std::move(factor->formula));
+}
+
+void LoadFactors::add_centre(ChainBuilder& chain, const ComputedFactors& computed) const {
+  add(chain, centre(computed));
+}
+
+void LoadFactors::add_tilt(ChainBuilder& chain, const ComputedFactors& computed) const {
+  add(chain, tilt(computed));
 }
 
 void LoadFactors::add_yaw(ChainBuilder& chain, int slings_on_hook) const {
-  if (!rules().yaw || !standard_.tilt) return;
-  const bool several = slings_on_hook > 1;
-  chain.times("yaw", several ? std::optional(rules().yaw->value) : std::nullopt, {},
-              rules().yaw->clause,
-              several ? fmt::format("{} slings on the hook", slings_on_hook)
-                      : "one sling on the hook: it does not apply");
+  add(chain, yaw(slings_on_hook));
+}
+
+std::vector<const SlingFacts*> LoadFactors::slings_that_load(const StressFacts& stress) const {
+  std::vector<const SlingFacts*> all, own;
+  double most = 0;
+  for (const SlingFacts& sling : facts_.slings)
+    if (sling.is_at_load) most = std::max(most, sling.load.at_rest);
+  for (const SlingFacts& sling : facts_.slings) {
+    if (!sling.is_at_load || sling.load.at_rest < least_share_of_structure * most) continue;
+    all.push_back(&sling);
+    if (stress.is_at_lug && sling.lug == stress.lug) own.push_back(&sling);
+  }
+  return own.empty() ? all : own;
+}
+
+void LoadFactors::add_largest(
+    ChainBuilder& chain, const StressFacts& stress,
+    const std::function<std::optional<Factor>(const SlingFacts&)>& factor_of) const {
+  std::optional<Factor> largest;
+  const auto size = [](const Factor& factor) { return factor.standard.value_or(0); };
+  for (const SlingFacts* sling : slings_that_load(stress)) {
+    std::optional<Factor> factor = factor_of(*sling);
+    if (!factor || (largest && size(*factor) <= size(*largest))) continue;
+    if (factor->standard) factor->formula = fmt::format("as {}: {}", sling->name, factor->formula);
+    largest = std::move(factor);
+  }
+  // A load table has no slings.
+  add(chain, largest ? std::move(largest) : factor_of(SlingFacts()));
+}
+
+void LoadFactors::add_structure_centre(ChainBuilder& chain, const StressFacts& stress) const {
+  add_largest(chain, stress, [&](const SlingFacts& sling) { return centre(sling.computed); });
+}
+
+void LoadFactors::add_structure_tilt(ChainBuilder& chain, const StressFacts& stress) const {
+  add_largest(chain, stress, [&](const SlingFacts& sling) { return tilt(sling.computed); });
+  add_largest(chain, stress, [&](const SlingFacts& sling) { return yaw(sling.slings_on_hook); });
 }
 
 void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed) const {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "pipeline/files/lift_case/standard_in_case.h"
 #include "pipeline/standards/chain.h"
@@ -25,6 +27,12 @@ class LoadFactors {
   void add_tilt(ChainBuilder& chain, const ComputedFactors& computed) const;
   void add_yaw(ChainBuilder& chain, int slings_on_hook) const;
   void add_skew(ChainBuilder& chain, const ComputedFactors& computed) const;
+  /// Of the structure's stress: the largest of the slings that pull at the lug at hand, and of all
+  /// at the load for other places, so that the structure takes no less than the loads on it. Slings
+  /// that bear less than a quarter of the most loaded one's load at rest do not count.
+  void add_structure_centre(ChainBuilder& chain, const StressFacts& stress) const;
+  /// The same of tilt and yaw.
+  void add_structure_tilt(ChainBuilder& chain, const StressFacts& stress) const;
   /// Of the structure's stress, when either diagonal of four slings bears more.
   void add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const;
 
@@ -49,6 +57,19 @@ class LoadFactors {
   const HoistingClass* hoisting_class() const;
 
  private:
+  /// Step of a chain before it is added.
+  struct Factor {
+    std::string name;
+    std::optional<double> standard, simulated;
+    std::string clause, formula;
+  };
+  static void add(ChainBuilder& chain, std::optional<Factor> factor);
+  std::optional<Factor> centre(const ComputedFactors& computed) const;
+  std::optional<Factor> tilt(const ComputedFactors& computed) const;
+  std::optional<Factor> yaw(int slings_on_hook) const;
+  std::vector<const SlingFacts*> slings_that_load(const StressFacts& stress) const;
+  void add_largest(ChainBuilder& chain, const StressFacts& stress,
+                   const std::function<std::optional<Factor>(const SlingFacts&)>& factor_of) const;
   const NamedFactor* contingency() const;
   const AmplificationRow* amplification_row() const;
 

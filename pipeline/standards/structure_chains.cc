@@ -88,9 +88,11 @@ Chain stress_chain(const LoadFactors& factors, const StressFacts& stress) {
   ChainBuilder chain("structure", stress.name, "Pa");
   chain.add("largest checked stress at rest", stress.at_rest, factors.facts().rest_is_from);
   factors.add_contingency(chain);
+  factors.add_structure_centre(chain, stress);
   factors.add_amplification(
       chain, stress.at_rest > 0 ? std::optional(stress.in_motion / stress.at_rest) : std::nullopt,
       factors.hoisting_speed());
+  factors.add_structure_tilt(chain, stress);
   factors.add_structure_skew(chain, stress);
   if (const auto& consequence = factors.rules().consequence) {
     const auto& factor = stress.is_at_lug ? consequence->members : consequence->others;

@@ -8,7 +8,8 @@ namespace blocklift::pipeline {
 /// in the direction of the largest load at rest (standard) and in motion (simulation).
 Chain lug_chain(const LoadFactors& factors, const LugFacts& lug);
 
-/// Checked stress with the same factors, against yield with the case's factor.
+/// Checked stress with the factors that the loads of its lugs take, the largest of each, against
+/// yield with the case's factor.
 Chain stress_chain(const LoadFactors& factors, const StressFacts& stress);
 
 }  // namespace blocklift::pipeline

@@ -269,6 +269,14 @@ Rule padeyes() {
        {"states", list(state)}}));
 }
 
+Rule load_table() {
+  const Rule set = with(table({{"sum_N", point()},
+                               {"moment_about_centre_of_mass_Nm", point()},
+                               {"angular_acceleration_rad_s2", point()}}),
+                        numbers({"over_weight", "acceleration_g", "lever_m"}));
+  return table({{"weight_N", number()}, {"static", set}, {"dynamic", set}});
+}
+
 Rule structure() {
   const Rule lug_stress = table(numbers(
       {"static_checked_von_mises_Pa", "dynamic_checked_von_mises_Pa", "stress_increase_percent"}));
@@ -295,6 +303,7 @@ Rule structure() {
              {"accuracy",
               with(table({{"is_reached", flag()}, {"steps", list(step)}}),
                    numbers({"asked", "stress_change", "stress_band", "increase_change_percent"}))},
+             {"load_table", load_table()},
              {"buckling", buckling()},
              {"padeyes", padeyes()}}),
       numbers({"unknowns", "elements", "element_degree", "mesh_size_m", "yield_Pa",

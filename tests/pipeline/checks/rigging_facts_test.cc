@@ -173,6 +173,8 @@ TEST(RiggingFacts, TakeSlingsAboveASpreader) {
   EXPECT_EQ(facts.slings[0].name, "R1");
   EXPECT_EQ(facts.slings[2].name, "U1");
   EXPECT_EQ(facts.slings[2].lug, "");
+  EXPECT_TRUE(facts.slings[0].is_at_load);
+  EXPECT_FALSE(facts.slings[2].is_at_load);
   EXPECT_GT(facts.slings[2].load.at_rest, facts.slings[0].load.at_rest);
   for (const SlingFacts& sling : facts.slings) {
     EXPECT_EQ(sling.hook, "C1.left");

@@ -1,12 +1,14 @@
 #include "pipeline/lift/block_assessment.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "pipeline/checks/lift_checks.h"
+#include "pipeline/lift/table_balance.h"
 #include "structure/response/flexibility.h"
 #include "tests/pipeline/small_lift.h"
 
@@ -111,6 +113,64 @@ TEST_F(SmallLiftBlock, LoadTableIsOneWayOnly) {
   EXPECT_EQ(checks[0].demand, block.simultaneous.dynamic_state.result.checked_von_mises.value);
   EXPECT_NEAR(checks[0].limit, 355e6 / 1.5, 1e-3);
   EXPECT_FALSE(checks[0].note.empty());
+}
+
+/// 8 t with lugs 2 m and 1 m beside the centre of mass, and so high above it; radii of gyration of
+/// 1, sqrt 2 and sqrt 3 m. @param forces_B one a lug, kN.
+TableBalance balance_of_table(const std::vector<Vector3>& forces_B, double height = 1) {
+  structure::MassProperties mass;
+  mass.mass = 8000;
+  mass.centre_of_mass_B = Vector3(5, 6, 7);
+  mass.inertia_BBcm_B = 8000 * Vector3(1, 2, 3).asDiagonal();
+  std::vector<structure::LiftingPoint> lugs(4);
+  std::vector<Vector3> forces;
+  for (std::size_t i = 0; i < 4; ++i) {
+    lugs[i].p_BPin = mass.centre_of_mass_B + Vector3(i % 2 == 0 ? 2 : -2, i < 2 ? 1 : -1, height);
+    forces.push_back(1e3 * forces_B[i]);
+  }
+  return find_table_balance(forces, lugs, mass, 9.81);
+}
+
+const Vector3 quarter_load(0, 0, 19.62);  // of the weight, kN
+
+TEST(TableBalance, AQuarterOfTheWeightAtEachLugIsAtRest) {
+  const TableBalance balance =
+      balance_of_table({quarter_load, quarter_load, quarter_load, quarter_load});
+  EXPECT_NEAR(balance.weight, 78.48e3, 1e-9);
+  EXPECT_NEAR(balance.acceleration(), 0, 1e-12);
+  EXPECT_NEAR(balance.lever(), 0, 1e-12);
+  EXPECT_NEAR(balance.radius_of_gyration, std::sqrt(2.0), 1e-12);
+  EXPECT_FALSE(balance.is_off_weight() || balance.turns() || balance.presses_down() ||
+               balance.bears_nothing());
+}
+
+TEST(TableBalance, HalfTheWeightFallsWithHalfOfGravity) {
+  const Vector3 half = 0.5 * quarter_load;
+  const TableBalance balance = balance_of_table({half, half, half, half});
+  EXPECT_NEAR(balance.acceleration(), -0.5, 1e-12);
+  EXPECT_TRUE(balance.is_off_weight());
+  EXPECT_FALSE(balance.turns() || balance.presses_down() || balance.bears_nothing());
+}
+
+// 78.48 kN at (2, 1) m: moments of 78.48 and -156.96 kN m over 8 and 16 t m2.
+TEST(TableBalance, TheWeightAtOneCornerTurnsTheBlock) {
+  const Vector3 none = Vector3::Zero();
+  const TableBalance balance = balance_of_table({4 * quarter_load, none, none, none});
+  EXPECT_FALSE(balance.is_off_weight());
+  EXPECT_NEAR(balance.lever(), std::sqrt(5.0), 1e-12);
+  EXPECT_TRUE(balance.turns());
+  EXPECT_NEAR((balance.angular_acceleration_B - Vector3(9.81, -9.81, 0)).norm(), 0, 1e-9);
+}
+
+// Loads down on lugs above the centre press; on lugs below it, or sideways, they may hold a block
+// that hangs upside down or on its side.
+TEST(TableBalance, LoadsThatPressAreKnownFromThoseOfATurnedBlock) {
+  const std::vector<Vector3> down(4, -quarter_load), sideways(4, Vector3(0, 19.62, 0));
+  EXPECT_TRUE(balance_of_table(down).presses_down());
+  EXPECT_FALSE(balance_of_table(down, -1).presses_down());
+  EXPECT_FALSE(balance_of_table(sideways).presses_down());
+  EXPECT_TRUE(
+      balance_of_table({quarter_load, -quarter_load, -quarter_load, quarter_load}).bears_nothing());
 }
 
 }  // namespace

@@ -150,6 +150,8 @@ TEST_F(MeasuredLifts, AreWeighed) {
   EXPECT_EQ(lift.weight->computed_mass, 8000);
   ASSERT_TRUE(lift.weight->computed_centre_B);
   EXPECT_EQ(*lift.weight->computed_centre_B, Eigen::Vector3d(0, 0.8, 0.25));
+  // The measured ones are those of the plumb line at the computed height.
+  EXPECT_NEAR(weighing.centre_of_mass_B.z(), 0.25, 1e-12);
 }
 
 TEST_F(MeasuredLifts, AreRefusedWhereSettingsDoNotFit) {
@@ -182,7 +184,8 @@ TEST_F(MeasuredLifts, AreShownInEightyColumnsAsJsonAndAsAPage) {
   const MeasuredLift lift = hold_against_measurements("lift", {"cells.csv", "wind.csv"}, settings);
   const std::string text = measured_text(lift);
   EXPECT_THAT(text, AllOf(HasSubstr("ropes.R1"), HasSubstr("mass t"), HasSubstr("damping %"),
-                          HasSubstr("-123.400"), HasSubstr("significant height")));
+                          HasSubstr("-123.400"), HasSubstr("significant height"),
+                          HasSubstr("x m at z = 0.250 m"), HasSubstr("stays open")));
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   const nlohmann::ordered_json json = measured_json(lift);
@@ -190,12 +193,15 @@ TEST_F(MeasuredLifts, AreShownInEightyColumnsAsJsonAndAsAPage) {
   EXPECT_NEAR(json["weight"]["mass_kg"].get<double>(), 8144, 1e-3);
   EXPECT_TRUE(json["weight"]["centre_deviation_m"][1].is_number());
   EXPECT_TRUE(json["weight"]["centre_deviation_m"][2].is_null());
+  EXPECT_EQ(json["weight"]["open_coordinate"], "z");
+  EXPECT_EQ(json["weight"]["open_coordinate_is_computed"], true);
+  EXPECT_NEAR(json["weight"]["centre_of_mass_m"][2].get<double>(), 0.25, 1e-12);
   EXPECT_EQ(json["channels"][0]["name"], "ropes.R1");
   EXPECT_EQ(json["wind"]["computed_mean_m_s"], 8);
   EXPECT_EQ(json["waves"]["computed_significant_height_m"], 0.5);
   const std::string page = measured_page(lift);
   EXPECT_THAT(page, AllOf(HasSubstr("<h1>Measured and computed</h1>"), HasSubstr("ropes.R1"),
-                          Not(HasSubstr("%HEADING%"))));
+                          HasSubstr("y m at z = 0.250 m"), Not(HasSubstr("%HEADING%"))));
 }
 
 TEST(Surroundings, HaveMeanGustHeightAndPeriod) {

@@ -57,6 +57,33 @@ TEST(Weigh, LeavesTheHeightOpenOfALoadThatKeepsItsAttitude) {
   EXPECT_NEAR(apart.cross(upwards_B).norm(), 0, 1e-9);
 }
 
+// A load that hangs tilted: at the height of its true centre the line has the true x and y, at that
+// of its foot it has not.
+TEST(Weigh, HasTheCentreWhereTheLineReachesItsHeight) {
+  const auto weighing = weigh(std::vector<WeighingInstant>(40, hung(0.2, 0)), g, 0.01);
+  ASSERT_TRUE(weighing);
+  EXPECT_EQ(weighing->open_coordinate(), 2);
+  EXPECT_GT(std::abs(weighing->centre_of_mass_B.x() - centre.x()), 0.1);
+  const Weighing there = weighing->with_open_coordinate(centre.z());
+  EXPECT_NEAR((there.centre_of_mass_B - centre).norm(), 0, 1e-8);
+  EXPECT_EQ(there.mass, weighing->mass);
+  EXPECT_FALSE(there.leaves_open(0) || there.leaves_open(1));
+  // The line is seen obliquely there: across it, in x and z, over the cosine of the tilt.
+  const double across = std::hypot(weighing->centre_deviation.x(), weighing->centre_deviation.z());
+  EXPECT_NEAR(there.centre_deviation.x(), across / std::cos(0.2), 1e-9);
+  EXPECT_NEAR(there.centre_deviation.y(), weighing->centre_deviation.y(), 1e-12);
+  EXPECT_NEAR(there.centre_deviation.z(), 0, 1e-9);
+}
+
+TEST(Weigh, HasNothingToMoveWhereNothingIsOpen) {
+  std::vector<WeighingInstant> instants;
+  for (int i = 0; i < 40; ++i) instants.push_back(hung(0.01 * i, 0));
+  const auto weighing = weigh(instants, g, 0);
+  ASSERT_TRUE(weighing);
+  EXPECT_FALSE(weighing->open_coordinate());
+  EXPECT_EQ(weighing->with_open_coordinate(0).centre_of_mass_B, weighing->centre_of_mass_B);
+}
+
 TEST(Weigh, TakesTheErrorsOfCellsIntoItsUncertainty) {
   // Level and symmetric: the mass errs as the root of the squares of 1 % of each tension.
   const WeighingInstant instant = hung(0, 0);

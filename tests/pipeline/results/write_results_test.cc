@@ -261,20 +261,27 @@ TEST(Summary, IsJsonEvenWhereFiguresAreNotFinite) {
   EXPECT_TRUE(summary["structure"]["simultaneous"]["dynamic"]["checked_von_mises_Pa"].is_null());
 }
 
-// A load table has no dynamics and says so by leaving its parts out.
-TEST(Summary, OfALoadTableHasNoRopes) {
-  const TemporaryFolder folder;
+/// The small lift's block under a load table. @param loads lines of the table.
+Assessment assess_small_table(const TemporaryFolder& folder, const std::string& loads) {
   const std::string block = test::text_of_file(std::string(BLOCKLIFT_SMALL_LIFT) + "/block.yaml");
   folder.write("block.yaml", block);
   folder.write("case.yaml",
                "case: table\n"
+               "gravity: 9.81 m/s^2\n"
                "load: {model: block}\n"
-               "load_table:\n"
-               "  direction: [0, 0, 1]\n"
-               "  static: {L1: 2 t, L2: 2 t, L3: 2 t, L4: 2 t}\n"
-               "  dynamic: {L1: 3 t, L2: 2 t, L3: 2 t, L4: 2 t}\n"
-               "structure: {element_degree: 1, largest_element: 1 m}\n");
-  const Assessment assessment = assess_quietly(read_lift_case("."));
+               "load_table:\n" +
+                   loads + "structure: {element_degree: 1, largest_element: 1 m}\n");
+  return assess_quietly(read_lift_case("."));
+}
+
+// A load table has no dynamics and says so by leaving its parts out.
+TEST(Summary, OfALoadTableHasNoRopes) {
+  const TemporaryFolder folder;
+  const Assessment assessment =
+      assess_small_table(folder,
+                         "  direction: [0, 0, 1]\n"
+                         "  static: {L1: 2 t, L2: 2 t, L3: 2 t, L4: 2 t}\n"
+                         "  dynamic: {L1: 3 t, L2: 2 t, L3: 2 t, L4: 2 t}\n");
   write_results(assessment, "results");
   const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
   EXPECT_FALSE(summary.contains("ropes"));
@@ -284,6 +291,50 @@ TEST(Summary, OfALoadTableHasNoRopes) {
   const auto& forces = assessment.block.assessment.simultaneous.dynamic_state.load.lug_forces_B;
   EXPECT_NEAR(forces[0].z(), 3e3 * 9.80665, 1e-6);
   EXPECT_NEAR(forces[1].z(), 2e3 * 9.80665, 1e-6);
+  // At rest it bears the weight, but for standard gravity, 5 and 2 cm beside the centre of mass.
+  const auto& table = summary["structure"]["load_table"];
+  EXPECT_NEAR(table["weight_N"].get<double>(), 8000 * 9.81, 1e-3);
+  EXPECT_NEAR(table["static"]["over_weight"].get<double>(), 9.80665 / 9.81, 1e-9);
+  EXPECT_NEAR(table["static"]["lever_m"].get<double>(), std::hypot(0.05, 0.02), 1e-6);
+  EXPECT_NEAR(table["dynamic"]["acceleration_g"].get<double>(), 9.0 / 8 * 9.80665 / 9.81 - 1, 1e-9);
+  EXPECT_FALSE(summary.contains("warnings"));
+  EXPECT_THAT(summary["assumptions"].dump(),
+              ::testing::HasSubstr("Loads of the table, for a weight of 8.003 t: at rest they sum "
+                                   "to 8 t (-0.0 %) and pull 0.0539 m beside"));
+}
+
+// Half of the weight, and the weight at one corner: neither is a block at rest.
+TEST(Summary, DoubtsALoadTableThatIsNotAtRest) {
+  const auto warnings = [](const std::string& loads) {
+    const TemporaryFolder folder;
+    const auto summary = nlohmann::json::parse(
+        make_summary(assess_small_table(folder, "  direction: [0, 0, 1]\n" + loads)).dump());
+    return summary.contains("warnings") ? summary["warnings"].get<std::vector<std::string>>()
+                                        : std::vector<std::string>();
+  };
+  using ::testing::ElementsAre;
+  using ::testing::HasSubstr;
+  EXPECT_THAT(warnings("  static: {L1: 1 t, L2: 1 t, L3: 1 t, L4: 1 t}\n"
+                       "  dynamic: {L1: 1 t, L2: 1 t, L3: 1 t, L4: 1 t}\n"),
+              ElementsAre(HasSubstr("sum to 4 t, 50.0 % less than the weight of the block, 8.003 "
+                                    "t; usually they are within 3 % of it")));
+  EXPECT_THAT(warnings("  static: {L1: 8 t}\n"
+                       "  dynamic: {L1: 9 t}\n"),
+              ElementsAre(HasSubstr("pull 2.22 m beside the centre of mass")));
+}
+
+TEST(Assess, RefusesALoadTableThatPressesTheBlockDown) {
+  const TemporaryFolder folder;
+  try {
+    assess_small_table(folder,
+                       "  direction: [0, 0, -1]\n"
+                       "  static: {L1: 2 t, L2: 2 t, L3: 2 t, L4: 2 t}\n"
+                       "  dynamic: {L1: 2 t, L2: 2 t, L3: 2 t, L4: 2 t}\n");
+    FAIL() << "a block was pressed";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("they press the block down at its lugs"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("case.yaml:"));
+  }
 }
 
 // Rounding differs with the number of threads; it must not turn a word.
