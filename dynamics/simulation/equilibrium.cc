@@ -207,10 +207,10 @@ void EquilibriumSolver::Implementation::calc_residual(const Eigen::VectorXd& u, 
   w.vdot.setZero();
   set_drives(system, time, false, w);
   calc_loads(system, time, set, w);
+  if (held >= 0) hold_heading();
   compute_inverse_dynamics(mechanism, w.kinematics, w.v, w.vdot, w.loads.F_Bo_W, inverse, tau);
   Eigen::Index i = 0;
   for (const int k : mechanism.free_velocities()) free_force[i++] = w.loads.tau[k] - tau[k];
-  if (held >= 0) hold_heading();
   if (w.loops) {
     compute_loops(mechanism, w.kinematics, w.q, w.v, w.loops->loops);
     coordinates.balance(free_force, w.loops->lambda);
@@ -246,12 +246,13 @@ double EquilibriumSolver::Implementation::heading_spring() const {
   return heading_stiffness * free_weight.segment<3>(held).maxCoeff();
 }
 
-// The couple about the plumb for the part of the turn away from the held heading that is about it.
+// Adds the couple about the plumb for the part of the turn away from the held heading that is about
+// it.
 void EquilibriumSolver::Implementation::hold_heading() {
   const Matrix3& R_WB = w.kinematics.X_WB[settings.held_heading->body].R;
   const Eigen::Quaterniond turn(R_WB * settings.held_heading->R_WB.transpose());
   const double angle = 2 * std::atan(turn.z() / turn.w());
-  free_force.segment<3>(held) -= heading_spring() * angle * plumb_in_held_body();
+  w.loads.F_Bo_W[settings.held_heading->body].moment.z() -= heading_spring() * angle;
 }
 
 double EquilibriumSolver::Implementation::scaled_norm(const Eigen::VectorXd& residual) const {

@@ -157,6 +157,8 @@ TEST(Equilibrium, HeldHeadingFeelsTheWind) {
         Vector3(-q.head<3>() - w.kinematics.X_WB[1].R * Vector3(0, 0, 2) + Vector3(0, 0, 12))
             .normalized();
     EXPECT_LT((pull + force - Vector3(0, 0, 5e3 * g)).norm(), 1e-5 * 5e3 * g) << heading;
+    // The couple is among the loads, so that these balance.
+    EXPECT_LT(w.loads.F_Bo_W[1].moment.norm(), 1e-6 * 5e3 * g) << heading;
   }
 }
 
