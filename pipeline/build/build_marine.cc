@@ -262,6 +262,10 @@ RadiationProblem MarineBuilder::radiation_problem() const {
     for (std::size_t k = 0; k < vessels.size(); ++k) {
       problem.bodies[k].X_DB = X_DW * vessels[k].X_WB;
     }
+    if (has_waves()) {
+      problem.field =
+          std::make_shared<const dynamics::WaveField>(make_sea(*parts_.sea, gravity_).waves);
+    }
   }
   problem.origin = middle.head<2>();
   if (const auto& lids = parts_.sea->radiation.lids) {

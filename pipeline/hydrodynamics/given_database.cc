@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/marine/panels/wetted_body.h"
-#include "dynamics/marine/radiation/incident_wave.h"
+#include "dynamics/marine/loads/resting_wave_force.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -108,25 +107,26 @@ bool is_whole(const HydrodynamicDatabase& database) {
                      [](const Eigen::MatrixXcd& force) { return force.isZero(0.0); });
 }
 
+/// What the case will have its hulls in: its own waves, or the database's shortest.
+dynamics::WaveField waves_of(const RadiationProblem& problem,
+                             const HydrodynamicDatabase& database) {
+  if (problem.field && !problem.field->is_still()) return *problem.field;
+  return dynamics::WaveField(database.water, {{1.0, database.frequencies.back()}});
+}
+
 /// Divides the whole excitation, which stands as diffraction, into the force of the incident wave
 /// on the hulls at rest and the rest.
 void divide_excitation(const RadiationProblem& problem, HydrodynamicDatabase& database) {
+  const dynamics::WaveField waves = waves_of(problem, database);
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < problem.bodies.size(); ++b, first += modes_per_body) {
     const RadiationProblem::Body& body = problem.bodies[b];
-    const dynamics::WettedBody wet = make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B);
+    const dynamics::RestingWaveForce incident(dynamics::WaveSurface(body.vessel->hull, waves),
+                                              body.X_DB, body.X_DB.apply(body.p_BoR_B));
     for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-      const double w = database.frequencies[k];
       for (Eigen::Index h = 0; h < database.froude_krylov[k].cols(); ++h) {
-        const dynamics::IncidentWave wave(database.water, w, database.headings[h]);
-        Eigen::Matrix<Complex, 6, 1> force = Eigen::Matrix<Complex, 6, 1>::Zero();
-        for (const dynamics::Panel& panel : wet.hull.panels) {
-          const Complex pressure =
-              Complex(0.0, w * database.water.density) * wave.potential(panel.centroid);
-          const Vector3 arm = panel.centroid - wet.reference_point;
-          force.head<3>() += pressure * panel.area * panel.normal;
-          force.tail<3>() += pressure * panel.area * arm.cross(panel.normal);
-        }
+        const Eigen::Matrix<Complex, 6, 1> force =
+            incident.calc_force(database.water, database.frequencies[k], database.headings[h]);
         database.froude_krylov[k].block<6, 1>(first, h) = force;
         database.diffraction[k].block<6, 1>(first, h) -= force;
       }
