@@ -147,6 +147,21 @@ int compute_vessel(const HydroOptions& options) {
   return exit_code::done;
 }
 
+/// Where WAMIT's files count from, for people and for the command that reads them again.
+std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
+  const std::vector<dynamics::Vector3> points = wamit_points(database);
+  if (points.size() == 1) {
+    return "about the origin of the database's world, which --import takes: of a vessel computed "
+           "by itself the point of the water line over or under its own origin";
+  }
+  std::string note = "about (XBODY)";
+  for (std::size_t b = 0; b < points.size(); ++b) {
+    note += fmt::format("{} ({}, {}, 0) m of {}", b == 0 ? "" : ",", points[b].x(), points[b].y(),
+                        database.body_names[b]);
+  }
+  return note;
+}
+
 /// Takes a file over and writes it as our own, or as that of another program.
 int convert(const HydroOptions& options) {
   WamitScales scales;
@@ -184,6 +199,7 @@ int convert(const HydroOptions& options) {
     if (name.extension() == ".1") name.replace_extension();
     write_wamit(name, database);
     fmt::print("{0}.1, {0}.3, {0}.hst (ULEN 1 m)\n", name.string());
+    print_wrapped(note_on_points(database));
   }
   return exit_code::done;
 }

@@ -43,11 +43,16 @@ void write_bemio(const std::filesystem::path& path, const dynamics::Hydrodynamic
 /// k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the period, s; 0: infinite
 /// frequency, negative: zero frequency (passed over). BETA in degrees, force Re X e^{+i w t} of the
 /// wave cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies' own origins, which the
-/// files do not tell: here the world's. Written with 17 digits. Source: WAMIT User Manual v7,
-/// sections 3.8, 4.2, 4.3, 4.5 and 4.13.
+/// files do not tell: those of `scales`, or of a single body the world's. Written with 17 digits,
+/// about wamit_points(). Source: WAMIT User Manual v7, sections 3.8, 4.2, 4.3, 4.5 and 4.13.
 dynamics::HydrodynamicDatabase read_wamit(const std::filesystem::path& name,
                                           const WamitScales& scales);
 void write_wamit(const std::filesystem::path& name, const dynamics::HydrodynamicDatabase& database);
+
+/// What write_wamit writes each body's rotations and moments about, m, in W: of a single body the
+/// world's origin, which read_wamit takes; of several the points of the water line over or under
+/// their reference points.
+std::vector<dynamics::Vector3> wamit_points(const dynamics::HydrodynamicDatabase& database);
 
 /// Capytaine's NetCDF, NetCDF-4 or of the classic formats: added_mass, radiation_damping (omega,
 /// radiating_dof, influenced_dof), Froude_Krylov_force and diffraction_force or excitation_force

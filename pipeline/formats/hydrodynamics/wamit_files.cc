@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/reference_points.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
@@ -364,7 +365,15 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
   return database;
 }
 
-void write_wamit(const fs::path& name, const HydrodynamicDatabase& database) {
+std::vector<dynamics::Vector3> wamit_points(const HydrodynamicDatabase& database) {
+  std::vector<dynamics::Vector3> points = database.reference_points;
+  if (points.size() == 1) points.front().setZero();
+  for (dynamics::Vector3& point : points) point.z() = 0.0;
+  return points;
+}
+
+void write_wamit(const fs::path& name, const HydrodynamicDatabase& given) {
+  const HydrodynamicDatabase database = about_points(given, wamit_points(given));
   write_file(with_ending(name, ".1"), radiation_text(database));
   if (!database.headings.empty()) write_file(with_ending(name, ".3"), excitation_text(database));
   if (!database.mean_drift.empty()) {

@@ -1,0 +1,100 @@
+// Points and axes that the files of WAMIT are about.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/marine/radiation/reference_points.h"
+#include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
+#include "tests/pipeline/formats/hydrodynamics/sample_database.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::HydrodynamicDatabase;
+using dynamics::Vector3;
+
+/// To a share of the largest number.
+template <class Matrix>
+void expect_same(const Matrix& a, const Matrix& b) {
+  constexpr double digits = 1e-9;
+  ASSERT_EQ(a.rows(), b.rows());
+  ASSERT_EQ(a.cols(), b.cols());
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), digits * a.cwiseAbs().maxCoeff());
+}
+
+/// All that WAMIT's files hold.
+void expect_same_coefficients(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b) {
+  ASSERT_EQ(a.frequencies.size(), b.frequencies.size());
+  for (std::size_t k = 0; k < a.frequencies.size(); ++k) {
+    expect_same(a.added_mass[k], b.added_mass[k]);
+    expect_same(a.damping[k], b.damping[k]);
+    expect_same(a.excitation(k), b.excitation(k));
+  }
+  expect_same(a.infinite_added_mass, b.infinite_added_mass);
+  expect_same(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
+}
+
+/// The sample's first body alone.
+HydrodynamicDatabase single_body() {
+  HydrodynamicDatabase database = make_sample_database();
+  for (auto* matrices : {&database.added_mass, &database.damping, &database.retardation}) {
+    for (Eigen::MatrixXd& matrix : *matrices) matrix = matrix.topLeftCorner(6, 6).eval();
+  }
+  for (auto* forces : {&database.froude_krylov, &database.diffraction}) {
+    for (Eigen::MatrixXcd& matrix : *forces) matrix = matrix.topRows(6).eval();
+  }
+  for (Eigen::MatrixXd* matrix : {&database.infinite_added_mass, &database.hydrostatic_stiffness}) {
+    *matrix = matrix->topLeftCorner(6, 6).eval();
+  }
+  database.body_names.resize(1);
+  database.displaced_volumes.resize(1);
+  for (auto* points :
+       {&database.reference_points, &database.centres_of_buoyancy, &database.centres_of_mass}) {
+    points->resize(1);
+  }
+  return database;
+}
+
+// A database about a centre of mass off the axes is written about the point that is read.
+TEST(Wamit, IsWrittenAboutThePointThatItIsReadAbout) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = single_body();
+  database.reference_points = {{-1.45, 0.4, 1.1}};
+  write_wamit("single", database);
+  const HydrodynamicDatabase found = read_wamit("single", {1.0, database.water});
+  EXPECT_EQ(found.reference_points[0], Vector3(0, 0, 0));
+  // Of a force F on the body the moments about the origin have r x F more.
+  const Eigen::MatrixXcd X = database.excitation(1), Y = found.excitation(1);
+  for (Eigen::Index h = 0; h < X.cols(); ++h) {
+    const Eigen::Vector3cd F = X.col(h).head<3>(), M = X.col(h).tail<3>();
+    EXPECT_NEAR(std::abs(Y(3, h) - (M[0] + 0.4 * F[2] - 1.1 * F[1])), 0.0, 1e-6);
+    EXPECT_NEAR(std::abs(Y(4, h) - (M[1] + 1.1 * F[0] + 1.45 * F[2])), 0.0, 1e-6);
+    EXPECT_NEAR(std::abs(Y(5, h) - (M[2] - 1.45 * F[1] - 0.4 * F[0])), 0.0, 1e-6);
+  }
+  EXPECT_NEAR(found.added_mass[0](4, 4),
+              database.added_mass[0](4, 4) + 2 * 1.1 * database.added_mass[0](0, 4) +
+                  2 * 1.45 * database.added_mass[0](2, 4) +
+                  1.1 * 1.1 * database.added_mass[0](0, 0) +
+                  1.45 * 1.45 * database.added_mass[0](2, 2) +
+                  2 * 1.1 * 1.45 * database.added_mass[0](0, 2),
+              1e-3);
+  // And back: the same to nine digits.
+  expect_same_coefficients(database, about_points(found, database.reference_points));
+}
+
+// Surge and sway off the new point turn; no heel is made up where none is known.
+TEST(ReferencePoints, LevelDriftStaysLevel) {
+  HydrodynamicDatabase database = single_body();
+  database.reference_points = {{2, 0, 3}};
+  Eigen::MatrixXd drift = Eigen::MatrixXd::Zero(6, 2);
+  drift.row(1).setConstant(5.0);
+  database.mean_drift.assign(3, drift);
+  const Eigen::MatrixXd level = about_points(database, {{0, 0, 0}}).mean_drift[0];
+  EXPECT_EQ(level(5, 0), 10.0);
+  EXPECT_EQ(level(3, 0), 0.0);
+  for (Eigen::MatrixXd& D : database.mean_drift) D.row(2).setConstant(1.0);
+  EXPECT_EQ(about_points(database, {{0, 0, 0}}).mean_drift[0](3, 0), -15.0);
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
