@@ -15,7 +15,7 @@ using dynamics::Vector3;
 
 /// To a share of the largest number.
 template <class Matrix>
-void expect_same(const Matrix& a, const Matrix& b) {
+void expect_nine_digits(const Matrix& a, const Matrix& b) {
   constexpr double digits = 1e-9;
   ASSERT_EQ(a.rows(), b.rows());
   ASSERT_EQ(a.cols(), b.cols());
@@ -23,15 +23,15 @@ void expect_same(const Matrix& a, const Matrix& b) {
 }
 
 /// All that WAMIT's files hold.
-void expect_same_coefficients(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b) {
+void expect_coefficients(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b) {
   ASSERT_EQ(a.frequencies.size(), b.frequencies.size());
   for (std::size_t k = 0; k < a.frequencies.size(); ++k) {
-    expect_same(a.added_mass[k], b.added_mass[k]);
-    expect_same(a.damping[k], b.damping[k]);
-    expect_same(a.excitation(k), b.excitation(k));
+    expect_nine_digits(a.added_mass[k], b.added_mass[k]);
+    expect_nine_digits(a.damping[k], b.damping[k]);
+    expect_nine_digits(a.excitation(k), b.excitation(k));
   }
-  expect_same(a.infinite_added_mass, b.infinite_added_mass);
-  expect_same(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
+  expect_nine_digits(a.infinite_added_mass, b.infinite_added_mass);
+  expect_nine_digits(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
 }
 
 /// The sample's first body alone.
@@ -79,7 +79,7 @@ TEST(Wamit, IsWrittenAboutThePointThatItIsReadAbout) {
                   2 * 1.1 * 1.45 * database.added_mass[0](0, 2),
               1e-3);
   // And back: the same to nine digits.
-  expect_same_coefficients(database, about_points(found, database.reference_points));
+  expect_coefficients(database, about_points(found, database.reference_points));
 }
 
 // Surge and sway off the new point turn; no heel is made up where none is known.
