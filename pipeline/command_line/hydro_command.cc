@@ -1,8 +1,11 @@
 #include "pipeline/command_line/hydro_command.h"
 
 #include <cerrno>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -147,6 +150,27 @@ int compute_vessel(const HydroOptions& options) {
   return exit_code::done;
 }
 
+/// x,y[,z[,heading]], m and degrees.
+WamitBody body_at(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    char* end = nullptr;
+    const double number = std::strtod(part.c_str(), &end);
+    if (part.empty() || *end != '\0' || !std::isfinite(number)) {
+      refuse("--body-at " + text, fmt::format("\"{}\" is no number", part),
+             {"x,y[,z[,heading]] is due, m and degrees"});
+    }
+    numbers.push_back(number);
+  }
+  if (numbers.size() < 2 || numbers.size() > 4) {
+    refuse("--body-at " + text, fmt::format("{} numbers", numbers.size()),
+           {"x,y[,z[,heading]] is due, m and degrees"});
+  }
+  numbers.resize(4, 0.0);
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3] * degree};
+}
+
 /// Where WAMIT's files count from, for people and for the command that reads them again.
 std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
   const std::vector<dynamics::Vector3> points = wamit_points(database);
@@ -159,6 +183,10 @@ std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
     note += fmt::format("{} ({}, {}, 0) m of {}", b == 0 ? "" : ",", points[b].x(), points[b].y(),
                         database.body_names[b]);
   }
+  note += "; to read them again:";
+  for (const dynamics::Vector3& point : points) {
+    note += fmt::format(" --body-at={},{}", point.x(), point.y());
+  }
   return note;
 }
 
@@ -169,6 +197,7 @@ int convert(const HydroOptions& options) {
   scales.water.density = options.water_density;
   scales.water.gravity = options.gravity;
   if (options.water_depth) scales.water.depth = *options.water_depth;
+  for (const std::string& text : options.bodies_at) scales.bodies.push_back(body_at(text));
   HydrodynamicFile file;
   try {
     file = import_hydrodynamics(*options.import, scales);

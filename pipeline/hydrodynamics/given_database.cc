@@ -23,6 +23,45 @@ constexpr double largest_difference = 0.05;
   throw InputError(diagnostics);
 }
 
+double size_of(const dynamics::Hull& hull) {
+  const auto [low, high] = hull.bounds();
+  return (high - low).norm();
+}
+
+/// Does the hull lie where the database's body does, which does not tell its centre of buoyancy? Its
+/// stiffness tells the middle of its water plane; without one, its reference point must at least be
+/// over or under the hull, where there are several.
+void require_same_water_plane(const RadiationProblem& problem, const RadiationProblem::Body& body,
+                              const dynamics::Hydrostatics& rest) {
+  const HydrodynamicDatabase& database = *problem.given;
+  const auto index = static_cast<std::size_t>(body.given_body);
+  const Eigen::Vector2d reference = database.reference_points[index].head<2>();
+  const double size = size_of(body.vessel->hull);
+  const auto fail = [&](const Eigen::Vector2d& difference, const char* what) {
+    refuse(problem.place,
+           fmt::format("{} of vessel {} lies ({:.4g}, {:.4g}) m from where the database has that "
+                       "of its body {}",
+                       what, body.name, difference.x(), difference.y(), database.body_names[index]),
+           "the database does not tell its bodies' centres of buoyancy: a single vessel's origin "
+           "must lie over the database's origin, several vessels where it has them in its own "
+           "world, WAMIT's where hydro --import was told by --body-at");
+  };
+  const Eigen::Index heave = modes_per_body * Eigen::Index{body.given_body} + 2;
+  if (database.hydrostatic_stiffness.size() > 0 &&
+      database.hydrostatic_stiffness(heave, heave) > 0.0 && rest.water_plane_area > 0.0) {
+    const auto C = database.hydrostatic_stiffness.block<1, 3>(heave, heave);
+    const Eigen::Vector2d middle = reference + Eigen::Vector2d(-C(2), C(1)) / C(0);
+    const Eigen::Vector2d difference =
+        body.X_DB.p.head<2>() + rest.water_plane_moment / rest.water_plane_area - middle;
+    if (difference.norm() > largest_difference * size) fail(difference, "the water plane");
+    return;
+  }
+  const bool apart = std::any_of(database.reference_points.begin(), database.reference_points.end(),
+                                 [&](const Vector3& p) { return p.head<2>() != reference; });
+  const Eigen::Vector2d difference = body.X_DB.p.head<2>() - reference;
+  if (apart && difference.norm() > size) fail(difference, "the origin");
+}
+
 /// Is the hull, as it lies at rest, that of the database's body?
 void require_same_hull(const RadiationProblem& problem, const RadiationProblem::Body& body) {
   const HydrodynamicDatabase& database = *problem.given;
@@ -37,10 +76,12 @@ void require_same_hull(const RadiationProblem& problem, const RadiationProblem::
                        database.body_names[index], volume, body.name, rest.volume),
            "the database is of another vessel, or the vessel floats at another draught");
   }
-  if (database.centres_of_buoyancy.empty()) return;
+  if (database.centres_of_buoyancy.empty()) {
+    require_same_water_plane(problem, body, rest);
+    return;
+  }
   const Vector3 difference = body.X_DB.p + rest.p_BoC_W() - database.centres_of_buoyancy[index];
-  const auto [low, high] = hull.bounds();
-  if (difference.norm() > largest_difference * (high - low).norm()) {
+  if (difference.norm() > largest_difference * size_of(hull)) {
     refuse(problem.place,
            fmt::format("the centre of buoyancy of vessel {} lies ({:.4g}, {:.4g}, {:.4g}) m from "
                        "where the database has that of its body {}",

@@ -298,6 +298,10 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
     std::filesystem::path name = path;
     return imported("WAMIT", read_wamit(name.replace_extension(), scales));
   }
+  if (!scales.bodies.empty()) {
+    throw HydrodynamicFileError(path.string() +
+                                ": tells itself where its bodies lie; --body-at is for WAMIT's");
+  }
   if (ending == ".nc") return imported("Capytaine", read_capytaine(path));
   if (ending == ".h5") {
     if (read_identity(path)) return read_hydrodynamic_file(path);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <numbers>
+#include <vector>
 
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
@@ -13,13 +14,21 @@ namespace blocklift::pipeline {
 /// In radians: other programs write angles in degrees.
 inline constexpr double degree = std::numbers::pi / 180.0;
 
+/// WAMIT's XBODY: where the axes lie that a body's modes are along and about.
+struct WamitBody {
+  dynamics::Vector3 p_W = dynamics::Vector3::Zero();  ///< m
+  double heading = 0.0;                               ///< of the x axis, rad
+};
+
 /// What files of WAMIT do not tell.
 struct WamitScales {
-  double length = 1.0;    ///< L, WAMIT's ULEN, m
-  dynamics::Water water;  ///< density, gravity, depth
+  double length = 1.0;                 ///< L, WAMIT's ULEN, m
+  dynamics::Water water;               ///< density, gravity, depth
+  std::vector<WamitBody> bodies = {};  ///< in their order; empty: a single one at the origin
 };
 
 /// By the ending: .1, .3, .hst WAMIT (all three of the name); .nc Capytaine; .h5 BEMIO, or our own.
+/// `scales.bodies` of a file that tells them itself are refused.
 HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path, const WamitScales& scales);
 
 /// BEMIO, the files of WEC-Sim. Bodies /body1, /body2 ...; C order (6, 6N, frequencies).
@@ -43,8 +52,11 @@ void write_bemio(const std::filesystem::path& path, const dynamics::Hydrodynamic
 /// k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the period, s; 0: infinite
 /// frequency, negative: zero frequency (passed over). BETA in degrees, force Re X e^{+i w t} of the
 /// wave cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies' own origins, which the
-/// files do not tell: those of `scales`, or of a single body the world's. Written with 17 digits,
-/// about wamit_points(). Source: WAMIT User Manual v7, sections 3.8, 4.2, 4.3, 4.5 and 4.13.
+/// files do not tell: those of `scales`, or of a single body the world's. They are turned to the
+/// world's axes; headings and phases count from there in WAMIT, too. Several bodies without their
+/// axes are refused, and so is the mean drift of turned ones, whose axes depend on the method.
+/// Written with 17 digits, about wamit_points(). Source: WAMIT User Manual v7, sections 3.8, 4.2,
+/// 4.3, 4.5 and 4.13.
 dynamics::HydrodynamicDatabase read_wamit(const std::filesystem::path& name,
                                           const WamitScales& scales);
 void write_wamit(const std::filesystem::path& name, const dynamics::HydrodynamicDatabase& database);

@@ -113,6 +113,44 @@ struct Periods {
   }
 };
 
+/// Of each body; of a single one the world's, if nothing else is told.
+std::vector<WamitBody> axes_of_bodies(const fs::path& path, const WamitScales& scales,
+                                      Eigen::Index bodies) {
+  const auto count = static_cast<std::size_t>(bodies);
+  if (scales.bodies.size() == count) return scales.bodies;
+  if (!scales.bodies.empty()) {
+    throw HydrodynamicFileError(fmt::format("{}: holds {} bodies, and {} are placed by --body-at",
+                                            path.string(), count, scales.bodies.size()));
+  }
+  if (count == 1) return {WamitBody{}};
+  throw HydrodynamicFileError(
+      fmt::format("{}: holds {} bodies, and WAMIT's files do not tell where their axes lie, which "
+                  "coefficients are about; give XBODY of each, in their order, by --body-at "
+                  "x,y[,z[,heading]] (m, degrees)",
+                  path.string(), count));
+}
+
+/// From the bodies' own axes to the world's.
+void turn_to_world(const std::vector<WamitBody>& bodies, HydrodynamicDatabase& database) {
+  const auto is_turned = [](const WamitBody& body) { return body.heading != 0.0; };
+  if (std::none_of(bodies.begin(), bodies.end(), is_turned)) return;
+  MatrixXd Q = MatrixXd::Identity(database.mode_count(), database.mode_count());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(bodies[b].heading, dynamics::Vector3::UnitZ()).toRotationMatrix();
+    const Eigen::Index first = modes_per_body * static_cast<Eigen::Index>(b);
+    Q.block<3, 3>(first, first) = Q.block<3, 3>(first + 3, first + 3) = R;
+  }
+  const auto turn = [&](MatrixXd& M) {
+    if (M.size() > 0) M = MatrixXd(Q * M * Q.transpose());
+  };
+  std::for_each(database.added_mass.begin(), database.added_mass.end(), turn);
+  std::for_each(database.damping.begin(), database.damping.end(), turn);
+  turn(database.infinite_added_mass);
+  turn(database.hydrostatic_stiffness);
+  for (Eigen::MatrixXcd& X : database.diffraction) X = Eigen::MatrixXcd(Q * X);
+}
+
 void read_radiation(const fs::path& path, const WamitScales& scales, Periods& periods,
                     HydrodynamicDatabase& database) {
   const TextFile file(path);
@@ -131,9 +169,10 @@ void read_radiation(const fs::path& path, const WamitScales& scales, Periods& pe
     throw HydrodynamicFileError(
         fmt::format("{}: {} lines are too few for the {} periods and {} bodies that they name",
                     path.string(), lines.size(), periods.index.size(), bodies));
+  const std::vector<WamitBody> axes = axes_of_bodies(path, scales, bodies);
   for (Eigen::Index b = 0; b < bodies; ++b) {
     database.body_names.push_back("body" + std::to_string(b + 1));
-    database.reference_points.emplace_back(0, 0, 0);
+    database.reference_points.push_back(axes[static_cast<std::size_t>(b)].p_W);
     database.displaced_volumes.push_back(0.0);
   }
   database.frequencies = periods.frequencies();
@@ -348,6 +387,12 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
   }
   if (const auto path = find_mean_drift(name, database.body_count());
       path && !database.headings.empty()) {
+    if (std::any_of(scales.bodies.begin(), scales.bodies.end(),
+                    [](const WamitBody& body) { return body.heading != 0.0; })) {
+      throw HydrodynamicFileError(path->string() +
+                                  ": along which axes the mean drift of turned bodies is, the "
+                                  "file does not tell; leave it aside, or turn no body");
+    }
     read_mean_drift(*path, scales, periods, database);
   }
   database.froude_krylov.assign(database.frequencies.size(),
@@ -355,6 +400,7 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
   if (const fs::path path = with_ending(name, ".hst"); fs::exists(path)) {
     read_stiffness(path, scales, database);
   }
+  turn_to_world(scales.bodies, database);
   try {
     add_retardation(database);
     if (database.infinite_added_mass.size() == 0) add_infinite_added_mass(database);

@@ -277,6 +277,9 @@ TEST_F(HydroCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run("none.yaml").exit_code, 2);
   EXPECT_EQ(run("--import none.h5 -o x.h5").exit_code, 2);
   EXPECT_EQ(run("--import pontoon/vessel.yaml -o x.h5").exit_code, 2);
+  EXPECT_THAT(run("--import none.1 --body-at 0,0 --body-at=-3,deep -o x.h5").err,
+              AllOf(HasSubstr("\"deep\" is no number"), HasSubstr("x,y[,z[,heading]] is due")));
+  EXPECT_THAT(run("--import none.1 --body-at 3 -o x.h5").err, HasSubstr("1 numbers"));
 }
 
 /// Panels of a box of 4 m, its lowest point at z, in WAMIT's format; some left out, or turned

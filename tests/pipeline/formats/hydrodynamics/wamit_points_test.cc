@@ -1,4 +1,6 @@
 // Points and axes that the files of WAMIT are about.
+#include <numbers>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +14,8 @@ namespace {
 
 using dynamics::HydrodynamicDatabase;
 using dynamics::Vector3;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 /// To a share of the largest number.
 template <class Matrix>
@@ -80,6 +84,62 @@ TEST(Wamit, IsWrittenAboutThePointThatItIsReadAbout) {
               1e-3);
   // And back: the same to nine digits.
   expect_coefficients(database, about_points(found, database.reference_points));
+}
+
+std::string message_of(const WamitScales& scales) {
+  try {
+    read_wamit("pair", scales);
+  } catch (const HydrodynamicFileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// Files of several bodies are of no use without the places of their axes.
+TEST(Wamit, SeveralBodiesNeedTheirAxes) {
+  const test::TemporaryFolder folder;
+  const HydrodynamicDatabase database = make_sample_database();
+  write_wamit("pair", database);
+  WamitScales scales{1.0, database.water, {}};
+  EXPECT_THAT(message_of(scales),
+              AllOf(HasSubstr("pair.1: holds 2 bodies"), HasSubstr("--body-at x,y[,z[,heading]]")));
+  scales.bodies = {{{1, 2, 0}}};
+  EXPECT_THAT(message_of(scales), HasSubstr("2 bodies, and 1 are placed"));
+  scales.bodies.clear();
+  for (const Vector3& point : wamit_points(database)) scales.bodies.push_back({point});
+  const HydrodynamicDatabase found = read_wamit("pair", scales);
+  EXPECT_EQ(found.reference_points[1], Vector3(12.5, 0, 0));
+  expect_coefficients(database, about_points(found, database.reference_points));
+  folder.write("pair.9", "1 0 0 1 1 0 1 0\n");
+  scales.bodies[1].heading = 1.0;
+  EXPECT_THAT(message_of(scales), HasSubstr("mean drift of turned bodies"));
+}
+
+// A body whose own x axis is the world's y: its surge is the world's sway, its sway backward surge.
+TEST(Wamit, TurnsBodiesToTheWorldsAxes) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = single_body();
+  database.reference_points = {{0, 0, 0}};
+  write_wamit("single", database);
+  const WamitScales scales{1.0, database.water, {{{3, 4, 1}, std::numbers::pi / 2}}};
+  const HydrodynamicDatabase found = read_wamit("single", scales);
+  EXPECT_EQ(found.reference_points[0], Vector3(3, 4, 1));
+  const Eigen::MatrixXd &own = database.added_mass[1], &turned = found.added_mass[1];
+  constexpr double rounding = 1e-6;
+  EXPECT_NEAR(turned(1, 1), own(0, 0), rounding);
+  EXPECT_NEAR(turned(0, 0), own(1, 1), rounding);
+  EXPECT_NEAR(turned(0, 3), own(1, 4), rounding);
+  EXPECT_NEAR(turned(0, 4), -own(1, 3), rounding);
+  EXPECT_NEAR(turned(2, 4), own(2, 3), rounding);
+  const Eigen::MatrixXcd X = database.excitation(1), Y = found.excitation(1);
+  EXPECT_NEAR(std::abs(Y(0, 1) + X(1, 1)), 0.0, rounding);
+  EXPECT_NEAR(std::abs(Y(4, 1) - X(3, 1)), 0.0, rounding);
+}
+
+TEST(Import, ToldPlacesAreForFilesThatDoNotTellThem) {
+  const test::TemporaryFolder folder;
+  folder.write("body.nc", "");
+  EXPECT_THROW(import_hydrodynamics("body.nc", {1.0, {}, {{{1, 2, 0}}}}), HydrodynamicFileError);
 }
 
 // Surge and sway off the new point turn; no heel is made up where none is known.
