@@ -1,5 +1,6 @@
 #include "pipeline/command_line/hydro_command.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -150,6 +151,11 @@ int compute_vessel(const HydroOptions& options) {
   return exit_code::done;
 }
 
+bool lacks_volumes(const dynamics::HydrodynamicDatabase& database) {
+  const std::vector<double>& volumes = database.displaced_volumes;
+  return std::any_of(volumes.begin(), volumes.end(), [](double volume) { return !(volume > 0.0); });
+}
+
 /// x,y[,z[,heading]], m and degrees.
 WamitBody body_at(const std::string& text) {
   std::vector<double> numbers;
@@ -208,6 +214,11 @@ int convert(const HydroOptions& options) {
     refuse(*options.import, "the file that is to be made has no name", {"give it by -o FILE"});
   }
   const fs::path output = *options.output;
+  if (lacks_volumes(file.series.databases.front()) && file.origin.ends_with("(BEMIO)")) {
+    say_warning(*options.import +
+                ": bodies displace nothing (disp_vol 0): cb and cg are not taken for centres of "
+                "buoyancy and mass, and weight acts where the vessel has it");
+  }
   if (!options.export_format) {
     write_with_page(output, file, hydrodynamic_page(file, file.origin, {}));
     if (is_quiet()) return exit_code::done;
@@ -221,7 +232,12 @@ int convert(const HydroOptions& options) {
   }
   const dynamics::HydrodynamicDatabase& database = file.series.databases.front();
   if (*options.export_format == "bemio") {
-    write_bemio(output, database);
+    try {
+      write_bemio(output, database);
+    } catch (const HydrodynamicFileError& error) {
+      refuse(*options.import, error.what(),
+             {"WAMIT's files do not hold them: export to wamit, or compute the vessel by hydro"});
+    }
     fmt::print("{}\n", output.string());
   } else {
     fs::path name = output;

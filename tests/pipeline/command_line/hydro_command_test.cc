@@ -73,6 +73,9 @@ TEST_F(HydroCommand, ComputesOnceAndConverts) {
   EXPECT_THAT(run("--import wec.h5 -o back.h5").out, HasSubstr("imported from wec.h5 (BEMIO)"));
   EXPECT_THAT(run("--import wec.1 --water-depth 20 -o back.h5").out,
               HasSubstr("imported from wec.1 (WAMIT)"));
+  const Outcome unknown = run("--import wec.1 --water-depth 20 --export bemio -o no.h5");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("disp_vol"), HasSubstr("export to wamit")));
 }
 
 // Both methods agree but for their panels' errors, and one's database is not taken for the other's.
