@@ -16,7 +16,6 @@ namespace {
 
 using dynamics::BodyIndex;
 
-constexpr int heading_count = 72;  // every 5 degrees
 dynamics::Water water_of(const SeaInCase& sea, double gravity) {
   dynamics::Water water;
   water.density = sea.density;
@@ -275,9 +274,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   problem.place = parts_.sea->radiation.place;
   problem.frequencies = radiation_frequencies(*parts_.sea);
   problem.method = parts_.sea->radiation.method.value;
-  for (int i = 0; i < heading_count; ++i) {
-    problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
-  }
+  problem.headings = default_headings();
   for (const VesselInCase& vessel : parts_.vessels) {
     if (vessel.drift.value == DriftMethod::none || problem.given) continue;
     problem.drifting = free_vessel(vessel, problem.bodies.front().p_BoR_B);

@@ -11,6 +11,7 @@
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/file_kind.h"
+#include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/results/doubts.h"
@@ -82,6 +83,7 @@ int simulate_mechanism(const SimulateOptions& options) {
   const fs::path folder = result_folder(options, file->name);
   if (!is_quiet())
     for (const std::string& note : file->notes) print_wrapped("note: " + note);
+  if (const std::string doubt = doubt_about_headings(*file); !doubt.empty()) say_warning(doubt);
   auto bar = std::make_unique<ProgressBar>("time integration");
   const MechanismRun run = run_mechanism(*file, [&](double fraction, double time) {
     bar->show(fraction, fmt::format("t = {:.3g} s", time));

@@ -163,7 +163,10 @@ template <class Value>
 LineChart by_heading(const HydrodynamicDatabase& database, std::string title, std::string unit,
                      const Value& value) {
   LineChart chart{std::move(title), "rad/s", std::move(unit), {}};
-  for (std::size_t h = 0; h < database.headings.size(); ++h) {
+  // As many as can be told apart, evenly chosen.
+  constexpr std::size_t most_curves = 8;
+  const std::size_t stride = (database.headings.size() + most_curves - 1) / most_curves;
+  for (std::size_t h = 0; h < database.headings.size(); h += stride) {
     chart.curves.push_back(
         over_frequency(database, fmt::format("{:.0f} deg", database.headings[h] / degree),
                        [&](std::size_t k) { return value(k, static_cast<Eigen::Index>(h)); }));

@@ -50,7 +50,7 @@ std::optional<HydrodynamicBody> read_body(const fs::path& file, std::optional<do
 void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& problem) {
   problem.frequencies = settings.frequencies.list();
   problem.frequencies_place = settings.frequencies.place;
-  problem.headings = settings.headings;
+  problem.headings = settings.headings.value_or(default_headings());
   problem.water.density = settings.water_density;
   if (settings.water_depth) problem.water.depth = *settings.water_depth;
   problem.method = settings.method;

@@ -59,6 +59,17 @@ TEST_F(HydrodynamicProblemOfFile, ASingleVesselLiesInItsOwnFrame) {
   EXPECT_NEAR(prepare_state(*turned, 0).poses[0].p.x(), 0.0, 1e-12);
 }
 
+// As a case that computes for itself: what lies between two headings is interpolated.
+TEST_F(HydrodynamicProblemOfFile, WavesComeFromEveryFiveDegrees) {
+  const auto common = problem("position: [0 m, 0 m]", "panel_size: 4 m");
+  ASSERT_TRUE(common) << diagnostics_.to_text();
+  ASSERT_EQ(common->headings.size(), 72U);
+  EXPECT_NEAR(common->headings[1] - common->headings[0], std::numbers::pi / 36, 1e-12);
+  const auto none = problem("position: [0 m, 0 m]", "headings: []");
+  ASSERT_TRUE(none) << diagnostics_.to_text();
+  EXPECT_TRUE(none->headings.empty());
+}
+
 TEST_F(HydrodynamicProblemOfFile, LidsMoveAlongAndDoNotTurn) {
   const std::string lids = "lids: [{from: [99 m, -1 m], to: [101 m, 1 m], rate: 0.1 rad/s}]";
   const auto moved = problem("position: [100 m, 0 m]", lids);

@@ -10,6 +10,7 @@
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -172,6 +173,47 @@ void write_database(const std::string& file, const std::vector<std::string>& bod
   database.froude_krylov.assign(2, Eigen::MatrixXcd::Zero(modes, headings));
   database.diffraction.assign(2, Eigen::MatrixXcd::Constant(modes, headings, 1e4));
   write_hydrodynamic_database(file, database);
+}
+
+MarineParts parts_with_headings(int count, double vessel_heading) {
+  MarineParts parts;
+  auto database = std::make_shared<dynamics::HydrodynamicDatabase>();
+  for (int h = 0; h < count; ++h) {
+    database->headings.push_back(h * 2 * std::numbers::pi / count);
+  }
+  parts.sea = SeaInCase{};
+  parts.sea->waves = WavesInCase{};
+  parts.vessels.resize(1);
+  parts.vessels[0].hydrodynamics = database;
+  parts.vessels[0].database = Located<std::string>{"pontoon.h5", {}};
+  parts.vessels[0].heading = vessel_heading;
+  return parts;
+}
+
+// Between headings far apart forces are interpolated over an eighth of a turn.
+TEST(MarineParts, WavesBetweenHeadingsFarApartAreDoubted) {
+  const double degree = std::numbers::pi / 180;
+  const auto doubt = [&](int count, double heading, double vessel_heading = 0) {
+    MarineParts parts = parts_with_headings(count, vessel_heading * degree);
+    RegularWaveInCase wave;
+    wave.heading = heading * degree;
+    parts.sea->waves->regular = std::vector{wave};
+    return doubt_about_headings(parts);
+  };
+  EXPECT_THAT(doubt(8, 30),
+              AllOf(HasSubstr("pontoon.h5"), HasSubstr("of 0 and 45 degrees, 45 degrees apart")));
+  EXPECT_THAT(doubt(8, -10), HasSubstr("of 315 and 360 degrees"));
+  EXPECT_EQ(doubt(8, 90), "");
+  EXPECT_EQ(doubt(24, 37), "");
+  EXPECT_EQ(doubt(72, 37), "");
+  // A single vessel's database turns with it.
+  EXPECT_EQ(doubt(8, 30, 30), "");
+  EXPECT_THAT(doubt(8, 45, 30), HasSubstr("of 0 and 45 degrees"));
+  MarineParts spread = parts_with_headings(8, 0);
+  spread.sea->waves->spectrum = SpectrumInCase{};
+  EXPECT_EQ(doubt_about_headings(spread), "");
+  spread.sea->waves->spectrum->spreading = 4;
+  EXPECT_THAT(doubt_about_headings(spread), HasSubstr("degrees apart"));
 }
 
 // The barge of `floating` lies at (3, 4), turned by a quarter, 2.1 m deep: the database's world is
