@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
@@ -57,6 +58,17 @@ void print_panels(const HydrodynamicState& state) {
           : doubt_about_coupling(*state.model, state.groups, state.settings.frequencies.back());
   if (!doubt.empty()) say_warning(doubt);
   std::fflush(stdout);
+}
+
+/// Of each body once, at its deepest: draughts ascend.
+void say_doubts_about_keels(const HydrodynamicProblem& problem,
+                            const std::vector<HydrodynamicState>& states) {
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+    const HydrodynamicBody& body = problem.bodies[b];
+    const std::string doubt =
+        doubt_about_keel(body.name, body.hull, states.back().poses[b], problem.water.depth);
+    if (!doubt.empty()) say_warning(doubt);
+  }
 }
 
 /// Meshes all draughts; what is wrong is wrong input.
@@ -130,6 +142,7 @@ int compute_vessel(const HydroOptions& options) {
   const fs::path output = output_of(options, *problem);
   require_writable_file(output);
   const std::vector<HydrodynamicState> states = prepare(*problem);
+  say_doubts_about_keels(*problem, states);
   std::vector<Eigen::MatrixXd> masses;
   for (const HydrodynamicState& state : states) masses.push_back(state.mass);
   HydrodynamicFile file;

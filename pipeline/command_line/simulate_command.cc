@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/assessment/assess.h"
+#include "pipeline/build/build_mechanism.h"
+#include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/declaration/quantity.h"
@@ -83,7 +85,10 @@ int simulate_mechanism(const SimulateOptions& options) {
   const fs::path folder = result_folder(options, file->name);
   if (!is_quiet())
     for (const std::string& note : file->notes) print_wrapped("note: " + note);
-  if (const std::string doubt = doubt_about_headings(*file); !doubt.empty()) say_warning(doubt);
+  for (const std::string& doubt :
+       {doubt_about_headings(*file), doubt_about_keels(radiation_problem(*file))}) {
+    if (!doubt.empty()) say_warning(doubt);
+  }
   auto bar = std::make_unique<ProgressBar>("time integration");
   const MechanismRun run = run_mechanism(*file, [&](double fraction, double time) {
     bar->show(fraction, fmt::format("t = {:.3g} s", time));

@@ -11,6 +11,7 @@
 
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
+#include "pipeline/build/keel_clearance.h"
 #include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
@@ -284,6 +285,9 @@ class Doubts {
   void doubt_water() {
     if (std::string headings = doubt_about_headings(case_); !headings.empty())
       list_.push_back(std::move(headings));
+    if (!case_.sea || !case_.sea->depth) return;
+    if (std::string keels = doubt_about_keels(radiation_problem(case_)); !keels.empty())
+      list_.push_back(std::move(keels));
   }
 
   void doubt_wind() {
