@@ -11,6 +11,7 @@
 
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
+#include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
@@ -54,6 +55,7 @@ class Doubts {
 
   std::vector<std::string> list() {
     doubt_cranes();
+    doubt_sea();
     doubt_wind();
     doubt_materials();
     doubt_masses();
@@ -277,6 +279,11 @@ class Doubts {
       if (!a || !b || std::abs(a->value.value - b->value.value) > 0.1) return true;
     }
     return false;
+  }
+
+  void doubt_sea() {
+    std::string of_sea = doubt_about_sea(case_, case_.gravity);
+    if (!of_sea.empty()) list_.push_back(std::move(of_sea));
   }
 
   void doubt_wind() {
