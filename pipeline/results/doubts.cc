@@ -12,6 +12,7 @@
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
@@ -284,6 +285,8 @@ class Doubts {
   void doubt_sea() {
     std::string of_sea = doubt_about_sea(case_, case_.gravity);
     if (!of_sea.empty()) list_.push_back(std::move(of_sea));
+    std::string of_database = doubt_about_database(case_.vessels);
+    if (!of_database.empty()) list_.push_back(std::move(of_database));
   }
 
   void doubt_wind() {

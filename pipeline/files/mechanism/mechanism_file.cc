@@ -13,6 +13,7 @@
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case/rigging_check.h"
 #include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/mechanism/urdf_import.h"
 #include "pipeline/files/named_file.h"
 
@@ -117,6 +118,8 @@ void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) check_hulls_apart(place_hulls(mechanism), diagnostics);
   if (diagnostics.has_errors()) return;
   if (std::string doubt = doubt_about_sea(mechanism, -g.z()); !doubt.empty())
+    mechanism.doubts.push_back(std::move(doubt));
+  if (std::string doubt = doubt_about_database(mechanism.vessels); !doubt.empty())
     mechanism.doubts.push_back(std::move(doubt));
 }
 
