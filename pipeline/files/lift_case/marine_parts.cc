@@ -179,9 +179,17 @@ double floating_height(const VesselInCase& vessel, const SeaInCase& sea) {
 }
 
 void check_floating(const VesselInCase& vessel, const SeaInCase& sea, Diagnostics& diagnostics) {
-  if (!vessel.model || vessel.draught) return;
+  if (!vessel.model) return;
   try {
-    floating_height(vessel, sea);
+    const double height = vessel.draught ? -vessel.draught->value : floating_height(vessel, sea);
+    if (!sea.depth) return;
+    const double keel = height + vessel.model->hull.bounds()[0].z();
+    if (keel > -*sea.depth) return;
+    diagnostics.error(
+        vessel.draught ? vessel.draught->mark : vessel.name.mark,
+        fmt::format("vessel {} reaches {:.4g} m below the water, which is {:.4g} m deep",
+                    vessel.name.value, -keel, *sea.depth),
+        {"a deeper sea, or a smaller draught"});
   } catch (const dynamics::ModelError& error) {
     diagnostics.error(vessel.name.mark, error.what());
   }
@@ -197,6 +205,7 @@ void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
   }
   if (!vessel.model || !vessel.draught) return;
   const auto [low, high] = vessel.model->hull.bounds();
+  if (std::isnan(vessel.draught->value)) return;  // the reader has complained
   if (vessel.draught->value > low.z() && vessel.draught->value < high.z()) return;
   diagnostics.error(
       vessel.draught->mark,

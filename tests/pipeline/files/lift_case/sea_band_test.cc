@@ -18,6 +18,7 @@ using test::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr double g = 9.80665;
 constexpr auto follower = R"(kind: vessel
@@ -89,13 +90,14 @@ TEST(SeaBand, KeepsTheUsualRadiationForLongSeas) {
   EXPECT_NEAR(band.kept, 0.985, 1e-3);
 }
 
-// Panels of the barge are 4 m squares: three go into waves of 17.0 m, of 1.90 rad/s.
+// Panels of the barge are 4 x 3.33 m and 5.21 m across: three go into waves of 15.6 m, which have
+// 1.985 rad/s.
 TEST(SeaBand, RadiationReachesWhatTheSeaAsksFor) {
   const MechanismFile short_sea = sound_afloat(spectrum("9 s"), "vessels/barge");
   const SeaBand band = find_sea_band(short_sea, g);
   EXPECT_DOUBLE_EQ(band.radiation[0], 0.3);
-  EXPECT_NEAR(band.radiation[1], 1.9, 1e-9);
-  EXPECT_EQ(band.frequencies, 33);  // 0.05 rad/s apart
+  EXPECT_NEAR(band.radiation[1], 1.95, 1e-9);
+  EXPECT_EQ(band.frequencies, 34);  // 0.05 rad/s apart
   EXPECT_GT(band.kept, kept_without_doubt);
   EXPECT_THAT(short_sea.doubts, IsEmpty());
 
@@ -123,7 +125,7 @@ TEST(SeaBand, ObeysAHighestFrequency) {
 TEST(SeaBand, RefusesASeaThatIsHardlyThere) {
   const std::string panels = read_afloat(spectrum("3 s"), bare_barge).complaints;
   EXPECT_THAT(panels, AllOf(HasSubstr("mechanism.yaml:3:10: error: of the sea's waves those of "),
-                            HasSubstr("panels of vessel B1 are up to 5.66 m wide"),
+                            HasSubstr("panels of vessel B1 are up to 5.21 m wide"),
                             HasSubstr("highest_frequency under radiation")));
   const std::string none =
       read_afloat("radiation: {highest_frequency: 1.2 rad/s}\n  " + spectrum("3 s"), bare_buoy)
@@ -141,6 +143,21 @@ TEST(SeaBand, ARecordKeepsItsWaves) {
       sound_afloat("waves: {record: {file: waves.csv, highest_frequency: 1.4 rad/s}}", bare_buoy);
   EXPECT_LT(find_sea_band(cut, g).kept, 0.2);
   EXPECT_EQ(cut.doubts.size(), 1U);
+}
+
+// It floats 2 m deep, by its weight or its draught.
+TEST(SeaBand, AVesselDoesNotStandOnTheBottom) {
+  const std::string message = "error: vessel B1 reaches 2 m below the water, which is 1.5 m deep";
+  EXPECT_THAT(read_afloat("depth: 1.5 m", "vessels/barge, radiation: none").complaints,
+              AllOf(HasSubstr("mechanism.yaml:5:3: "), HasSubstr(message)));
+  EXPECT_THAT(read_afloat("depth: 1.5 m", "vessels/barge, draught: 2 m").complaints,
+              HasSubstr(message));
+  EXPECT_EQ(read_afloat("depth: 2.5 m", "vessels/barge, radiation: none").complaints, "");
+}
+
+TEST(SeaBand, ADraughtThatIsNoNumberIsComplainedOfOnce) {
+  EXPECT_THAT(read_afloat("depth: 20 m", "vessels/barge, draught: .nan m").complaints,
+              AllOf(HasSubstr("draught \".nan m\" is no number"), Not(HasSubstr("nan m, and"))));
 }
 
 TEST(SeaBand, PeakednessIsThatOfJonswap) {
