@@ -40,8 +40,8 @@ struct SeaBand {
 /// @throws dynamics::ModelError if the spectrum or record cannot be.
 SeaBand find_sea_band(const MarineParts& parts, double gravity);
 
-/// What the sea is made of, with its significant height; empty if it is not irregular. The parts are
-/// sound.
+/// What the sea is made of, with its significant height; empty if it is not irregular. The parts
+/// are sound.
 std::string describe_sea(const MarineParts& parts, double gravity);
 /// What an irregular sea loses, if that is more than passes without a word. The parts are sound.
 std::string doubt_about_sea(const MarineParts& parts, double gravity);
