@@ -14,14 +14,14 @@ namespace {
 using dynamics::HydrodynamicDatabase;
 using dynamics::modes_per_body;
 
-constexpr std::array<const char*, modes_per_body> modes = {"surge", "sway",  "heave",
-                                                           "roll",  "pitch", "yaw"};
+constexpr std::array<const char*, modes_per_body> mode_names = {"surge", "sway",  "heave",
+                                                                "roll",  "pitch", "yaw"};
 
 std::size_t kind_of(Eigen::Index mode) { return mode % modes_per_body < 3 ? 0 : 1; }
 
 std::string name_of(const HydrodynamicDatabase& database, Eigen::Index mode) {
   return fmt::format("{} {}", database.body_names[static_cast<std::size_t>(mode / modes_per_body)],
-                     modes[static_cast<std::size_t>(mode % modes_per_body)]);
+                     mode_names[static_cast<std::size_t>(mode % modes_per_body)]);
 }
 
 void require_damping(const HydrodynamicDatabase& database) {
