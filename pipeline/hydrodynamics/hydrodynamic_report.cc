@@ -13,6 +13,7 @@
 #include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 #include "pipeline/terminal/text_table.h"
 
@@ -256,7 +257,8 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
         "\nerror of retardation functions: they miss added mass and damping by {:.2g} % of "
         "the waves' largest share at most\n",
         100.0 * calc_memory_error(database));
-    for (const std::string& doubt : {doubt_about_panels(database), doubt_about_runs(database)}) {
+    for (const std::string& doubt :
+         {doubt_about_panels(database), doubt_about_runs(database), doubt_about_memory(database)}) {
       if (!doubt.empty()) text += "\nwarning: " + doubt + "\n";
     }
   }

@@ -12,6 +12,8 @@
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/build/keel_clearance.h"
+#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
@@ -56,6 +58,7 @@ class Doubts {
 
   std::vector<std::string> list() {
     doubt_cranes();
+    doubt_sea();
     doubt_water();
     doubt_wind();
     doubt_materials();
@@ -280,6 +283,13 @@ class Doubts {
       if (!a || !b || std::abs(a->value.value - b->value.value) > 0.1) return true;
     }
     return false;
+  }
+
+  void doubt_sea() {
+    std::string of_sea = doubt_about_sea(case_, case_.gravity);
+    if (!of_sea.empty()) list_.push_back(std::move(of_sea));
+    std::string of_database = doubt_about_database(case_.vessels);
+    if (!of_database.empty()) list_.push_back(std::move(of_database));
   }
 
   void doubt_water() {

@@ -9,6 +9,7 @@
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/formats/hydrodynamics/netcdf_file.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/formats/read_apart.h"
 
 namespace blocklift::pipeline {
@@ -290,6 +291,11 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
                                       const WamitScales& scales) {
   const std::string ending = path.extension().string();
   const auto imported = [&](const char* program, HydrodynamicDatabase database) {
+    try {
+      require_passive(database);
+    } catch (const dynamics::ModelError& error) {
+      throw HydrodynamicFileError(path.string() + ": " + error.what());
+    }
     const std::string origin =
         fmt::format("imported from {} ({})", path.filename().string(), program);
     return HydrodynamicFile{{}, origin, dynamics::make_series(0, {0.0}, {std::move(database)})};
