@@ -20,9 +20,7 @@ namespace blocklift::pipeline {
 namespace {
 
 using dynamics::HydrodynamicDatabase;
-using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using Complex = std::complex<double>;
 
 constexpr double pi = std::numbers::pi;
@@ -86,43 +84,6 @@ TEST(Bemio, RoundTripIsExactButForTheScaling) {
 HydrodynamicDatabase about_mass(HydrodynamicDatabase database) {
   database.reference_points = database.centres_of_mass;
   return database;
-}
-
-TEST(Bemio, IsAboutTheCentresOfMassAndNeedsThem) {
-  const test::TemporaryFolder folder;
-  const HydrodynamicDatabase database = make_sample_database();
-  write_bemio("wec.h5", database);
-  const HydrodynamicDatabase found = read_bemio("wec.h5");
-  EXPECT_EQ(found.centres_of_mass, database.centres_of_mass);
-  EXPECT_EQ(found.reference_points, database.centres_of_mass);
-  const HydrodynamicDatabase back = about_points(found, database.reference_points);
-  expect_near(database.added_mass, back.added_mass, 1e-9);
-  expect_near(database.diffraction, back.diffraction, 1e-9);
-  HydrodynamicDatabase unknown = database;
-  unknown.displaced_volumes[1] = 0.0;
-  unknown.centres_of_mass.clear();
-  EXPECT_THAT(message_of_import([&] { write_bemio("no.h5", unknown); }),
-              AllOf(HasSubstr("displaced volumes (disp_vol), centres of mass (cg)"),
-                    Not(HasSubstr("buoyancy"))));
-  EXPECT_FALSE(std::filesystem::exists("no.h5"));
-}
-
-// Zeros of programs that know no volumes are no centres.
-TEST(Bemio, TakesNoCentresOfBodiesThatDisplaceNothing) {
-  const test::TemporaryFolder folder;
-  const HydrodynamicDatabase database = about_mass(make_sample_database());
-  write_bemio("wec.h5", database);
-  {
-    const hdf5::Handle file(H5Fopen("wec.h5", H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
-    const hdf5::Handle volume(H5Dopen2(file.get(), "/body1/properties/disp_vol", H5P_DEFAULT),
-                              H5Dclose);
-    const double none = 0.0;
-    H5Dwrite(volume.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &none);
-  }
-  const HydrodynamicDatabase found = read_bemio("wec.h5");
-  EXPECT_EQ(found.reference_points, database.reference_points);
-  EXPECT_TRUE(found.centres_of_mass.empty());
-  EXPECT_TRUE(found.centres_of_buoyancy.empty());
 }
 
 /// The database with mean drift forces.

@@ -1,10 +1,11 @@
-// Points and axes that the files of WAMIT are about.
+// Points and axes that the files of other programs are about.
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/radiation/reference_points.h"
+#include "pipeline/formats/hdf5_handle.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "tests/pipeline/formats/hydrodynamics/sample_database.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -16,6 +17,7 @@ using dynamics::HydrodynamicDatabase;
 using dynamics::Vector3;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// To a share of the largest number.
 template <class Matrix>
@@ -140,6 +142,53 @@ TEST(Import, ToldPlacesAreForFilesThatDoNotTellThem) {
   const test::TemporaryFolder folder;
   folder.write("body.nc", "");
   EXPECT_THROW(import_hydrodynamics("body.nc", {1.0, {}, {{{1, 2, 0}}}}), HydrodynamicFileError);
+}
+
+std::string refusal_of_writing(const std::string& file, const HydrodynamicDatabase& database) {
+  try {
+    write_bemio(file, database);
+  } catch (const HydrodynamicFileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Bemio, IsAboutTheCentresOfMassAndNeedsThem) {
+  const test::TemporaryFolder folder;
+  const HydrodynamicDatabase database = make_sample_database();
+  write_bemio("wec.h5", database);
+  const HydrodynamicDatabase found = read_bemio("wec.h5");
+  EXPECT_EQ(found.centres_of_mass, database.centres_of_mass);
+  EXPECT_EQ(found.reference_points, database.centres_of_mass);
+  const HydrodynamicDatabase back = about_points(found, database.reference_points);
+  expect_nine_digits(database.added_mass[1], back.added_mass[1]);
+  expect_nine_digits(database.diffraction[1], back.diffraction[1]);
+  HydrodynamicDatabase unknown = database;
+  unknown.displaced_volumes[1] = 0.0;
+  unknown.centres_of_mass.clear();
+  EXPECT_THAT(refusal_of_writing("no.h5", unknown),
+              AllOf(HasSubstr("displaced volumes (disp_vol), centres of mass (cg)"),
+                    Not(HasSubstr("buoyancy"))));
+  EXPECT_FALSE(std::filesystem::exists("no.h5"));
+}
+
+// Zeros of programs that know no volumes are no centres.
+TEST(Bemio, TakesNoCentresOfBodiesThatDisplaceNothing) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = make_sample_database();
+  database.reference_points = database.centres_of_mass;
+  write_bemio("wec.h5", database);
+  {
+    const hdf5::Handle file(H5Fopen("wec.h5", H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    const hdf5::Handle volume(H5Dopen2(file.get(), "/body1/properties/disp_vol", H5P_DEFAULT),
+                              H5Dclose);
+    const double none = 0.0;
+    H5Dwrite(volume.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &none);
+  }
+  const HydrodynamicDatabase found = read_bemio("wec.h5");
+  EXPECT_EQ(found.reference_points, database.reference_points);
+  EXPECT_TRUE(found.centres_of_mass.empty());
+  EXPECT_TRUE(found.centres_of_buoyancy.empty());
 }
 
 // Surge and sway off the new point turn; no heel is made up where none is known.
