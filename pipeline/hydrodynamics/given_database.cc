@@ -28,9 +28,9 @@ double size_of(const dynamics::Hull& hull) {
   return (high - low).norm();
 }
 
-/// Does the hull lie where the database's body does, which does not tell its centre of buoyancy? Its
-/// stiffness tells the middle of its water plane; without one, its reference point must at least be
-/// over or under the hull, where there are several.
+/// Does the hull lie where the database's body does, which does not tell its centre of buoyancy?
+/// Its stiffness tells the middle of its water plane; without one, its origin must at least be near
+/// the reference point, where there are several.
 void require_same_water_plane(const RadiationProblem& problem, const RadiationProblem::Body& body,
                               const dynamics::Hydrostatics& rest) {
   const HydrodynamicDatabase& database = *problem.given;

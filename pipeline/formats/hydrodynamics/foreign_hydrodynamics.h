@@ -41,8 +41,8 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path, const W
 /// hydro_coeffs/mean_drift/METHOD/val, METHOD being control_surface, pressure_integration or, of a
 /// single body, momentum_conservation. Of a file with a body that displaces nothing (disp_vol 0),
 /// cb and cg are not taken for centres of buoyancy and mass. Written about the centres of mass;
-/// a database that does not tell volumes and centres is refused. Source: WEC-Sim documentation, "BEMIO"; conventions of its
-/// radiation and excitation terms.
+/// a database that does not tell volumes and centres is refused. Source: WEC-Sim documentation,
+/// "BEMIO"; conventions of its radiation and excitation terms.
 dynamics::HydrodynamicDatabase read_bemio(const std::filesystem::path& path);
 void write_bemio(const std::filesystem::path& path, const dynamics::HydrodynamicDatabase& database);
 
