@@ -10,26 +10,20 @@
 #include "dynamics/marine/panels/wetted_body.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/simulation/marched_surface.h"
+#include "pipeline/files/lift_case/sea_band.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 using dynamics::BodyIndex;
 
-constexpr int heading_count = 72;  // every 5 degrees
-dynamics::Water water_of(const SeaInCase& sea, double gravity) {
-  dynamics::Water water;
-  water.density = sea.density;
-  water.gravity = gravity;
-  if (sea.depth) water.depth = *sea.depth;
-  return water;
-}
-
-std::vector<double> radiation_frequencies(const SeaInCase& sea) {
-  const RadiationSettings& s = sea.radiation;
+std::vector<double> radiation_frequencies(const MarineParts& parts, double gravity) {
+  const SeaInCase& sea = *parts.sea;
+  const SeaBand band = find_sea_band(parts, gravity);
+  const auto [lowest, highest] = band.radiation;
   std::vector<double> frequencies;
-  for (int i = 0; i < s.frequencies; ++i) {
-    frequencies.push_back(s.lowest + i * (s.highest - s.lowest) / (s.frequencies - 1));
+  for (int i = 0; i < band.frequencies; ++i) {
+    frequencies.push_back(lowest + i * (highest - lowest) / (band.frequencies - 1));
   }
   if (sea.waves && sea.waves->regular) {
     for (const RegularWaveInCase& wave : *sea.waves->regular) frequencies.push_back(wave.omega());
@@ -262,6 +256,9 @@ RadiationProblem MarineBuilder::radiation_problem() const {
     for (std::size_t k = 0; k < vessels.size(); ++k) {
       problem.bodies[k].X_DB = X_DW * vessels[k].X_WB;
     }
+    if (has_waves()) {
+      problem.field = std::make_shared<const dynamics::WaveField>(make_sea(parts_, gravity_).waves);
+    }
   }
   problem.origin = middle.head<2>();
   if (const auto& lids = parts_.sea->radiation.lids) {
@@ -269,11 +266,9 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   }
   problem.water = water_of(*parts_.sea, gravity_);
   problem.place = parts_.sea->radiation.place;
-  problem.frequencies = radiation_frequencies(*parts_.sea);
+  problem.frequencies = radiation_frequencies(parts_, gravity_);
   problem.method = parts_.sea->radiation.method.value;
-  for (int i = 0; i < heading_count; ++i) {
-    problem.headings.push_back(2.0 * std::numbers::pi * i / heading_count);
-  }
+  problem.headings = default_headings();
   for (const VesselInCase& vessel : parts_.vessels) {
     if (vessel.drift.value == DriftMethod::none || problem.given) continue;
     problem.drifting = free_vessel(vessel, problem.bodies.front().p_BoR_B);
@@ -282,7 +277,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
       parts_.vessels.begin(), parts_.vessels.end(),
       [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });
   if (problem.direct && has_waves()) {
-    const dynamics::WaveField waves = make_sea(*parts_.sea, gravity_).waves;
+    const dynamics::WaveField waves = make_sea(parts_, gravity_).waves;
     problem.ramp = waves.ramp();
     for (std::size_t k = 0; k < waves.component_count(); ++k) {
       problem.waves.push_back(seen_from(middle, waves.component(k), waves.wave_number(k)));
@@ -294,7 +289,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
 std::shared_ptr<const dynamics::Sea> MarineBuilder::sea(bool at_rest) {
   auto& sea = seas_[at_rest];
   if (!sea) {
-    sea = std::make_shared<const dynamics::Sea>(make_sea(*parts_.sea, gravity_, at_rest));
+    sea = std::make_shared<const dynamics::Sea>(make_sea(parts_, gravity_, at_rest));
   }
   return sea;
 }
@@ -335,7 +330,7 @@ dynamics::Arrangement MarineBuilder::arrangement(const BodyOf& point) const {
                                   size.minCoeff()});
   }
   if (!vessels.empty() && has_waves()) {
-    arrangement.wave_length = mean_wave_length(make_sea(*parts_.sea, gravity_).waves);
+    arrangement.wave_length = mean_wave_length(make_sea(parts_, gravity_).waves);
   }
   return arrangement;
 }

@@ -52,6 +52,8 @@ struct RadiationProblem {
   std::vector<dynamics::RegularWave> waves;  ///< that they scatter meanwhile, in D
   dynamics::WaveRamp ramp;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of D in W, m
+  /// The case's waves, where `given` may have to be divided for them; null: there are none.
+  std::shared_ptr<const dynamics::WaveField> field = nullptr;
 
   /// Index of the body with draughts; none: -1.
   int lowered_body() const;

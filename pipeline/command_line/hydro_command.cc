@@ -1,8 +1,12 @@
 #include "pipeline/command_line/hydro_command.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -11,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
@@ -53,6 +58,17 @@ void print_panels(const HydrodynamicState& state) {
           : doubt_about_coupling(*state.model, state.groups, state.settings.frequencies.back());
   if (!doubt.empty()) say_warning(doubt);
   std::fflush(stdout);
+}
+
+/// Of each body once, at its deepest: draughts ascend.
+void say_doubts_about_keels(const HydrodynamicProblem& problem,
+                            const std::vector<HydrodynamicState>& states) {
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+    const HydrodynamicBody& body = problem.bodies[b];
+    const std::string doubt =
+        doubt_about_keel(body.name, body.hull, states.back().poses[b], problem.water.depth);
+    if (!doubt.empty()) say_warning(doubt);
+  }
 }
 
 /// Meshes all draughts; what is wrong is wrong input.
@@ -126,6 +142,7 @@ int compute_vessel(const HydroOptions& options) {
   const fs::path output = output_of(options, *problem);
   require_writable_file(output);
   const std::vector<HydrodynamicState> states = prepare(*problem);
+  say_doubts_about_keels(*problem, states);
   std::vector<Eigen::MatrixXd> masses;
   for (const HydrodynamicState& state : states) masses.push_back(state.mass);
   HydrodynamicFile file;
@@ -147,6 +164,51 @@ int compute_vessel(const HydroOptions& options) {
   return exit_code::done;
 }
 
+bool lacks_volumes(const dynamics::HydrodynamicDatabase& database) {
+  const std::vector<double>& volumes = database.displaced_volumes;
+  return std::any_of(volumes.begin(), volumes.end(), [](double volume) { return !(volume > 0.0); });
+}
+
+/// x,y[,z[,heading]], m and degrees.
+WamitBody body_at(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    char* end = nullptr;
+    const double number = std::strtod(part.c_str(), &end);
+    if (part.empty() || *end != '\0' || !std::isfinite(number)) {
+      refuse("--body-at " + text, fmt::format("\"{}\" is no number", part),
+             {"x,y[,z[,heading]] is due, m and degrees"});
+    }
+    numbers.push_back(number);
+  }
+  if (numbers.size() < 2 || numbers.size() > 4) {
+    refuse("--body-at " + text, fmt::format("{} numbers", numbers.size()),
+           {"x,y[,z[,heading]] is due, m and degrees"});
+  }
+  numbers.resize(4, 0.0);
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3] * degree};
+}
+
+/// Where WAMIT's files count from, for people and for the command that reads them again.
+std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
+  const std::vector<dynamics::Vector3> points = wamit_points(database);
+  if (points.size() == 1) {
+    return "about the origin of the database's world, which --import takes: of a vessel computed "
+           "by itself the point of the water line over or under its own origin";
+  }
+  std::string note = "about (XBODY)";
+  for (std::size_t b = 0; b < points.size(); ++b) {
+    note += fmt::format("{} ({}, {}, 0) m of {}", b == 0 ? "" : ",", points[b].x(), points[b].y(),
+                        database.body_names[b]);
+  }
+  note += "; to read them again:";
+  for (const dynamics::Vector3& point : points) {
+    note += fmt::format(" --body-at={},{}", point.x(), point.y());
+  }
+  return note;
+}
+
 /// Takes a file over and writes it as our own, or as that of another program.
 int convert(const HydroOptions& options) {
   WamitScales scales;
@@ -154,6 +216,7 @@ int convert(const HydroOptions& options) {
   scales.water.density = options.water_density;
   scales.water.gravity = options.gravity;
   if (options.water_depth) scales.water.depth = *options.water_depth;
+  for (const std::string& text : options.bodies_at) scales.bodies.push_back(body_at(text));
   HydrodynamicFile file;
   try {
     file = import_hydrodynamics(*options.import, scales);
@@ -164,6 +227,11 @@ int convert(const HydroOptions& options) {
     refuse(*options.import, "the file that is to be made has no name", {"give it by -o FILE"});
   }
   const fs::path output = *options.output;
+  if (lacks_volumes(file.series.databases.front()) && file.origin.ends_with("(BEMIO)")) {
+    say_warning(*options.import +
+                ": bodies displace nothing (disp_vol 0): cb and cg are not taken for centres of "
+                "buoyancy and mass, and weight acts where the vessel has it");
+  }
   if (!options.export_format) {
     write_with_page(output, file, hydrodynamic_page(file, file.origin, {}));
     if (is_quiet()) return exit_code::done;
@@ -177,13 +245,19 @@ int convert(const HydroOptions& options) {
   }
   const dynamics::HydrodynamicDatabase& database = file.series.databases.front();
   if (*options.export_format == "bemio") {
-    write_bemio(output, database);
+    try {
+      write_bemio(output, database);
+    } catch (const HydrodynamicFileError& error) {
+      refuse(*options.import, error.what(),
+             {"WAMIT's files do not hold them: export to wamit, or compute the vessel by hydro"});
+    }
     fmt::print("{}\n", output.string());
   } else {
     fs::path name = output;
     if (name.extension() == ".1") name.replace_extension();
     write_wamit(name, database);
     fmt::print("{0}.1, {0}.3, {0}.hst (ULEN 1 m)\n", name.string());
+    print_wrapped(note_on_points(database));
   }
   return exit_code::done;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blocklift::pipeline {
 
@@ -13,9 +14,11 @@ struct HydroOptions {
   std::optional<std::string> output;
   std::optional<double> memory_limit;  ///< GB
   double wamit_length = 1.0;           ///< WAMIT's ULEN, m
-  double water_density = 1025.0;       ///< that WAMIT's files do not tell, kg/m3
-  double gravity = 9.80665;            ///< that these files do not tell, m/s2
-  std::optional<double> water_depth;   ///< that these files do not tell, m; none: deep
+  /// WAMIT's XBODY of each body, that its files do not tell: x,y[,z[,heading]], m, degrees
+  std::vector<std::string> bodies_at;
+  double water_density = 1025.0;      ///< that WAMIT's files do not tell, kg/m3
+  double gravity = 9.80665;           ///< that these files do not tell, m/s2
+  std::optional<double> water_depth;  ///< that these files do not tell, m; none: deep
 };
 
 /// Computes, imports or exports a hydrodynamic database. @returns an exit code.

@@ -154,6 +154,12 @@ void add_hydro(CLI::App& app, int& code) {
       ->check(CLI::IsMember({"bemio", "wamit"}));
   command->add_option("--wamit-length", options->wamit_length, "WAMIT's ULEN, m")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--body-at", options->bodies_at,
+          "where the axes of a body of WAMIT's files lie (XBODY): x,y[,z[,heading]], m and "
+          "degrees; of each body in their order, if there are several")
+      ->allow_extra_args(false);
   command->add_option("--water-density", options->water_density, "for WAMIT's files, kg/m3")
       ->check(CLI::PositiveNumber);
   command->add_option("--gravity", options->gravity, "for WAMIT's files, m/s2")

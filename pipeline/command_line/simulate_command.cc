@@ -7,10 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/assessment/assess.h"
+#include "pipeline/build/build_mechanism.h"
+#include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/file_kind.h"
+#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/results/doubts.h"
@@ -67,6 +71,8 @@ void print_mechanism(const MechanismFile& file, const MechanismRun& run) {
   fmt::print("{}\n\n{}\n", file.title.empty() ? file.name : file.title,
              extremes_table(run.time(), run.outputs));
   print_rope_use(file, run);
+  if (const std::string sea = describe_sea(file, -file.gravity.z()); !sea.empty())
+    print_wrapped(sea);
   if (!run.natural_modes.empty()) {
     print_wrapped(describe_natural_periods(run.natural_modes.front()));
   }
@@ -82,6 +88,11 @@ int simulate_mechanism(const SimulateOptions& options) {
   const fs::path folder = result_folder(options, file->name);
   if (!is_quiet())
     for (const std::string& note : file->notes) print_wrapped("note: " + note);
+  for (const std::string& doubt : file->doubts) say_warning(doubt);
+  for (const std::string& doubt :
+       {doubt_about_headings(*file), doubt_about_keels(radiation_problem(*file))}) {
+    if (!doubt.empty()) say_warning(doubt);
+  }
   auto bar = std::make_unique<ProgressBar>("time integration");
   const MechanismRun run = run_mechanism(*file, [&](double fraction, double time) {
     bar->show(fraction, fmt::format("t = {:.3g} s", time));

@@ -72,11 +72,13 @@ std::optional<std::string> validate(const fs::path& named, ModelLibrary& library
   if (kind == FileKind::mechanism || kind == FileKind::robot) {
     const auto mechanism = read_mechanism(path, library, diagnostics);
     if (!mechanism) return std::nullopt;
-    return if_sound(fmt::format(
+    std::string summary = fmt::format(
         "mechanism {} with {}, {} and {}", mechanism->name,
         mechanism->bodies.size() == 1 ? "1 body"
                                       : fmt::format("{} bodies", mechanism->bodies.size()),
-        count(mechanism->joints.size(), "joint"), count(mechanism->loops.size(), "loop")));
+        count(mechanism->joints.size(), "joint"), count(mechanism->loops.size(), "loop"));
+    for (const std::string& doubt : mechanism->doubts) summary += "\nwarning: " + doubt;
+    return if_sound(std::move(summary));
   }
   if (kind == FileKind::crane) {
     const auto crane = library.read_crane(path, diagnostics);

@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/marine/panels/wetted_body.h"
-#include "dynamics/marine/radiation/incident_wave.h"
+#include "dynamics/marine/loads/resting_wave_force.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -24,6 +23,45 @@ constexpr double largest_difference = 0.05;
   throw InputError(diagnostics);
 }
 
+double size_of(const dynamics::Hull& hull) {
+  const auto [low, high] = hull.bounds();
+  return (high - low).norm();
+}
+
+/// Does the hull lie where the database's body does, which does not tell its centre of buoyancy?
+/// Its stiffness tells the middle of its water plane; without one, its origin must at least be near
+/// the reference point, where there are several.
+void require_same_water_plane(const RadiationProblem& problem, const RadiationProblem::Body& body,
+                              const dynamics::Hydrostatics& rest) {
+  const HydrodynamicDatabase& database = *problem.given;
+  const auto index = static_cast<std::size_t>(body.given_body);
+  const Eigen::Vector2d reference = database.reference_points[index].head<2>();
+  const double size = size_of(body.vessel->hull);
+  const auto fail = [&](const Eigen::Vector2d& difference, const char* what) {
+    refuse(problem.place,
+           fmt::format("{} of vessel {} lies ({:.4g}, {:.4g}) m from where the database has that "
+                       "of its body {}",
+                       what, body.name, difference.x(), difference.y(), database.body_names[index]),
+           "the database does not tell its bodies' centres of buoyancy: a single vessel's origin "
+           "must lie over the database's origin, several vessels where it has them in its own "
+           "world, WAMIT's where hydro --import was told by --body-at");
+  };
+  const Eigen::Index heave = modes_per_body * Eigen::Index{body.given_body} + 2;
+  if (database.hydrostatic_stiffness.size() > 0 &&
+      database.hydrostatic_stiffness(heave, heave) > 0.0 && rest.water_plane_area > 0.0) {
+    const auto C = database.hydrostatic_stiffness.block<1, 3>(heave, heave);
+    const Eigen::Vector2d middle = reference + Eigen::Vector2d(-C(2), C(1)) / C(0);
+    const Eigen::Vector2d difference =
+        body.X_DB.p.head<2>() + rest.water_plane_moment / rest.water_plane_area - middle;
+    if (difference.norm() > largest_difference * size) fail(difference, "the water plane");
+    return;
+  }
+  const bool apart = std::any_of(database.reference_points.begin(), database.reference_points.end(),
+                                 [&](const Vector3& p) { return p.head<2>() != reference; });
+  const Eigen::Vector2d difference = body.X_DB.p.head<2>() - reference;
+  if (apart && difference.norm() > size) fail(difference, "the origin");
+}
+
 /// Is the hull, as it lies at rest, that of the database's body?
 void require_same_hull(const RadiationProblem& problem, const RadiationProblem::Body& body) {
   const HydrodynamicDatabase& database = *problem.given;
@@ -38,10 +76,12 @@ void require_same_hull(const RadiationProblem& problem, const RadiationProblem::
                        database.body_names[index], volume, body.name, rest.volume),
            "the database is of another vessel, or the vessel floats at another draught");
   }
-  if (database.centres_of_buoyancy.empty()) return;
+  if (database.centres_of_buoyancy.empty()) {
+    require_same_water_plane(problem, body, rest);
+    return;
+  }
   const Vector3 difference = body.X_DB.p + rest.p_BoC_W() - database.centres_of_buoyancy[index];
-  const auto [low, high] = hull.bounds();
-  if (difference.norm() > largest_difference * (high - low).norm()) {
+  if (difference.norm() > largest_difference * size_of(hull)) {
     refuse(problem.place,
            fmt::format("the centre of buoyancy of vessel {} lies ({:.4g}, {:.4g}, {:.4g}) m from "
                        "where the database has that of its body {}",
@@ -108,25 +148,26 @@ bool is_whole(const HydrodynamicDatabase& database) {
                      [](const Eigen::MatrixXcd& force) { return force.isZero(0.0); });
 }
 
+/// What the case will have its hulls in: its own waves, or the database's shortest.
+dynamics::WaveField waves_of(const RadiationProblem& problem,
+                             const HydrodynamicDatabase& database) {
+  if (problem.field && !problem.field->is_still()) return *problem.field;
+  return dynamics::WaveField(database.water, {{1.0, database.frequencies.back()}});
+}
+
 /// Divides the whole excitation, which stands as diffraction, into the force of the incident wave
 /// on the hulls at rest and the rest.
 void divide_excitation(const RadiationProblem& problem, HydrodynamicDatabase& database) {
+  const dynamics::WaveField waves = waves_of(problem, database);
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < problem.bodies.size(); ++b, first += modes_per_body) {
     const RadiationProblem::Body& body = problem.bodies[b];
-    const dynamics::WettedBody wet = make_wetted_body(body.vessel->hull, body.X_DB, body.p_BoR_B);
+    const dynamics::RestingWaveForce incident(dynamics::WaveSurface(body.vessel->hull, waves),
+                                              body.X_DB, body.X_DB.apply(body.p_BoR_B));
     for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-      const double w = database.frequencies[k];
       for (Eigen::Index h = 0; h < database.froude_krylov[k].cols(); ++h) {
-        const dynamics::IncidentWave wave(database.water, w, database.headings[h]);
-        Eigen::Matrix<Complex, 6, 1> force = Eigen::Matrix<Complex, 6, 1>::Zero();
-        for (const dynamics::Panel& panel : wet.hull.panels) {
-          const Complex pressure =
-              Complex(0.0, w * database.water.density) * wave.potential(panel.centroid);
-          const Vector3 arm = panel.centroid - wet.reference_point;
-          force.head<3>() += pressure * panel.area * panel.normal;
-          force.tail<3>() += pressure * panel.area * arm.cross(panel.normal);
-        }
+        const Eigen::Matrix<Complex, 6, 1> force =
+            incident.calc_force(database.water, database.frequencies[k], database.headings[h]);
         database.froude_krylov[k].block<6, 1>(first, h) = force;
         database.diffraction[k].block<6, 1>(first, h) -= force;
       }

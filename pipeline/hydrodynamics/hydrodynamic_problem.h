@@ -48,8 +48,10 @@ struct HydrodynamicProblem {
   std::size_t state_count() const;
 };
 
-/// Reads a vessel file, or one of several vessels. Complains about everything that is wrong with
-/// it: keys and values, hulls that are open, inverted or out of the water. Null after a complaint.
+/// Reads a vessel file, or one of several vessels. A vessel by itself lies in its own frame,
+/// wherever its file places it, and headings count from its bow. Complains about everything that is
+/// wrong with it: keys and values, hulls that are open, inverted or out of the water. Null after a
+/// complaint.
 std::optional<HydrodynamicProblem> read_hydrodynamic_problem(const std::filesystem::path& file,
                                                              const ModelLibrary& library,
                                                              Diagnostics& diagnostics);

@@ -13,6 +13,7 @@
 #include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 #include "pipeline/terminal/text_table.h"
 
@@ -163,7 +164,10 @@ template <class Value>
 LineChart by_heading(const HydrodynamicDatabase& database, std::string title, std::string unit,
                      const Value& value) {
   LineChart chart{std::move(title), "rad/s", std::move(unit), {}};
-  for (std::size_t h = 0; h < database.headings.size(); ++h) {
+  // As many as can be told apart, evenly chosen.
+  constexpr std::size_t most_curves = 8;
+  const std::size_t stride = (database.headings.size() + most_curves - 1) / most_curves;
+  for (std::size_t h = 0; h < database.headings.size(); h += stride) {
     chart.curves.push_back(
         over_frequency(database, fmt::format("{:.0f} deg", database.headings[h] / degree),
                        [&](std::size_t k) { return value(k, static_cast<Eigen::Index>(h)); }));
@@ -253,7 +257,8 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
         "\nerror of retardation functions: they miss added mass and damping by {:.2g} % of "
         "the waves' largest share at most\n",
         100.0 * calc_memory_error(database));
-    for (const std::string& doubt : {doubt_about_panels(database), doubt_about_runs(database)}) {
+    for (const std::string& doubt :
+         {doubt_about_panels(database), doubt_about_runs(database), doubt_about_memory(database)}) {
       if (!doubt.empty()) text += "\nwarning: " + doubt + "\n";
     }
   }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/hull_diagnosis.h"
@@ -48,7 +50,7 @@ std::optional<HydrodynamicBody> read_body(const fs::path& file, std::optional<do
 void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& problem) {
   problem.frequencies = settings.frequencies.list();
   problem.frequencies_place = settings.frequencies.place;
-  problem.headings = settings.headings;
+  problem.headings = settings.headings.value_or(default_headings());
   problem.water.density = settings.water_density;
   if (settings.water_depth) problem.water.depth = *settings.water_depth;
   problem.method = settings.method;
@@ -69,6 +71,39 @@ std::optional<HydrodynamicProblem> read_single(const fs::path& file, Diagnostics
   problem.bodies.push_back(std::move(*body));
   take_settings(settings, problem);
   return problem;
+}
+
+/// An angle of a whole turn from 0 on, rad.
+double within_turn(double angle) {
+  constexpr double turn = 2.0 * std::numbers::pi;
+  const double wrapped = angle - turn * std::floor(angle / turn);
+  return wrapped > turn - 1e-12 ? 0.0 : wrapped;
+}
+
+/// A case places and turns a single vessel's database with the vessel: it is made in the vessel's
+/// own frame, level in the water, whatever place the file gives it. The waves' headings count from
+/// its bow, and what lies in the world moves along.
+bool take_own_frame(HydrodynamicProblem& problem, Diagnostics& diagnostics) {
+  HydrodynamicBody& body = problem.bodies.front();
+  if (!problem.lids.empty() && body.heading != 0.0) {
+    diagnostics.error(
+        problem.place,
+        "lids are rectangles along the world's axes, and the only vessel lies turned to them",
+        {"give it no heading, and place the lids and the waves' headings in its own frame: its "
+         "database is in that frame anyway"});
+    return false;
+  }
+  for (dynamics::DampingLid& lid : problem.lids) {
+    lid.low -= body.position;
+    lid.high -= body.position;
+  }
+  if (body.heading != 0.0) {
+    for (double& heading : problem.headings) heading = within_turn(heading - body.heading);
+    std::sort(problem.headings.begin(), problem.headings.end());
+  }
+  body.position.setZero();
+  body.heading = 0.0;
+  return true;
 }
 
 std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelLibrary& library,
@@ -109,6 +144,7 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
                       {"leave out mean_drift, or compute each vessel by itself"});
     return std::nullopt;
   }
+  if (problem.bodies.size() == 1 && !take_own_frame(problem, diagnostics)) return std::nullopt;
   return problem;
 }
 

@@ -6,12 +6,13 @@ namespace blocklift::pipeline {
 
 namespace {
 
-double significant_height(const SeaInCase& sea, double gravity) {
+double significant_height(const LiftCase& lift_case) {
+  const SeaInCase& sea = *lift_case.sea;
   if (!sea.waves) return 0;
   // As stated: the components of a sea that is cut off at high frequencies have a little less.
   if (sea.waves->spectrum && sea.waves->spectrum->significant_height)
     return sea.waves->spectrum->significant_height->value;
-  return make_sea(sea, gravity).waves.significant_height();
+  return make_sea(lift_case, lift_case.gravity).waves.significant_height();
 }
 
 }  // namespace
@@ -30,7 +31,7 @@ ChartFactor find_chart_factor(const CraneModel& crane, const LiftCase& lift_case
     apply(factor_in(derating.wind->value, speed), fmt::format("wind of {:.3g} m/s", speed));
   }
   if (derating.sea && lift_case.sea) {
-    const double height = significant_height(*lift_case.sea, lift_case.gravity);
+    const double height = significant_height(lift_case);
     apply(factor_in(derating.sea->value, height),
           fmt::format("waves of {:.3g} m significant height", height));
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/build/stiffener_plates.h"
+#include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/table_summary.h"
 
@@ -217,6 +218,8 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
       "water on deck, and there are no second-order drift forces{}. Static: the sea without its "
       "waves.",
       drifting.empty() ? "" : " but those of " + drifting));
+  if (std::string sea = describe_sea(lift_case, lift_case.gravity); !sea.empty())
+    list.push_back(std::move(sea));
   if (!drifting.empty()) {
     list.push_back(fmt::format(
         "Slow drift of {} in surge, sway and yaw by Newman's approximation, from the mean forces "

@@ -11,6 +11,10 @@
 
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
+#include "pipeline/build/keel_clearance.h"
+#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/lift_case/vessel_database.h"
+#include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
@@ -54,6 +58,8 @@ class Doubts {
 
   std::vector<std::string> list() {
     doubt_cranes();
+    doubt_sea();
+    doubt_water();
     doubt_wind();
     doubt_materials();
     doubt_masses();
@@ -277,6 +283,21 @@ class Doubts {
       if (!a || !b || std::abs(a->value.value - b->value.value) > 0.1) return true;
     }
     return false;
+  }
+
+  void doubt_sea() {
+    std::string of_sea = doubt_about_sea(case_, case_.gravity);
+    if (!of_sea.empty()) list_.push_back(std::move(of_sea));
+    std::string of_database = doubt_about_database(case_.vessels);
+    if (!of_database.empty()) list_.push_back(std::move(of_database));
+  }
+
+  void doubt_water() {
+    if (std::string headings = doubt_about_headings(case_); !headings.empty())
+      list_.push_back(std::move(headings));
+    if (!case_.sea || !case_.sea->depth) return;
+    if (std::string keels = doubt_about_keels(radiation_problem(case_)); !keels.empty())
+      list_.push_back(std::move(keels));
   }
 
   void doubt_wind() {

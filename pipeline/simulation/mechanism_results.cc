@@ -69,6 +69,7 @@ nlohmann::ordered_json make_summary(const MechanismFile& file, const MechanismRu
   summary["solver"] = solver_json(run.result.statistics, duration, run.elapsed);
   summary["timing"] = {{"dynamic_s", run.elapsed}, {"simulated_s", duration}};
   summary["warnings"] = file.notes;
+  for (const std::string& doubt : file.doubts) summary["warnings"].push_back(doubt);
   add_radiation(record_radiation(run.mechanism, run.result.history), summary);
   return summary;
 }

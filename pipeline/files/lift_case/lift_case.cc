@@ -74,6 +74,10 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
   if (lift_case.load.vessel_name && !lift_case.load.vessel_name->value.empty()) {
     lift_case.load.vessel = library.load_vessel(*lift_case.load.vessel_name, folder, diagnostics);
   }
+  if (lift_case.load.draughts && !lift_case.load.draughts->value.empty()) {
+    lift_case.lowered_load = lift_case.load.vessel;
+    lift_case.deepest_draught_of_load = lift_case.load.draughts->value.back();
+  }
   load_marine_models(lift_case, folder, library, diagnostics);
   read_measured_series(lift_case, diagnostics);
   for (RopeInCase& rope : lift_case.ropes) {

@@ -10,8 +10,8 @@
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "dynamics/marine/loads/draught_shares.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
-#include "dynamics/marine/waves/wave_spectrum.h"
 #include "pipeline/files/library/model_library.h"
+#include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/series_file.h"
@@ -21,35 +21,10 @@ namespace {
 
 using dynamics::Sea;
 using dynamics::WaveField;
-using dynamics::WaveSpectrum;
 
-WaveSpectrum make_spectrum(const SpectrumInCase& s) {
-  switch (s.shape) {
-    case SpectrumShape::jonswap:
-      return WaveSpectrum::jonswap(s.significant_height->value, s.peak_period->value, s.peakedness);
-    case SpectrumShape::pierson_moskowitz:
-      return WaveSpectrum::pierson_moskowitz(s.significant_height->value, s.peak_period->value);
-    case SpectrumShape::issc:
-      return WaveSpectrum::issc(s.significant_height->value, s.mean_period->value);
-    case SpectrumShape::table:
-      break;
-  }
-  std::vector<double> omega, density;
-  for (const auto& point : s.table->value) {
-    omega.push_back(point[0].value);
-    density.push_back(point[1].value);
-  }
-  return WaveSpectrum::table(std::move(omega), std::move(density));
-}
-
-/// The frequencies for which radiation is computed bound those of an irregular sea.
-std::array<double, 2> frequencies_of(const SeaInCase& sea, const WaveSpectrum& spectrum) {
-  const std::array<double, 2> all = spectrum.range(1e-3);
-  return {std::max(all[0], sea.radiation.lowest), std::min(all[1], sea.radiation.highest)};
-}
-
-WaveField make_waves(const SeaInCase& sea, const dynamics::Water& water) {
-  const WavesInCase& waves = *sea.waves;
+WaveField make_waves(const MarineParts& parts, double gravity) {
+  const dynamics::Water water = water_of(*parts.sea, gravity);
+  const WavesInCase& waves = *parts.sea->waves;
   const dynamics::WaveRamp ramp{0.0, waves.ramp};
   if (waves.regular) {
     std::vector<dynamics::WaveComponent> components;
@@ -58,26 +33,20 @@ WaveField make_waves(const SeaInCase& sea, const dynamics::Water& water) {
     }
     return WaveField(water, components, ramp);
   }
+  const SeaBand band = find_sea_band(parts, gravity);
   if (waves.spectrum) {
     const SpectrumInCase& s = *waves.spectrum;
-    const WaveSpectrum spectrum = make_spectrum(s);
     dynamics::SeaRealisation how;
     how.heading = s.heading;
     how.spreading_exponent = s.spreading;
     how.components = s.components;
     how.seed = static_cast<std::uint64_t>(s.seed);
-    how.frequencies = frequencies_of(sea, spectrum);
+    how.frequencies = band.sea;
     how.ramp = ramp;
-    return realise(spectrum, water, how);
+    return realise(make_spectrum(s), water, how);
   }
-  const WaveRecordInCase& r = *waves.record;
-  dynamics::WaveRecord record;
-  record.elevation = r.elevation;
-  record.time_step = r.time_step;
-  record.start_time = r.start_time;
-  record.heading = r.heading;
-  record.frequencies = {r.lowest.value_or(sea.radiation.lowest),
-                        r.highest.value_or(sea.radiation.highest)};
+  dynamics::WaveRecord record = make_record(*waves.record);
+  record.frequencies = band.sea;
   record.ramp = ramp;
   return realise(record, water);
 }
@@ -123,26 +92,57 @@ void read_record(WaveRecordInCase& record, const std::filesystem::path& folder,
   }
 }
 
-/// Complains if a hull's panels are too large for the shortest wave.
-void check_panels(const VesselInCase& vessel, const WaveField& waves, const Mark& mark,
-                  Diagnostics& diagnostics) {
-  const double water_level = vessel.draught
-                                 ? vessel.draught->value
-                                 : dynamics::find_floating_position(
-                                       dynamics::HullClusters(vessel.model->hull),
-                                       {vessel.model->model.mass,
-                                        vessel.model->model.centre_of_mass, waves.water().density})
-                                           .X_WB.p.z() *
-                                       -1.0;
+/// Complains if a hull's panels are too large for waves.
+/// @param length of the waves, m. @param panels that must go into one of them.
+void check_panels(const VesselInCase& vessel, const dynamics::Water& water, double length,
+                  double panels, const Mark& mark, Diagnostics& diagnostics) {
   dynamics::HullDemands demands;
   demands.largest_warp = 0.5;
-  demands.water_level = water_level;
-  demands.shortest_wave_length = waves.shortest_wave_length();
+  demands.water_level = water_level_of(vessel, water);
+  demands.shortest_wave_length = length;
+  demands.panels_per_wave_length = panels;
   demands.most_of_a_kind = 1;
   for (const dynamics::HullDefect& defect : diagnose(vessel.model->hull, demands)) {
     diagnostics.error(mark, fmt::format("vessel {}: {}", vessel.name.value, defect.message),
                       {"smaller panels (panel_size of the model), a longer wave, or a lower "
                        "highest_frequency under radiation"});
+  }
+}
+
+/// An irregular sea's shortest waves have little of its energy.
+void check_panels(const VesselInCase& vessel, const WaveField& waves, const SeaBand& band,
+                  const Mark& mark, Diagnostics& diagnostics) {
+  const dynamics::Water& water = waves.water();
+  const double shortest = waves.shortest_wave_length();
+  if (!band.irregular) {
+    check_panels(vessel, water, shortest, panels_in_middle_wave, mark, diagnostics);
+    return;
+  }
+  const std::size_t errors_before = diagnostics.error_count();
+  check_panels(vessel, water, shortest, panels_in_shortest_wave, mark, diagnostics);
+  if (diagnostics.error_count() > errors_before) return;
+  const double middle = std::clamp(band.middle, band.sea[0], band.sea[1]);
+  check_panels(vessel, water, 2.0 * std::numbers::pi / dynamics::calc_wave_number(middle, water),
+               panels_in_middle_wave, mark, diagnostics);
+}
+
+/// A database tells nothing of waves beyond its frequencies. Only regular ones may be there.
+void check_frequencies(const MarineParts& parts, Diagnostics& diagnostics) {
+  if (!parts.sea->waves->regular) return;
+  for (const VesselInCase& vessel : parts.vessels) {
+    if (vessel.radiation.value == RadiationMethod::none || !vessel.hydrodynamics) continue;
+    const std::vector<double>& known = vessel.hydrodynamics->frequencies;
+    for (const RegularWaveInCase& wave : *parts.sea->waves->regular) {
+      const double omega = wave.omega();
+      if (omega >= (1 - 1e-9) * known.front() && omega <= (1 + 1e-9) * known.back()) continue;
+      const Mark& mark = wave.frequency ? wave.frequency->mark : wave.period->mark;
+      diagnostics.error(mark,
+                        fmt::format("the wave has {:.4g} rad/s, and the database {} has {:.4g} to "
+                                    "{:.4g} rad/s",
+                                    omega, vessel.database->value, known.front(), known.back()),
+                        {"a wave within them, or a database that has its frequency"});
+    }
+    return;
   }
 }
 
@@ -154,11 +154,17 @@ void check_sea(const MarineParts& parts, double gravity, Diagnostics& diagnostic
   }
   const Mark& mark = sea.waves ? sea.waves->place : sea.place;
   try {
-    const Sea made = make_sea(sea, gravity);
-    if (!sea.waves) return;
+    if (!sea.waves) {
+      make_sea(parts, gravity);
+      return;
+    }
+    check_frequencies(parts, diagnostics);
+    const SeaBand band = find_sea_band(parts, gravity);
+    if (!check_sea_band(band, mark, diagnostics)) return;
+    const Sea made = make_sea(parts, gravity);
     require_not_breaking(made.waves);
     for (const VesselInCase& vessel : parts.vessels) {
-      if (vessel.model) check_panels(vessel, made.waves, mark, diagnostics);
+      if (vessel.model) check_panels(vessel, made.waves, band, mark, diagnostics);
     }
   } catch (const dynamics::ModelError& error) {
     diagnostics.error(mark, error.what());
@@ -173,9 +179,17 @@ double floating_height(const VesselInCase& vessel, const SeaInCase& sea) {
 }
 
 void check_floating(const VesselInCase& vessel, const SeaInCase& sea, Diagnostics& diagnostics) {
-  if (!vessel.model || vessel.draught) return;
+  if (!vessel.model) return;
   try {
-    floating_height(vessel, sea);
+    const double height = vessel.draught ? -vessel.draught->value : floating_height(vessel, sea);
+    if (!sea.depth) return;
+    const double keel = height + vessel.model->hull.bounds()[0].z();
+    if (keel > -*sea.depth) return;
+    diagnostics.error(
+        vessel.draught ? vessel.draught->mark : vessel.name.mark,
+        fmt::format("vessel {} reaches {:.4g} m below the water, which is {:.4g} m deep",
+                    vessel.name.value, -keel, *sea.depth),
+        {"a deeper sea, or a smaller draught"});
   } catch (const dynamics::ModelError& error) {
     diagnostics.error(vessel.name.mark, error.what());
   }
@@ -191,6 +205,7 @@ void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
   }
   if (!vessel.model || !vessel.draught) return;
   const auto [low, high] = vessel.model->hull.bounds();
+  if (std::isnan(vessel.draught->value)) return;  // the reader has complained
   if (vessel.draught->value > low.z() && vessel.draught->value < high.z()) return;
   diagnostics.error(
       vessel.draught->mark,
@@ -426,12 +441,10 @@ std::vector<PlacedHull> place_hulls(const MarineParts& parts) {
   return hulls;
 }
 
-Sea make_sea(const SeaInCase& sea, double gravity, bool at_rest) {
-  dynamics::Water water;
-  water.density = sea.density;
-  water.gravity = gravity;
-  if (sea.depth) water.depth = *sea.depth;
-  return {sea.waves && !at_rest ? make_waves(sea, water) : WaveField(water),
+Sea make_sea(const MarineParts& parts, double gravity, bool at_rest) {
+  const SeaInCase& sea = *parts.sea;
+  const dynamics::Water water = water_of(sea, gravity);
+  return {sea.waves && !at_rest ? make_waves(parts, gravity) : WaveField(water),
           sea.current ? make_current(*sea.current, water) : dynamics::Current()};
 }
 

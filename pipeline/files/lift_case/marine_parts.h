@@ -42,7 +42,7 @@ struct SpectrumInCase {
   std::optional<Located<double>> significant_height;                   ///< m
   std::optional<Located<double>> peak_period;                          ///< s
   std::optional<Located<double>> mean_period;                          ///< s
-  double peakedness = std::numeric_limits<double>::quiet_NaN();        ///< gamma of JONSWAP
+  std::optional<Located<double>> peakedness;                           ///< gamma of JONSWAP
   std::optional<Located<std::vector<std::array<Quantity, 2>>>> table;  ///< rad/s, m2 s/rad
   double heading = 0;                                                  ///< direction of travel, rad
   std::optional<double> spreading;                                     ///< exponent n of cos^n
@@ -81,8 +81,8 @@ struct CurrentInCase {
 
 /// For what the radiation of floating bodies is computed.
 struct RadiationSettings {
-  double lowest = 0, highest = 0;  ///< frequencies, rad/s
-  int frequencies = 0;
+  std::optional<double> lowest, highest;  ///< frequencies, rad/s; none: by find_sea_band
+  int frequencies = 0;                    ///< from the lowest to the highest
   Located<dynamics::PanelMethod> method{dynamics::PanelMethod::marched_surface, {}};
   /// Where water in gaps and moonpools is damped.
   std::optional<Located<std::vector<LidModel>>> lids;
@@ -195,6 +195,9 @@ struct MarineParts {
   std::vector<VesselInCase> vessels;
   std::vector<MooringInCase> moorings;
   std::vector<TuggerInCase> tuggers;
+  /// A load that makes waves while it is lowered into the water; null: there is none.
+  std::shared_ptr<const Vessel> lowered_load;
+  double deepest_draught_of_load = 0;  ///< from its lowest point, m
 
   const VesselInCase* find_vessel(const std::string& name) const;
 };
@@ -240,8 +243,8 @@ void check_draughts(const std::string& who, const Located<std::vector<double>>& 
 /// weight. The parts are sound.
 std::vector<PlacedHull> place_hulls(const MarineParts& parts);
 
-/// The sea of the file; its waves at rest if `at_rest`. The parts are sound.
+/// The sea of the file, which has one; its waves at rest if `at_rest`. The parts are sound.
 /// @throws dynamics::ModelError if they are not.
-dynamics::Sea make_sea(const SeaInCase& sea, double gravity, bool at_rest = false);
+dynamics::Sea make_sea(const MarineParts& parts, double gravity, bool at_rest = false);
 
 }  // namespace blocklift::pipeline

@@ -56,6 +56,10 @@ void check_spectrum(const SpectrumInCase& spectrum, Reading& reading, const Mark
   if (!by_mean) refuse(spectrum.mean_period.has_value(), "mean_period");
   if (!by_mean && !tabulated) require(spectrum.peak_period.has_value(), "peak_period");
   if (by_mean || tabulated) refuse(spectrum.peak_period.has_value(), "peak_period");
+  if (spectrum.shape != SpectrumShape::jonswap && spectrum.peakedness) {
+    reading.error(spectrum.peakedness->mark, "a spectrum of this shape has no key \"peakedness\"",
+                  {"it is that of jonswap; 1 makes it pierson_moskowitz"});
+  }
 }
 
 Format<SpectrumInCase> spectrum_format() {
@@ -75,8 +79,8 @@ Format<SpectrumInCase> spectrum_format() {
                 quantity(Dimension::time, Range::positive()), "of jonswap and pierson_moskowitz")
       .optional("mean_period", &SpectrumInCase::mean_period,
                 quantity(Dimension::time, Range::positive()), "T1 of issc")
-      .by_default("peakedness", &SpectrumInCase::peakedness, number(Range::between(1, 10)), "3.3",
-                  "gamma of jonswap")
+      .optional("peakedness", &SpectrumInCase::peakedness, located(number(Range::between(1, 10))),
+                "gamma of jonswap; 3.3 if left out")
       .optional("table", &SpectrumInCase::table, list_of(pair, 2),
                 "points [[0.5 rad/s, 0.8 m^2 s/rad], ...], linear between")
       .by_default("heading", &SpectrumInCase::heading, quantity(Dimension::angle), "0 deg",
@@ -155,14 +159,16 @@ Format<RadiationSettings> radiation_settings_format() {
                                  "For what the waves that vessels make are computed.");
   const auto frequency = quantity(Dimension::angular_speed, Range::positive());
   table
-      .by_default("lowest_frequency", &RadiationSettings::lowest, frequency, "0.3 rad/s",
-                  "that the waves and motions have")
-      .by_default("highest_frequency", &RadiationSettings::highest, frequency, "1.2 rad/s",
-                  "that the waves and motions have; its waves must be longer than three panels")
+      .optional("lowest_frequency", &RadiationSettings::lowest, frequency,
+                "that the waves and motions have; 0.3 rad/s if left out, less where an irregular "
+                "sea asks for it")
+      .optional("highest_frequency", &RadiationSettings::highest, frequency,
+                "that the waves and motions have; its waves must be longer than three panels. 1.2 "
+                "rad/s if left out, more where an irregular sea asks for it")
       .by_default("frequencies", &RadiationSettings::frequencies, integer(Range::between(2, 200)),
                   "19",
                   "at which diffraction is computed, evenly between; those of regular waves "
-                  "are added")
+                  "are added, and where a sea widens the range they keep their distance")
       .by_default("method", &RadiationSettings::method, located(panel_method_format()),
                   "marched surface", panel_method_purpose)
       .optional("lids", &RadiationSettings::lids, located(list_of(lid_format())),
@@ -170,7 +176,7 @@ Format<RadiationSettings> radiation_settings_format() {
                 "on, where the vessels are at the start; a database has its own")
       .place(&RadiationSettings::place)
       .rule([](const RadiationSettings& settings, Reading& reading, const Mark& mark) {
-        if (settings.lowest < settings.highest) return;
+        if (settings.lowest.value_or(0.3) < settings.highest.value_or(1.2)) return;
         reading.error(mark, "the lowest frequency is not below the highest");
       });
   return table.format();

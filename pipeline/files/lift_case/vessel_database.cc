@@ -12,6 +12,7 @@
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -197,6 +198,16 @@ void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostic
     check_headings(*vessel->database, *vessel->hydrodynamics, *parts.sea, diagnostics);
     return;
   }
+}
+
+std::string doubt_about_database(const std::vector<VesselInCase>& vessels) {
+  for (const VesselInCase& vessel : vessels) {
+    if (vessel.radiation.value == RadiationMethod::none || !vessel.hydrodynamics) continue;
+    const std::string doubt = doubt_about_memory(*vessel.hydrodynamics);
+    if (doubt.empty()) return {};
+    return fmt::format("Database {}: {}.", vessel.database->value, doubt);
+  }
+  return {};
 }
 
 }  // namespace blocklift::pipeline

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "pipeline/files/lift_case/marine_parts.h"
@@ -17,5 +18,9 @@ void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesy
 /// lowered or make no waves, water of another density, depth or gravity (m/s2), and in waves
 /// headings that do not go all around. Complains about lids beside a database, or without waves.
 void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostics& diagnostics);
+
+/// That the memory of a database that vessels name does not give back its added mass and damping
+/// (doubt_about_memory); empty if it does.
+std::string doubt_about_database(const std::vector<VesselInCase>& vessels);
 
 }  // namespace blocklift::pipeline

@@ -12,6 +12,8 @@
 #include "pipeline/declaration/format_once.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case/rigging_check.h"
+#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/mechanism/urdf_import.h"
 #include "pipeline/files/named_file.h"
 
@@ -92,7 +94,7 @@ void add_vessels(MechanismFile& mechanism, Diagnostics& diagnostics) {
 }
 
 /// The sea wants gravity downwards.
-void check_afloat(const MechanismFile& mechanism, Diagnostics& diagnostics) {
+void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
   if (!mechanism.sea && mechanism.vessels.empty() && mechanism.moorings.empty() &&
       mechanism.tuggers.empty()) {
     return;
@@ -114,6 +116,11 @@ void check_afloat(const MechanismFile& mechanism, Diagnostics& diagnostics) {
   }
   check_marine_parts(mechanism, -g.z(), names_of(mechanism.bodies), diagnostics);
   if (!diagnostics.has_errors()) check_hulls_apart(place_hulls(mechanism), diagnostics);
+  if (diagnostics.has_errors()) return;
+  if (std::string doubt = doubt_about_sea(mechanism, -g.z()); !doubt.empty())
+    mechanism.doubts.push_back(std::move(doubt));
+  if (std::string doubt = doubt_about_database(mechanism.vessels); !doubt.empty())
+    mechanism.doubts.push_back(std::move(doubt));
 }
 
 /// A robot description alone, as a mechanism: at rest, with all joints at zero, for ten seconds.

@@ -83,9 +83,10 @@ struct MechanismFile : MechanismParts, MarineParts {
   InitialState initial;
   SimulationSettings simulate;
   std::vector<OutputModel> outputs;
-  std::vector<std::string> notes;  ///< what was taken otherwise than it was written, for the user
-  std::string yaml;                ///< the file as it stands
-  std::filesystem::path file;      ///< where it is
+  std::vector<std::string> notes;   ///< what was taken otherwise than it was written, for the user
+  std::vector<std::string> doubts;  ///< what to ask about before believing the figures
+  std::string yaml;                 ///< the file as it stands
+  std::filesystem::path file;       ///< where it is
   Mark place;
   OwnLaws laws = {};  ///< that its operation names; not from the file
 

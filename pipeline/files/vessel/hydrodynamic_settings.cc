@@ -1,5 +1,6 @@
 #include "pipeline/files/vessel/hydrodynamic_settings.h"
 
+#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -48,6 +49,13 @@ std::vector<double> FrequencyRange::list() const {
     values.push_back(lowest + (highest - lowest) * k / static_cast<double>(count - 1));
   }
   return values;
+}
+
+std::vector<double> default_headings() {
+  constexpr int count = 72;
+  std::vector<double> headings;
+  for (int k = 0; k < count; ++k) headings.push_back(2.0 * std::numbers::pi * k / count);
+  return headings;
 }
 
 std::vector<dynamics::DampingLid> make_lids(const std::optional<std::vector<LidModel>>& models,
@@ -109,9 +117,9 @@ Format<HydrodynamicSettings> hydrodynamic_settings_format() {
   table
       .by_default("frequencies", &HydrodynamicSettings::frequencies, frequency_range_format(), "{}",
                   "for which added mass, damping and excitation are given")
-      .by_default("headings", &HydrodynamicSettings::headings, list_of(quantity(Dimension::angle)),
-                  "[0 deg, 45 deg, 90 deg, 135 deg, 180 deg, 225 deg, 270 deg, 315 deg]",
-                  "directions in which the waves travel, from x towards y")
+      .optional("headings", &HydrodynamicSettings::headings, list_of(quantity(Dimension::angle)),
+                "directions in which the waves travel, from x towards y; every 5 degrees if left "
+                "out")
       .optional("water_depth", &HydrodynamicSettings::water_depth,
                 quantity(Dimension::length, Range::positive()), "deep water if left out")
       .by_default("water_density", &HydrodynamicSettings::water_density,

@@ -30,8 +30,9 @@ struct LidModel {
 /// What `blocklift hydro` computes for a vessel, or for several together. SI units.
 struct HydrodynamicSettings {
   FrequencyRange frequencies;
-  std::vector<double> headings;       ///< direction of travel from +x towards +y, rad
-  std::optional<double> water_depth;  ///< m; none: deep
+  /// Directions of travel from +x towards +y, rad; none: default_headings().
+  std::optional<std::vector<double>> headings;
+  std::optional<double> water_depth;                                ///< m; none: deep
   double water_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m3
   dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
   std::optional<double> panel_size;  ///< m; none: the vessel's own
@@ -42,6 +43,10 @@ struct HydrodynamicSettings {
   std::optional<std::vector<LidModel>> lids;
   bool symmetry = true;  ///< use the planes of symmetry that there are
 };
+
+/// Every 5 degrees, as a case has them that computes for itself, rad: waves between two headings
+/// are interpolated.
+std::vector<double> default_headings();
 
 /// Lids (none given: none) whose places count from `origin` (m, level, in the world).
 std::vector<dynamics::DampingLid> make_lids(

@@ -14,6 +14,7 @@
 #include "dynamics/marine/hull/symmetric_hull.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/format_once.h"
+#include "pipeline/files/file_kind.h"
 #include "pipeline/files/named_file.h"
 
 namespace blocklift::pipeline {
@@ -116,7 +117,7 @@ std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics
   const Mark mark = vessel.model.hull.file ? vessel.model.hull.file->path.mark : vessel.model.place;
   try {
     vessel.hull = make_vessel_hull(vessel.model, file.parent_path(), vessel.model.panel_size);
-    vessel.hull.set_name(file.parent_path().filename().string());
+    vessel.hull.set_name(name_of_input(file));
     dynamics::HullDemands demands{.largest_warp = 0.5};
     if (vessel.model.hydrodynamics.as_meshed) demands.water_level = 0.0;
     for (const dynamics::HullDefect& defect : dynamics::diagnose(vessel.hull, demands)) {

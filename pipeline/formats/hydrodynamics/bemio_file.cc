@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -5,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/reference_points.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/formats/read_apart.h"
@@ -43,6 +45,7 @@ class BemioFile {
     allocate();
     for (std::size_t b = 0; b < bodies_; ++b) read_body(b);
     read_mean_drift();
+    forget_unknown_places();
     if (database_.retardation.empty()) add_retardation(database_);
     require_sound(database_);
     return std::move(database_);
@@ -135,6 +138,16 @@ class BemioFile {
     read_radiation(b, coefficients);
     read_memory(b, coefficients + "radiation_damping/impulse_response_fun/");
     read_excitation(b, coefficients + "excitation/");
+  }
+
+  /// Programs that do not know volumes and centres write zeros. Motions are about cg in any case,
+  /// but weight and buoyancy act where these say only if a body displaces something.
+  void forget_unknown_places() {
+    const std::vector<double>& volumes = database_.displaced_volumes;
+    if (std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }))
+      return;
+    database_.centres_of_buoyancy.clear();
+    database_.centres_of_mass.clear();
   }
 
   void read_radiation(std::size_t b, const std::string& group) {
@@ -282,18 +295,30 @@ void write_force(ResultsWriter& file, const std::string& group, Eigen::Index fir
       "phase", [](Complex x) { return std::arg(x); }, "rad");
 }
 
+/// Without these WEC-Sim would have bodies without buoyancy, turning about wrong points.
+void require_places(const std::filesystem::path& path, const HydrodynamicDatabase& database) {
+  std::vector<std::string> missing;
+  const std::vector<double>& volumes = database.displaced_volumes;
+  if (!std::all_of(volumes.begin(), volumes.end(), [](double volume) { return volume > 0.0; }))
+    missing.emplace_back("displaced volumes (disp_vol)");
+  if (database.centres_of_buoyancy.empty()) missing.emplace_back("centres of buoyancy (cb)");
+  if (database.centres_of_mass.empty()) missing.emplace_back("centres of mass (cg)");
+  if (missing.empty()) return;
+  throw HydrodynamicFileError(
+      fmt::format("{}: cannot be written as BEMIO: the database does not tell its bodies' {}",
+                  path.string(), fmt::join(missing, ", ")));
+}
+
 void write_properties(ResultsWriter& file, std::size_t b, const HydrodynamicDatabase& database) {
   const std::string group = body_group(b) + "/properties/";
-  const auto point = [&](const char* name, const std::vector<Vector3>& points) {
-    const Vector3 p = points.empty() ? database.reference_points[b] : points[b];
+  const auto point = [&](const char* name, const Vector3& p) {
     const std::size_t shape[] = {3, 1};
     file.write_array(group + name, std::span(p.data(), 3), shape, {"m", "in the world"});
   };
   file.write_text(group + "name", database.body_names[b], "of the body");
   file.write_number(group + "body_number", static_cast<double>(b + 1), {"1", "from 1"});
-  point("cb", database.centres_of_buoyancy);
-  // BEMIO's motions are about the centre of gravity: here about the reference point.
-  point("cg", database.reference_points);
+  point("cb", database.centres_of_buoyancy[b]);
+  point("cg", database.centres_of_mass[b]);
   file.write_number(group + "disp_vol", database.displaced_volumes[b], {"m3", "displaced"});
 }
 
@@ -373,7 +398,9 @@ HydrodynamicDatabase read_bemio(const std::filesystem::path& path) {
   }
 }
 
-void write_bemio(const std::filesystem::path& path, const HydrodynamicDatabase& database) {
+void write_bemio(const std::filesystem::path& path, const HydrodynamicDatabase& given) {
+  require_places(path, given);
+  const HydrodynamicDatabase database = about_points(given, given.centres_of_mass);
   ResultsWriter file(path);
   const std::string group = simulation;
   file.write_number(group + "rho", database.water.density, {"kg m-3", "of the water"});

@@ -9,6 +9,7 @@
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/formats/hydrodynamics/netcdf_file.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/formats/read_apart.h"
 
 namespace blocklift::pipeline {
@@ -290,6 +291,11 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
                                       const WamitScales& scales) {
   const std::string ending = path.extension().string();
   const auto imported = [&](const char* program, HydrodynamicDatabase database) {
+    try {
+      require_passive(database);
+    } catch (const dynamics::ModelError& error) {
+      throw HydrodynamicFileError(path.string() + ": " + error.what());
+    }
     const std::string origin =
         fmt::format("imported from {} ({})", path.filename().string(), program);
     return HydrodynamicFile{{}, origin, dynamics::make_series(0, {0.0}, {std::move(database)})};
@@ -297,6 +303,10 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
   if (ending == ".1" || ending == ".3" || ending == ".hst") {
     std::filesystem::path name = path;
     return imported("WAMIT", read_wamit(name.replace_extension(), scales));
+  }
+  if (!scales.bodies.empty()) {
+    throw HydrodynamicFileError(path.string() +
+                                ": tells itself where its bodies lie; --body-at is for WAMIT's");
   }
   if (ending == ".nc") return imported("Capytaine", read_capytaine(path));
   if (ending == ".h5") {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/radiation/reference_points.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
@@ -112,8 +113,83 @@ struct Periods {
   }
 };
 
-void read_radiation(const fs::path& path, const WamitScales& scales, Periods& periods,
-                    HydrodynamicDatabase& database) {
+/// Of each body; of a single one the world's, if nothing else is told.
+std::vector<WamitBody> axes_of_bodies(const fs::path& path, const WamitScales& scales,
+                                      Eigen::Index bodies) {
+  const auto count = static_cast<std::size_t>(bodies);
+  if (scales.bodies.size() == count) return scales.bodies;
+  if (!scales.bodies.empty()) {
+    throw HydrodynamicFileError(fmt::format("{}: holds {} bodies, and {} are placed by --body-at",
+                                            path.string(), count, scales.bodies.size()));
+  }
+  if (count == 1) return {WamitBody{}};
+  throw HydrodynamicFileError(
+      fmt::format("{}: holds {} bodies, and WAMIT's files do not tell where their axes lie, which "
+                  "coefficients are about; give XBODY of each, in their order, by --body-at "
+                  "x,y[,z[,heading]] (m, degrees)",
+                  path.string(), count));
+}
+
+/// From the bodies' own axes to the world's.
+void turn_to_world(const std::vector<WamitBody>& bodies, HydrodynamicDatabase& database) {
+  const auto is_turned = [](const WamitBody& body) { return body.heading != 0.0; };
+  if (std::none_of(bodies.begin(), bodies.end(), is_turned)) return;
+  MatrixXd Q = MatrixXd::Identity(database.mode_count(), database.mode_count());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(bodies[b].heading, dynamics::Vector3::UnitZ()).toRotationMatrix();
+    const Eigen::Index first = modes_per_body * static_cast<Eigen::Index>(b);
+    Q.block<3, 3>(first, first) = Q.block<3, 3>(first + 3, first + 3) = R;
+  }
+  const auto turn = [&](MatrixXd& M) {
+    if (M.size() > 0) M = MatrixXd(Q * M * Q.transpose());
+  };
+  std::for_each(database.added_mass.begin(), database.added_mass.end(), turn);
+  std::for_each(database.damping.begin(), database.damping.end(), turn);
+  turn(database.infinite_added_mass);
+  turn(database.hydrostatic_stiffness);
+  for (Eigen::MatrixXcd& X : database.diffraction) X = Eigen::MatrixXcd(Q * X);
+}
+
+/// Pairs of modes for which a file has a line.
+using Pairs = std::set<std::pair<Eigen::Index, Eigen::Index>>;
+
+bool has_below(const Pairs& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [](const auto& pair) { return pair.first > pair.second; });
+}
+
+/// All periods have the same pairs; below the diagonal they are those above it, or none.
+void require_all_pairs(const fs::path& path, const std::vector<Pairs>& entries,
+                       const Pairs& infinite, const HydrodynamicDatabase& database) {
+  Pairs all;
+  for (const Pairs& pairs : entries) all.insert(pairs.begin(), pairs.end());
+  const auto require = [&](const Pairs& pairs, const std::string& where) {
+    if (pairs == all) return;
+    const auto missing = std::find_if(all.begin(), all.end(),
+                                      [&](const auto& pair) { return pairs.count(pair) == 0; });
+    if (missing == all.end()) return;
+    throw HydrodynamicFileError(fmt::format(
+        "{}: {} coefficients at {}, more at others: lines are missing, such as that of the modes "
+        "{} and {}",
+        path.string(), pairs.size(), where, missing->first + 1, missing->second + 1));
+  };
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    require(entries[k], fmt::format("the period {} s", two_pi / database.frequencies[k]));
+  }
+  if (!infinite.empty()) require(infinite, "the period 0 (infinite frequency)");
+  if (!has_below(all)) return;
+  for (const auto& [i, j] : all) {
+    if (all.count({j, i}) > 0) continue;
+    throw HydrodynamicFileError(
+        fmt::format("{}: lines for the modes {} and {}, and none for {} and {}: lines are missing",
+                    path.string(), i + 1, j + 1, j + 1, i + 1));
+  }
+}
+
+/// @return the modes that the file has on its diagonal.
+std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& scales,
+                                      Periods& periods, HydrodynamicDatabase& database) {
   const TextFile file(path);
   const std::vector<Line> lines = file.lines();
   Eigen::Index modes = modes_per_body;
@@ -130,15 +206,17 @@ void read_radiation(const fs::path& path, const WamitScales& scales, Periods& pe
     throw HydrodynamicFileError(
         fmt::format("{}: {} lines are too few for the {} periods and {} bodies that they name",
                     path.string(), lines.size(), periods.index.size(), bodies));
+  const std::vector<WamitBody> axes = axes_of_bodies(path, scales, bodies);
   for (Eigen::Index b = 0; b < bodies; ++b) {
     database.body_names.push_back("body" + std::to_string(b + 1));
-    database.reference_points.emplace_back(0, 0, 0);
+    database.reference_points.push_back(axes[static_cast<std::size_t>(b)].p_W);
     database.displaced_volumes.push_back(0.0);
   }
   database.frequencies = periods.frequencies();
   database.added_mass.assign(database.frequencies.size(), MatrixXd::Zero(modes, modes));
   database.damping = database.added_mass;
-  std::vector<int> entries(database.frequencies.size(), 0);
+  std::vector<Pairs> entries(database.frequencies.size());
+  Pairs infinite;
   for (const Line& line : lines) {
     const double period = line.values[0];
     if (period < 0.0) continue;
@@ -149,24 +227,32 @@ void read_radiation(const fs::path& path, const WamitScales& scales, Periods& pe
         database.infinite_added_mass = MatrixXd::Zero(modes, modes);
       }
       database.infinite_added_mass(i, j) = scale * line.values[3];
+      infinite.emplace(i, j);
       continue;
     }
     file.require_columns(line, 5, "period, two modes, added mass and damping");
     const std::size_t k = periods.index.at(period);
     database.added_mass[k](i, j) = scale * line.values[3];
     database.damping[k](i, j) = scale * database.frequencies[k] * line.values[4];
-    ++entries[k];
+    entries[k].emplace(i, j);
   }
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    if (entries[k] == *std::max_element(entries.begin(), entries.end())) continue;
-    throw HydrodynamicFileError(
-        fmt::format("{}: {} coefficients at the period {} s, more at others: lines are missing",
-                    path.string(), entries[k], two_pi / database.frequencies[k]));
-  }
+  require_all_pairs(path, entries, infinite, database);
+  std::set<Eigen::Index> radiating;
+  if (entries.empty()) return radiating;
+  for (const auto& [i, j] : entries.front())
+    if (i == j) radiating.insert(i);
+  if (has_below(entries.front())) return radiating;
+  const auto mirror = [](MatrixXd& matrix) {
+    matrix = MatrixXd(matrix.selfadjointView<Eigen::Upper>());
+  };
+  std::for_each(database.added_mass.begin(), database.added_mass.end(), mirror);
+  std::for_each(database.damping.begin(), database.damping.end(), mirror);
+  if (database.infinite_added_mass.size() > 0) mirror(database.infinite_added_mass);
+  return radiating;
 }
 
 void read_excitation(const fs::path& path, const WamitScales& scales, const Periods& periods,
-                     HydrodynamicDatabase& database) {
+                     const std::set<Eigen::Index>& radiating, HydrodynamicDatabase& database) {
   const TextFile file(path);
   const std::vector<Line> lines = file.lines();
   std::map<double, std::size_t> headings;
@@ -181,7 +267,8 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
   const Eigen::Index modes = database.mode_count();
   const auto columns = static_cast<Eigen::Index>(headings.size());
   database.diffraction.assign(database.frequencies.size(), Eigen::MatrixXcd::Zero(modes, columns));
-  std::set<std::pair<std::size_t, std::size_t>> found;
+  std::map<std::pair<std::size_t, std::size_t>, std::set<Eigen::Index>> found;
+  std::set<Eigen::Index> due = radiating;
   for (const Line& line : lines) {
     const auto period = periods.index.find(line.values[0]);
     if (period == periods.index.end()) {
@@ -195,12 +282,25 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
     const std::size_t h = headings.at(line.values[1]);
     database.diffraction[period->second](i, static_cast<Eigen::Index>(h)) = {
         scale * line.values[5], scale * line.values[6]};
-    found.emplace(period->second, h);
+    found[{period->second, h}].insert(i);
+    due.insert(i);
   }
-  if (found.size() == database.frequencies.size() * headings.size()) return;
-  throw HydrodynamicFileError(
-      fmt::format("{}: excitation for {} of {} periods and headings: frequencies are missing",
-                  path.string(), found.size(), database.frequencies.size() * headings.size()));
+  if (found.size() < database.frequencies.size() * headings.size()) {
+    throw HydrodynamicFileError(
+        fmt::format("{}: excitation for {} of {} periods and headings: frequencies are missing",
+                    path.string(), found.size(), database.frequencies.size() * headings.size()));
+  }
+  for (const auto& [place, modes_there] : found) {
+    const auto missing = std::find_if(
+        due.begin(), due.end(), [&](Eigen::Index mode) { return modes_there.count(mode) == 0; });
+    if (missing == due.end()) continue;
+    throw HydrodynamicFileError(
+        fmt::format("{}: no excitation of mode {} at the period {:.6g} s and the heading {:.6g} "
+                    "degrees: lines are "
+                    "missing",
+                    path.string(), *missing + 1, two_pi / database.frequencies[place.first],
+                    database.headings[place.second] / degree));
+  }
 }
 
 /// The file of mean drift forces that tells most; none if there is none of use.
@@ -271,6 +371,7 @@ void read_stiffness(const fs::path& path, const WamitScales& scales,
   const TextFile file(path);
   const Eigen::Index modes = database.mode_count();
   database.hydrostatic_stiffness = MatrixXd::Zero(modes, modes);
+  Pairs found;
   for (const Line& line : file.lines()) {
     file.require_columns(line, 3, "two modes and a stiffness");
     const Eigen::Index i = file.mode(line, 0), j = file.mode(line, 1);
@@ -278,6 +379,17 @@ void read_stiffness(const fs::path& path, const WamitScales& scales,
     database.hydrostatic_stiffness(i, j) = scales.water.density * scales.water.gravity *
                                            std::pow(scales.length, 2 + rotations(i, j)) *
                                            line.values[2];
+    found.emplace(i, j);
+  }
+  // Between bodies there is none, and a file may leave it out.
+  for (Eigen::Index i = 0; i < modes; ++i) {
+    const Eigen::Index first = i - i % modes_per_body;
+    for (Eigen::Index j = first; j < first + modes_per_body; ++j) {
+      if (found.count({i, j}) > 0) continue;
+      throw HydrodynamicFileError(
+          fmt::format("{}: no stiffness of the modes {} and {}: all 36 of a body are due",
+                      path.string(), i + 1, j + 1));
+    }
   }
 }
 
@@ -339,14 +451,21 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
   HydrodynamicDatabase database;
   database.water = scales.water;
   Periods periods;
-  read_radiation(with_ending(name, ".1"), scales, periods, database);
+  const std::set<Eigen::Index> radiating =
+      read_radiation(with_ending(name, ".1"), scales, periods, database);
   const Eigen::Index modes = database.mode_count();
   database.diffraction.assign(database.frequencies.size(), Eigen::MatrixXcd::Zero(modes, 0));
   if (const fs::path path = with_ending(name, ".3"); fs::exists(path)) {
-    read_excitation(path, scales, periods, database);
+    read_excitation(path, scales, periods, radiating, database);
   }
   if (const auto path = find_mean_drift(name, database.body_count());
       path && !database.headings.empty()) {
+    if (std::any_of(scales.bodies.begin(), scales.bodies.end(),
+                    [](const WamitBody& body) { return body.heading != 0.0; })) {
+      throw HydrodynamicFileError(path->string() +
+                                  ": along which axes the mean drift of turned bodies is, the "
+                                  "file does not tell; leave it aside, or turn no body");
+    }
     read_mean_drift(*path, scales, periods, database);
   }
   database.froude_krylov.assign(database.frequencies.size(),
@@ -354,6 +473,7 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
   if (const fs::path path = with_ending(name, ".hst"); fs::exists(path)) {
     read_stiffness(path, scales, database);
   }
+  turn_to_world(scales.bodies, database);
   try {
     add_retardation(database);
     if (database.infinite_added_mass.size() == 0) add_infinite_added_mass(database);
@@ -364,7 +484,15 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
   return database;
 }
 
-void write_wamit(const fs::path& name, const HydrodynamicDatabase& database) {
+std::vector<dynamics::Vector3> wamit_points(const HydrodynamicDatabase& database) {
+  std::vector<dynamics::Vector3> points = database.reference_points;
+  if (points.size() == 1) points.front().setZero();
+  for (dynamics::Vector3& point : points) point.z() = 0.0;
+  return points;
+}
+
+void write_wamit(const fs::path& name, const HydrodynamicDatabase& given) {
+  const HydrodynamicDatabase database = about_points(given, wamit_points(given));
   write_file(with_ending(name, ".1"), radiation_text(database));
   if (!database.headings.empty()) write_file(with_ending(name, ".3"), excitation_text(database));
   if (!database.mean_drift.empty()) {

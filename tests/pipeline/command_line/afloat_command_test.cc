@@ -68,6 +68,27 @@ TEST_F(AfloatCommand, RefusesWavesThatCannotBe) {
               HasSubstr("pair.yaml:4:28: error: "));
 }
 
+// JONSWAP of 5 s keeps 45.8 % of its significant height up to 1.2 rad/s.
+TEST_F(AfloatCommand, SaysWhatIsLeftOfAnIrregularSea) {
+  const std::string sea =
+      with(with(pair, "regular: {amplitude: 0.2 m, period: 8 s, heading: 30 deg}",
+                "spectrum: {significant_height: 0.5 m, peak_period: 5 s}"),
+           "{model: barge, position: [0 m, -10 m]}",
+           "{model: barge, position: [0 m, -10 m], radiation: none}");
+  folder_.write("pair.yaml", with(sea, "{model: barge, position: [0 m, 10 m]}",
+                                  "{model: barge, position: [0 m, 10 m], radiation: none}"));
+  const Outcome valid = test::run_blocklift("validate pair.yaml");
+  EXPECT_EQ(valid.exit_code, 0) << valid.err;
+  EXPECT_THAT(valid.out, HasSubstr("warning: The sea has 45.8 % of its significant height, 0.229 m "
+                                   "of 0.5 m"));
+  const Outcome run = test::run_blocklift("simulate pair.yaml --output results");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("The irregular sea has waves of 0.833 to 1.2 rad/s"));
+  const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
+  ASSERT_EQ(summary["warnings"].size(), 1U);
+  EXPECT_THAT(summary["warnings"][0].get<std::string>(), HasSubstr("highest_frequency is 1.2"));
+}
+
 TEST_F(AfloatCommand, RefusesVesselsInEachOthersWay) {
   EXPECT_THAT(complaint("validate", "[0 m, 10 m]", "[19 m, -1 m]"),
               HasSubstr("pair.yaml:7:3: error: vessel B1 and vessel B2 intersect, at ("));

@@ -68,10 +68,14 @@ TEST_F(HydroCommand, ComputesOnceAndConverts) {
   folder_.write("pontoon/vessel.yaml", pontoon + "  water_depth: 20 m\n");
   EXPECT_THAT(run("pontoon -o db.h5").out, HasSubstr("database: db.h5"));
   EXPECT_EQ(run("--import db.h5 --export bemio -o wec.h5").exit_code, 0);
-  EXPECT_EQ(run("--import db.h5 --export wamit -o wec.1").exit_code, 0);
+  EXPECT_THAT(run("--import db.h5 --export wamit -o wec.1").out,
+              AllOf(HasSubstr("wec.1, wec.3"), HasSubstr("about the origin")));
   EXPECT_THAT(run("--import wec.h5 -o back.h5").out, HasSubstr("imported from wec.h5 (BEMIO)"));
   EXPECT_THAT(run("--import wec.1 --water-depth 20 -o back.h5").out,
               HasSubstr("imported from wec.1 (WAMIT)"));
+  const Outcome unknown = run("--import wec.1 --water-depth 20 --export bemio -o no.h5");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("disp_vol"), HasSubstr("export to wamit")));
 }
 
 // Both methods agree but for their panels' errors, and one's database is not taken for the other's.
@@ -276,6 +280,9 @@ TEST_F(HydroCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run("none.yaml").exit_code, 2);
   EXPECT_EQ(run("--import none.h5 -o x.h5").exit_code, 2);
   EXPECT_EQ(run("--import pontoon/vessel.yaml -o x.h5").exit_code, 2);
+  EXPECT_THAT(run("--import none.1 --body-at 0,0 --body-at=-3,deep -o x.h5").err,
+              AllOf(HasSubstr("\"deep\" is no number"), HasSubstr("x,y[,z[,heading]] is due")));
+  EXPECT_THAT(run("--import none.1 --body-at 3 -o x.h5").err, HasSubstr("1 numbers"));
 }
 
 /// Panels of a box of 4 m, its lowest point at z, in WAMIT's format; some left out, or turned

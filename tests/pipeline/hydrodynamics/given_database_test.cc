@@ -99,5 +99,37 @@ TEST(GivenDatabase, RefusesThatOfAnotherVessel) {
   EXPECT_THROW(take_given_database(lowered), InputError);
 }
 
+// A database without centres of buoyancy, as WAMIT's: its stiffness tells where the water planes
+// are, or its reference points roughly where the bodies are.
+TEST(GivenDatabase, RefusesBodiesElsewhereByTheirWaterPlanes) {
+  HydrodynamicDatabase imported = two_barges();
+  imported.centres_of_buoyancy.clear();
+  imported.displaced_volumes = {0, 0};
+  const auto with_stiffness = [&](double x, double y) {
+    HydrodynamicDatabase database = imported;
+    const double heave = 1025.0 * 9.81 * 800.0;
+    Eigen::MatrixXd& C = database.hydrostatic_stiffness;
+    C = Eigen::MatrixXd::Zero(12, 12);
+    for (const Eigen::Index body : {0, 6}) {
+      C(body + 2, body + 2) = heave;
+      C(body + 2, body + 3) = C(body + 3, body + 2) = heave * y;
+      C(body + 2, body + 4) = C(body + 4, body + 2) = -heave * x;
+    }
+    return database;
+  };
+  EXPECT_THAT(complaint(with_stiffness(0, 0)), ::testing::IsEmpty());
+  // About points beside the bodies: what counts is the middle of the water plane.
+  HydrodynamicDatabase beside = with_stiffness(5, -7);
+  for (Vector3& point : beside.reference_points) point += Vector3(-5, 7, 0);
+  EXPECT_THAT(complaint(beside), ::testing::IsEmpty());
+  EXPECT_THAT(complaint(with_stiffness(5, -7)),
+              AllOf(HasSubstr("the water plane of vessel left lies (-5, 7) m from"),
+                    HasSubstr("--body-at")));
+  // Without stiffness.
+  EXPECT_THAT(complaint(imported), ::testing::IsEmpty());
+  imported.reference_points[0] = {500, 300, 0};
+  EXPECT_THAT(complaint(imported), HasSubstr("the origin of vessel right lies (-500, -330) m"));
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

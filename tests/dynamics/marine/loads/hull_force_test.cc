@@ -1,12 +1,15 @@
 #include "dynamics/marine/loads/hull_force.h"
 
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/hull_shapes.h"
+#include "dynamics/marine/loads/resting_wave_force.h"
 #include "dynamics/marine/loads/viscous.h"
 #include "dynamics/marine/waves/wave_spectrum.h"
 #include "pipeline/verification/models/random_mechanism.h"
@@ -154,6 +157,46 @@ TEST(HullForce, FacesAreWherePanelsConvergeTo) {
   }
   EXPECT_GT(std::log2(distances[0] / distances[2]) / 2, 1.8);  // more where boxes take over
   EXPECT_LT(distances[2], 1e-4);
+}
+
+// What is taken off a whole excitation is what low waves put back, panels of any size: cut by the
+// water, heeled, as panels and as faces. Waves of opposite height leave the first order alone.
+TEST(RestingWaveForce, IsWhatTheHullForceHasInLowWaves) {
+  OneBody body;
+  body.q.head<3>() << 3, -2, -0.3;
+  body.q.tail<4>() << 1, 0.02, 0.03, 0.1;
+  body.q.tail<4>().normalize();
+  body.update();
+  const Pose X_WB = body.state().kinematics.X_WB[1];
+  const Water shallow = {.density = 1025, .gravity = 9.81, .depth = 12};
+  const double a = 1e-4, heading = 1.1;
+  const Hull barge = make_barge({.length = 40, .breadth = 24, .depth = 8}, {5, 3, 2, 1});
+  for (const double omega : {0.15, 1.4}) {  // faces, and panels longer than a wave's quarter
+    for (const Hull& hull : {barge, unevened(barge)}) {
+      const WaveField waves(shallow, {{a, omega, heading, 0}});
+      const HullForce force(
+          {"barge", 1, std::make_shared<const HullClusters>(hull), sea_of(waves)});
+      const auto force_at = [&](double phase) {
+        body.time = phase / omega;
+        body.update();
+        const ForceVector F = force.calc_force(body.state());
+        Eigen::Matrix<double, 6, 1> both;
+        both << F.force, F.moment;
+        return both;
+      };
+      const double half = std::numbers::pi, quarter = 0.5 * half;
+      Eigen::Matrix<std::complex<double>, 6, 1> expected;
+      expected.real() = (force_at(0.0) - force_at(half)) / (2.0 * a);
+      expected.imag() = (force_at(half + quarter) - force_at(quarter)) / (2.0 * a);
+      const Eigen::Matrix<std::complex<double>, 6, 1> found =
+          RestingWaveForce(WaveSurface(hull, waves), X_WB, X_WB.p)
+              .calc_force(shallow, omega, heading);
+      const double heave = rho_g * 40 * 24;
+      EXPECT_LT((found - expected).head<3>().norm(), 2 * WaveSurface::box_tolerance * heave);
+      EXPECT_LT((found - expected).tail<3>().norm(), 2 * WaveSurface::box_tolerance * heave * 20);
+      EXPECT_GT(found.head<3>().norm(), 0.01 * heave);
+    }
+  }
 }
 
 class IrregularSea : public ::testing::Test {

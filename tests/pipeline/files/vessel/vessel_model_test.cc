@@ -30,6 +30,18 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(text.find(from), from.size(), to);
 }
 
+// Of the folder that the file stands for, else of the file.
+TEST(VesselModel, ComplaintsNameTheHull) {
+  const test::TemporaryFolder folder;
+  const std::string sunk = replaced(cube, "mass: 60 t", "mass: 600 t");
+  for (const char* const file : {"cube.yaml", "cube/vessel.yaml"}) {
+    folder.write(file, sunk);
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read_vessel(file, diagnostics));
+    EXPECT_THAT(diagnostics.to_text(), HasSubstr("hull \"cube\" would have to displace"));
+  }
+}
+
 TEST(VesselModel, ReadsHullAndMass) {
   const test::TemporaryFolder folder;
   folder.write("vessel.yaml", cube);

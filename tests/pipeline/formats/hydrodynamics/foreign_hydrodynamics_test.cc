@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "dynamics/marine/radiation/reference_points.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/hdf5_handle.h"
 #include "pipeline/formats/results_store.h"
@@ -79,6 +80,12 @@ TEST(Bemio, RoundTripIsExactButForTheScaling) {
   expect_near(database.diffraction, found.diffraction, two_roundings);
 }
 
+/// About the centres of mass, as BEMIO's files are.
+HydrodynamicDatabase about_mass(HydrodynamicDatabase database) {
+  database.reference_points = database.centres_of_mass;
+  return database;
+}
+
 /// The database with mean drift forces.
 HydrodynamicDatabase with_drift(HydrodynamicDatabase database) {
   const auto headings = static_cast<Eigen::Index>(database.headings.size());
@@ -91,7 +98,7 @@ HydrodynamicDatabase with_drift(HydrodynamicDatabase database) {
 
 TEST(Bemio, BringsMeanDriftOfTheMethodThatTellsBodiesApart) {
   const test::TemporaryFolder folder;
-  const HydrodynamicDatabase database = with_drift(make_sample_database());
+  const HydrodynamicDatabase database = about_mass(with_drift(make_sample_database()));
   write_bemio("wec.h5", database);
   expect_near(database.mean_drift, read_bemio("wec.h5").mean_drift, two_roundings);
   // Momentum far away is that of both bodies together.
@@ -108,7 +115,7 @@ TEST(Bemio, BringsMeanDriftOfTheMethodThatTellsBodiesApart) {
 
 TEST(Bemio, DeepWaterAndDefects) {
   const test::TemporaryFolder folder;
-  HydrodynamicDatabase database = make_sample_database();
+  HydrodynamicDatabase database = about_mass(make_sample_database());
   database.water.depth = std::numeric_limits<double>::infinity();
   write_bemio("deep.h5", database);
   EXPECT_TRUE(std::isinf(read_bemio("deep.h5").water.depth));
@@ -121,10 +128,11 @@ TEST(Bemio, DeepWaterAndDefects) {
 
 // WAMIT's own scaling: with L = 2 m, rho = 1000 and g = 10, A33 = rho L^3 a, A34 = rho L^4 a,
 // A44 = rho L^5 a, B = the same times w; X3 = rho g L^2 x, X4 = rho g L^3 x; C33 = rho g L^2 c,
-// C44 = rho g L^4 c. Periods in whatever order, zero and infinite frequency among them.
+// C44 = rho g L^4 c. Periods in whatever order, zero and infinite frequency among them. Below the
+// diagonal there is nothing, which makes it symmetric.
 TEST(Wamit, ScalesAsItsManualSays) {
   const test::TemporaryFolder folder;
-  std::string radiation = " -1.0 3 3 0.9\n 0.0 3 3 0.5\n";
+  std::string radiation = " -1.0 3 3 0.9\n 0.0 3 3 0.5\n 0.0 3 4 0.2\n 0.0 4 4 0.1\n";
   for (const char* const period : {"4.0", "8.0", "2.0"}) {
     radiation += std::string(period) + " 3 3 0.7 0.2\n" + period + " 3 4 0.1 0.05\n" + period +
                  " 4 4 0.3 0.1\n";
@@ -136,13 +144,23 @@ TEST(Wamit, ScalesAsItsManualSays) {
         std::string(period) + " 90.0 3 5.0 53.13 3.0 4.0\n" + period + " 90.0 4 2.0 90.0 0.0 2.0\n";
   }
   folder.write("barge.3", excitation);
-  folder.write("barge.hst", "3 3 1.5\n4 4 0.25\n");
+  std::string stiffness;
+  for (int i = 1; i <= 6; ++i) {
+    for (int j = 1; j <= 6; ++j) {
+      const char* const value = i != j ? " 0.0\n" : i == 3 ? " 1.5\n" : i == 4 ? " 0.25\n" : " 0\n";
+      stiffness += std::to_string(i) + " " + std::to_string(j) + value;
+    }
+  }
+  folder.write("barge.hst", stiffness);
   const HydrodynamicDatabase database = read_wamit("barge", {2.0, {1000.0, 10.0}});
   ASSERT_EQ(database.frequencies.size(), 3U);
   EXPECT_DOUBLE_EQ(database.frequencies[0], 2 * pi / 8.0);
   const double w = database.frequencies[1];
   EXPECT_DOUBLE_EQ(database.added_mass[1](2, 2), 1000 * 8 * 0.7);
   EXPECT_DOUBLE_EQ(database.added_mass[1](2, 3), 1000 * 16 * 0.1);
+  EXPECT_DOUBLE_EQ(database.added_mass[1](3, 2), 1000 * 16 * 0.1);
+  EXPECT_DOUBLE_EQ(database.damping[1](3, 2), 1000 * 16 * w * 0.05);
+  EXPECT_DOUBLE_EQ(database.infinite_added_mass(3, 2), 1000 * 16 * 0.2);
   EXPECT_DOUBLE_EQ(database.added_mass[1](3, 3), 1000 * 32 * 0.3);
   EXPECT_DOUBLE_EQ(database.damping[1](3, 3), 1000 * 32 * w * 0.1);
   EXPECT_DOUBLE_EQ(database.infinite_added_mass(2, 2), 1000 * 8 * 0.5);
@@ -187,18 +205,27 @@ TEST(Wamit, TakesMeanDriftOver) {
               HasSubstr("mean drift for 1 of 6 periods and headings"));
 }
 
+/// What the files of a database written by write_wamit do not tell.
+WamitScales scales_of(const HydrodynamicDatabase& database) {
+  WamitScales scales{1.0, database.water, {}};
+  for (const dynamics::Vector3& point : wamit_points(database)) scales.bodies.push_back({point});
+  return scales;
+}
+
 TEST(Wamit, MeanDriftComesBack) {
   const test::TemporaryFolder folder;
-  const HydrodynamicDatabase database = with_drift(make_sample_database());
-  write_wamit("pair", database);
-  expect_near(database.mean_drift, read_wamit("pair", {1.0, database.water}).mean_drift, 2e-15);
+  const HydrodynamicDatabase sample = with_drift(make_sample_database());
+  const HydrodynamicDatabase database = about_points(sample, wamit_points(sample));
+  write_wamit("pair", sample);
+  expect_near(database.mean_drift, read_wamit("pair", scales_of(sample)).mean_drift, 2e-15);
 }
 
 TEST(Wamit, RoundTripKeepsTheDigits) {
   const test::TemporaryFolder folder;
-  const HydrodynamicDatabase database = make_sample_database();
-  write_wamit("pair", database);
-  const HydrodynamicDatabase found = read_wamit("pair", {1.0, database.water});
+  const HydrodynamicDatabase sample = make_sample_database();
+  write_wamit("pair", sample);
+  const HydrodynamicDatabase database = about_points(sample, wamit_points(sample));
+  const HydrodynamicDatabase found = read_wamit("pair", scales_of(sample));
   // 17 digits are exact; the frequency goes by way of the period, twice.
   constexpr double few_roundings = 2e-15;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -234,6 +261,22 @@ TEST(Wamit, SaysWhatIsWrong) {
   EXPECT_THAT(
       message(sound, "8 0 3 1 0 1 0\n4 0 3 1 0 1 0\n"),
       HasSubstr("x.3: excitation for 2 of 3 periods and headings: frequencies are missing"));
+  const std::string two_modes =
+      "8 3 3 1 1\n8 5 5 1 1\n4 3 3 1 1\n4 5 5 1 1\n2 3 3 1 1\n2 5 5 1 1\n";
+  EXPECT_THAT(
+      message(two_modes, "8 0 3 1 0 1 0\n4 0 3 1 0 1 0\n2 0 3 1 0 1 0\n"),
+      HasSubstr("x.3: no excitation of mode 5 at the period 8 s and the heading 0 degrees"));
+  EXPECT_THAT(
+      message(sound,
+              "8 0 3 1 0 1 0\n8 0 1 1 0 1 0\n4 0 3 1 0 1 0\n2 0 3 1 0 1 0\n2 0 1 1 "
+              "0 1 0\n"),
+      HasSubstr("x.3: no excitation of mode 1 at the period 4 s and the heading 0 degrees"));
+  EXPECT_THAT(message("8 3 3 1 1\n8 3 5 1 1\n8 5 1 1 1\n4 3 3 1 1\n4 3 5 1 1\n4 5 1 1 1\n2 3 3 1 "
+                      "1\n2 3 5 1 1\n2 5 1 1 1\n"),
+              HasSubstr("x.1: lines for the modes 3 and 5, and none for 5 and 3: lines are"));
+  EXPECT_THAT(message(two_modes + "0 3 3 1\n"),
+              HasSubstr("x.1: 1 coefficients at the period 0 (infinite frequency), more at others: "
+                        "lines are missing, such as that of the modes 5 and 5"));
   EXPECT_THAT(message(sound, "5 0 3 1 0 1 0\n"),
               HasSubstr("the period 5 s is not among those of the .1 file"));
   EXPECT_THAT(message_of_import([] { import_hydrodynamics("x.txt", {}); }),

@@ -1,0 +1,114 @@
+// Databases of other programs that are incomplete, or of no body.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
+#include "tests/pipeline/formats/hydrodynamics/sample_database.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+using dynamics::HydrodynamicDatabase;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+template <class Action>
+std::string refusal_of(const Action& action) {
+  try {
+    action();
+  } catch (const HydrodynamicFileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// About points in the water line, so that WAMIT's files hold its very numbers.
+HydrodynamicDatabase pair_in_water_line() {
+  HydrodynamicDatabase database = make_sample_database();
+  for (dynamics::Vector3& point : database.reference_points) point.z() = 0.0;
+  return database;
+}
+
+WamitScales scales_of_pair(const HydrodynamicDatabase& database) {
+  WamitScales scales{1.0, database.water};
+  for (const dynamics::Vector3& point : wamit_points(database)) scales.bodies.push_back({point});
+  return scales;
+}
+
+// Between bodies a file may leave out the stiffness, of a body on itself not.
+TEST(Wamit, RefusesCutStiffness) {
+  const test::TemporaryFolder folder;
+  const HydrodynamicDatabase database = pair_in_water_line();
+  write_wamit("pair", database);
+  const auto message_with = [&](const std::string& text) {
+    folder.write("pair.hst", text);
+    return refusal_of([&] { read_wamit("pair", scales_of_pair(database)); });
+  };
+  std::string own;  // that of each body on itself
+  std::ifstream lines("pair.hst");
+  for (std::string line; std::getline(lines, line);) {
+    int i = 0, j = 0;
+    std::istringstream(line) >> i >> j;
+    if ((i <= 6) == (j <= 6)) own += line + "\n";
+  }
+  EXPECT_EQ(message_with(own), "");
+  EXPECT_THAT(message_with(own.substr(0, own.find('\n') + 1)),
+              HasSubstr("pair.hst: no stiffness of the modes 1 and 2: all 36 of a body are due"));
+  own.erase(own.rfind('\n', own.size() - 2) + 1);
+  EXPECT_THAT(message_with(own), HasSubstr("pair.hst: no stiffness of the modes 12 and 12"));
+}
+
+// Gaps make added mass negative at some frequencies, waves damping nowhere.
+TEST(Import, RefusesWhatNoBodyHas) {
+  const test::TemporaryFolder folder;
+  const auto message_of = [](const HydrodynamicDatabase& database) {
+    write_wamit("pair", database);
+    return refusal_of([&] { import_hydrodynamics("pair.1", scales_of_pair(database)); });
+  };
+  HydrodynamicDatabase database = pair_in_water_line();
+  database.added_mass[1](2, 2) = -1e6;
+  database.damping[0](8, 8) = -1e-6 * database.damping[1](8, 8);
+  EXPECT_EQ(message_of(database), "");
+  database.damping[1](8, 8) = -0.1 * std::max(database.damping[0](8, 8), database.damping[2](8, 8));
+  EXPECT_THAT(message_of(database),
+              AllOf(HasSubstr("pair.1: the damping of body2 heave on itself is -"),
+                    HasSubstr(" at 0.7 rad/s")));
+  database = pair_in_water_line();
+  database.infinite_added_mass(1, 1) = -1e6;
+  EXPECT_THAT(message_of(database),
+              HasSubstr("the added mass of body1 sway at infinite frequency is -1e+06 kg"));
+  database = pair_in_water_line();
+  database.infinite_added_mass(3, 3) = -1e6;
+  EXPECT_EQ(message_of(database), "");
+}
+
+// B = 2 w^2/(w^2 + 1)^2 fades; cut at its peak it has not (Retardation.FollowsFromTheDamping).
+TEST(Import, DoubtsDampingThatHasNotFaded) {
+  const auto up_to = [](int count) {
+    HydrodynamicDatabase database;
+    database.body_names = {"body"};
+    for (int k = 1; k <= count; ++k) {
+      const double w = 0.05 * k, square = std::pow(1 + w * w, 2);
+      database.frequencies.push_back(w);
+      database.damping.emplace_back(Eigen::MatrixXd::Constant(6, 6, 2 * w * w / square));
+      database.added_mass.emplace_back(Eigen::MatrixXd::Constant(6, 6, 5 - (w * w - 1) / square));
+    }
+    add_retardation(database);
+    add_infinite_added_mass(database);
+    return doubt_about_memory(database);
+  };
+  EXPECT_EQ(up_to(400), "");
+  EXPECT_THAT(up_to(20), AllOf(HasSubstr("the retardation functions miss added mass and damping"),
+                               HasSubstr("at the last frequency, 1 rad/s")));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
