@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <kinsol/kinsol.h>
@@ -103,7 +104,7 @@ struct EquilibriumSolver::Implementation {
 EquilibriumSolver::Implementation::Implementation(const LiftSystem& lift, EquilibriumSettings s)
     : system(lift),
       mechanism(lift.mechanism()),
-      settings(s),
+      settings(std::move(s)),
       w(lift),
       inverse(lift.mechanism()),
       coordinates(lift),
@@ -492,7 +493,7 @@ void EquilibriumSolver::Implementation::fail(double t) {
 }
 
 EquilibriumSolver::EquilibriumSolver(const LiftSystem& system, EquilibriumSettings settings)
-    : implementation_(std::make_unique<Implementation>(system, settings)) {}
+    : implementation_(std::make_unique<Implementation>(system, std::move(settings))) {}
 EquilibriumSolver::~EquilibriumSolver() = default;
 EquilibriumSolver::EquilibriumSolver(EquilibriumSolver&&) noexcept = default;
 

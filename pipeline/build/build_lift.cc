@@ -11,6 +11,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/multibody/kinematics.h"
 #include "pipeline/build/body_box.h"
+#include "pipeline/build/held_heading.h"
 #include "pipeline/build/hook_block.h"
 #include "pipeline/build/lift_marine.h"
 #include "pipeline/build/rope_stretch.h"
@@ -69,7 +70,8 @@ class LiftBuilder {
                                    make_elements(mechanism, at_rest), operation, q_start_,
                                    Eigen::VectorXd::Zero(mechanism.nv()), water, elastic_bodies});
     };
-    const std::optional<dynamics::HeldHeading> held_heading = find_held_heading();
+    const std::optional<dynamics::HeldHeading> held_heading = find_held_heading(
+        case_, ropes_, hoists_, rope_definitions_, {body_of_.at("load"), load_pose().R});
     const bool gusts = case_.wind && case_.wind->gusts != dynamics::GustSpectrum::none;
     const bool moves = gusts || marine_.has_waves();
     return {system(false),
@@ -349,26 +351,6 @@ class LiftBuilder {
     marine_.add_hull("load", body_of_.at("load"), *load.vessel, load.damping,
                      load.quadratic_damping, load_.mass, at_rest, elements);
     return elements;
-  }
-
-  /// Do all ropes that hold the load hang on one hook that turns freely, on its falls or on its
-  /// bearing?
-  std::optional<dynamics::HeldHeading> find_held_heading() const {
-    if (case_.load.vessel) return std::nullopt;
-    std::string hook;
-    for (const LiftRope& rope : ropes_) {
-      if (!rope.holds_load()) continue;
-      if (rope.hoist.empty() || (!hook.empty() && rope.hoist != hook)) return std::nullopt;
-      hook = rope.hoist;
-    }
-    const auto hoist = std::find_if(hoists_.begin(), hoists_.end(),
-                                    [&](const LiftHoist& one) { return one.name == hook; });
-    if (hoist == hoists_.end()) return std::nullopt;
-    const auto start = std::find_if(hook_starts_.begin(), hook_starts_.end(),
-                                    [&](const HookStart& one) { return one.hook == hoist->hook; });
-    if (start != hook_starts_.end() && start->turning && !start->turning->bearing)
-      return std::nullopt;
-    return dynamics::HeldHeading{body_of_.at("load"), load_pose().R};
   }
 
   Pose load_pose() const { return {rotation_of(case_.load.attitude), case_.load.position}; }

@@ -194,6 +194,12 @@ LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift) {
       lift.model.system.mechanism().body(lift.model.load).inertia.mass * lift_case.gravity;
   const Eigen::VectorXd& times = lift.static_history.time;
   const Eigen::VectorXd borne = load_on_slings(lift.model, lift.static_history);
+  // A load that a pad pushes at stands as much as it hangs.
+  const auto pads_bear = [&lift, weight](Eigen::Index at) {
+    return std::ranges::any_of(lift.static_history.supports, [&](const auto& pad) {
+      return pad.normal_force[at] > 1e-3 * weight;
+    });
+  };
   return make_measure(
       lift,
       {.subject = "load",
@@ -203,12 +209,12 @@ LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift) {
        .meaning =
            "least moment against tilting over weight and tilt, of the equilibrium: height of "
            "an equal pendulum's pin above its centre of mass; below zero the load tips over; "
-           "while slings bear nine tenths of the weight"},
+           "while slings bear nine tenths of the weight and no pad bears any"},
       [&](const dynamics::History& history, Eigen::Index sample) {
         const double* after =
             std::upper_bound(times.data(), times.data() + times.size(), history.time[sample]);
         const Eigen::Index at = std::max<Eigen::Index>(after - times.data() - 1, 0);
-        if (borne[at] < 0.9 * weight) return nothing;
+        if (borne[at] < 0.9 * weight || pads_bear(at)) return nothing;
         return lift.righting_height[at];
       });
 }

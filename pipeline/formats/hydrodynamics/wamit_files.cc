@@ -276,7 +276,8 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
                 fmt::format("the period {} s is not among those of the .1 file", line.values[0]));
     }
     const Eigen::Index i = file.mode(line, 2);
-    if (i >= modes) file.fail(line.number, "a mode that the .1 file does not have");
+    if (i >= modes || radiating.count(i) == 0)
+      file.fail(line.number, "a mode that the .1 file does not have");
     const double scale = scales.water.density * scales.water.gravity *
                          std::pow(scales.length, is_rotation(i) ? 3 : 2);
     const std::size_t h = headings.at(line.values[1]);
