@@ -86,9 +86,8 @@ std::optional<Value> stated(const std::optional<Located<Value>>& located) {
 
 /// @throws InputError if the stated mass is less than that of the plates.
 MassProperties mass_of(const structure::MassDistribution& matter, const BlockModel& block) {
-  const MassProperties mass =
-      matter.with(block.mass ? &block.mass->value : nullptr,
-                  block.centre_of_mass ? &block.centre_of_mass->value : nullptr);
+  MassProperties mass = matter.with(block.mass ? &block.mass->value : nullptr,
+                                    block.centre_of_mass ? &block.centre_of_mass->value : nullptr);
   Diagnostics diagnostics;
   if (!check_stated_mass(block, mass, diagnostics)) throw InputError(diagnostics);
   return mass;

@@ -292,8 +292,9 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
                     path.string(), found.size(), database.frequencies.size() * headings.size()));
   }
   for (const auto& [place, modes_there] : found) {
-    const auto missing = std::find_if(
-        due.begin(), due.end(), [&](Eigen::Index mode) { return modes_there.count(mode) == 0; });
+    const std::set<Eigen::Index>& there = modes_there;
+    const auto missing = std::find_if(due.begin(), due.end(),
+                                      [&](Eigen::Index mode) { return there.count(mode) == 0; });
     if (missing == due.end()) continue;
     throw HydrodynamicFileError(
         fmt::format("{}: no excitation of mode {} at the period {:.6g} s and the heading {:.6g} "

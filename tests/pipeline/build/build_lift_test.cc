@@ -38,6 +38,23 @@ double tension(dynamics::EquilibriumSolver& solver, const BuiltLift& lift,
   return solver.workspace().rope_loads[index].tension;
 }
 
+// Nothing but the air turns what hangs on one hook: its heading is held at rest. Two hooks or a tugger
+// turn it themselves.
+TEST(BuildLiftTest, HoldsTheHeadingOfALoadOnOneHook) {
+  EXPECT_FALSE(build_sample().held_heading);
+  SampleLift one;
+  one.lift_case = with(one.lift_case, "R2: {from: C1.right", "R2: {from: C1.left");
+  const BuiltLift held = build_sample(one);
+  ASSERT_TRUE(held.held_heading);
+  EXPECT_EQ(held.held_heading->body, held.load);
+  EXPECT_TRUE(held.held_heading->R_WB.isIdentity());
+  SampleLift pulled = one;
+  pulled.lift_case = with(pulled.lift_case, "operation:",
+                          "tuggers:\n  T1: {from: {body: world, position: [-9 m, 0 m, 2 m]}, to: "
+                          "{body: load, position: [0 m, 0 m, 0 m]}, tension: 1 kN}\noperation:");
+  EXPECT_FALSE(build_sample(pulled).held_heading);
+}
+
 TEST(BuildLiftTest, NamesAndPlacesTheParts) {
   const BuiltLift lift = build_sample();
   const dynamics::Mechanism& mechanism = lift.system.mechanism();
