@@ -268,7 +268,6 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
   const auto columns = static_cast<Eigen::Index>(headings.size());
   database.diffraction.assign(database.frequencies.size(), Eigen::MatrixXcd::Zero(modes, columns));
   std::map<std::pair<std::size_t, std::size_t>, std::set<Eigen::Index>> found;
-  std::set<Eigen::Index> due = radiating;
   for (const Line& line : lines) {
     const auto period = periods.index.find(line.values[0]);
     if (period == periods.index.end()) {
@@ -284,7 +283,6 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
     database.diffraction[period->second](i, static_cast<Eigen::Index>(h)) = {
         scale * line.values[5], scale * line.values[6]};
     found[{period->second, h}].insert(i);
-    due.insert(i);
   }
   if (found.size() < database.frequencies.size() * headings.size()) {
     throw HydrodynamicFileError(
@@ -293,9 +291,9 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
   }
   for (const auto& [place, modes_there] : found) {
     const std::set<Eigen::Index>& there = modes_there;
-    const auto missing = std::find_if(due.begin(), due.end(),
+    const auto missing = std::find_if(radiating.begin(), radiating.end(),
                                       [&](Eigen::Index mode) { return there.count(mode) == 0; });
-    if (missing == due.end()) continue;
+    if (missing == radiating.end()) continue;
     throw HydrodynamicFileError(
         fmt::format("{}: no excitation of mode {} at the period {:.6g} s and the heading {:.6g} "
                     "degrees: lines are "

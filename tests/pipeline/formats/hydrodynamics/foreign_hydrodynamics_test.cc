@@ -267,10 +267,11 @@ TEST(Wamit, SaysWhatIsWrong) {
       message(two_modes, "8 0 3 1 0 1 0\n4 0 3 1 0 1 0\n2 0 3 1 0 1 0\n"),
       HasSubstr("x.3: no excitation of mode 5 at the period 8 s and the heading 0 degrees"));
   EXPECT_THAT(
-      message(sound,
-              "8 0 3 1 0 1 0\n8 0 1 1 0 1 0\n4 0 3 1 0 1 0\n2 0 3 1 0 1 0\n2 0 1 1 "
-              "0 1 0\n"),
-      HasSubstr("x.3: no excitation of mode 1 at the period 4 s and the heading 0 degrees"));
+      message(two_modes,
+              "8 0 3 1 0 1 0\n8 0 5 1 0 1 0\n4 0 3 1 0 1 0\n2 0 3 1 0 1 0\n2 0 5 1 0 1 0\n"),
+      HasSubstr("x.3: no excitation of mode 5 at the period 4 s and the heading 0 degrees"));
+  EXPECT_THAT(message(sound, "8 0 3 1 0 1 0\n8 0 1 1 0 1 0\n"),
+              HasSubstr("x.3:2: a mode that the .1 file does not have"));
   EXPECT_THAT(message("8 3 3 1 1\n8 3 5 1 1\n8 5 1 1 1\n4 3 3 1 1\n4 3 5 1 1\n4 5 1 1 1\n2 3 3 1 "
                       "1\n2 3 5 1 1\n2 5 1 1 1\n"),
               HasSubstr("x.1: lines for the modes 3 and 5, and none for 5 and 3: lines are"));
