@@ -25,8 +25,8 @@ namespace {
 // Stiffness added to every direction, relative to its weight over 1 m: holds neutral directions.
 constexpr double holding_stiffness = 1e-7;
 
-// Of the couple that holds a heading, over weight times radius of gyration: a wind whose moment is a
-// hundredth of that turns the body by 1e-4 rad.
+// Of the couple that holds a heading, over weight times radius of gyration: a wind whose moment is
+// a hundredth of that turns the body by 1e-4 rad.
 constexpr double heading_stiffness = 100;
 
 // Steps with the stiffness of an equilibrium before are taken as long as each leaves at most this

@@ -15,7 +15,7 @@ struct EquilibriumSettings {
   int largest_iterations = 60;     ///< of Newton's method (KINSOL) for one set of taut ropes
   int largest_relaxations = 2000;  ///< steps of the descent from a rough guess
   int largest_subdivisions = 10;   ///< halvings of the way between two points of a sweep
-  std::optional<HeldHeading> held_heading = {};
+  std::optional<HeldHeading> held_heading = {};  ///< none: all moments balance
 };
 
 /// Finds where a lift hangs at rest with drives and winches held as they are at a time, mean wind
@@ -25,7 +25,8 @@ struct EquilibriumSettings {
 /// are their generalised forces. Newton's method with line search (KINSOL) runs with a fixed set of
 /// taut ropes and loaded pads, on which the equations are smooth; the set is then corrected and the
 /// solution repeated until it agrees with itself. Neutral directions stay about where they are; a
-/// heading that nothing but wind turns is to be held (EquilibriumSettings::held_heading). From a rough guess, where ropes may hang slack, a descent over the mass
+/// heading that nothing but wind turns is to be held (EquilibriumSettings::held_heading).
+/// From a rough guess, where ropes may hang slack, a descent over the mass
 /// matrix comes first:  (K + M/h^2) du = f  with growing h. Where loops tie joints together the
 /// unknowns are the motions that they leave free, q being brought onto the loops at each trial;
 /// what the loops bear goes into their multipliers, the least that balance. Forces are scaled by

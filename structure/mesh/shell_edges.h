@@ -42,8 +42,8 @@ EdgeMap collect_edges(const Mesh& mesh);
 Eigen::Matrix<double, 3, 2> tangents(const Mesh& mesh, int shell, const Eigen::Vector2d& xi);
 
 /// Angle by which the plating turns from one shell into the next across an edge that they share, in
-/// the middle of the edge, rad: 0 where it goes on smoothly, pi where it turns back. Which sides the
-/// shells' normals are on does not matter.
+/// the middle of the edge, rad: 0 where it goes on smoothly, pi where it turns back. Which sides
+/// the shells' normals are on does not matter.
 double kink_between(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b);
 
 /// Which shells are facets of curved plating: those that meet another one at a kink that is neither

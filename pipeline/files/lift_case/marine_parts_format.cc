@@ -6,6 +6,7 @@
 
 #include "dynamics/force/linear_restraint.h"
 #include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/lift_case/sea_band.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -176,7 +177,9 @@ Format<RadiationSettings> radiation_settings_format() {
                 "on, where the vessels are at the start; a database has its own")
       .place(&RadiationSettings::place)
       .rule([](const RadiationSettings& settings, Reading& reading, const Mark& mark) {
-        if (settings.lowest.value_or(0.3) < settings.highest.value_or(1.2)) return;
+        if (settings.lowest.value_or(usual_radiation[0]) <
+            settings.highest.value_or(usual_radiation[1]))
+          return;
         reading.error(mark, "the lowest frequency is not below the highest");
       });
   return table.format();

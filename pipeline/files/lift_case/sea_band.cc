@@ -19,7 +19,6 @@ using dynamics::WaveSpectrum;
 using Ends = std::array<double, 2>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr Ends usual_radiation = {0.3, 1.2};        // rad/s
 constexpr double lowest_radiation_by_itself = 0.1;  // rad/s
 // Of the energy, at the low and the high end; at an end that the file gives, of the spectrum.
 constexpr double left_out_below = 1e-3, left_out_above = 4e-3;
@@ -215,8 +214,7 @@ class BandFinder {
           fmt::format("the database {} at {:.4g} rad/s", at_low_end ? "begins" : "ends", end);
       band.hint = fmt::format(
           "a database of all frequencies that the sea has, from {:.3g} to {:.3g} rad/s, or {} "
-          "under "
-          "radiation, which says that the others may be left out",
+          "under radiation, which says that the others may be left out",
           asked_[0], asked_[1], key);
     } else if (!at_low_end && carried_.widest > 0) {
       band.cut_by =

@@ -15,6 +15,9 @@ inline constexpr double kept_without_doubt = 0.98, kept_at_least = 0.90;
 /// its energy.
 inline constexpr double panels_in_shortest_wave = 3.0, panels_in_middle_wave = 8.0;
 
+/// For which radiation is computed unless the file or an irregular sea asks for others, rad/s.
+inline constexpr std::array<double, 2> usual_radiation = {0.3, 1.2};
+
 /// The frequencies of a sea, and those for which its vessels' radiation is computed.
 struct SeaBand {
   bool irregular = false;             ///< a spectrum or a record; else regular waves, or none
@@ -33,8 +36,8 @@ struct SeaBand {
 /// Spectra and records are taken from all but 0.1 % of their energy at the low end to all but 0.4 %
 /// at the high one, or the ends that the file gives under radiation or of a record. Cut off is what
 /// a database that is named does not have, and waves shorter than three panels of a hull, unless
-/// the file gives the highest frequency. Where radiation is computed and nothing is given, 0.3 to
-/// 1.2 rad/s are left if they keep 98 % of the significant height; if not, the ends that fall short
+/// the file gives the highest frequency. Where radiation is computed and nothing is given,
+/// usual_radiation is left if it keeps 98 % of the significant height; if not, the ends that fall short
 /// go on as far as the sea asks for, down to 0.1 rad/s, and the frequencies between them keep their
 /// distance.
 /// @throws dynamics::ModelError if the spectrum or record cannot be.

@@ -52,9 +52,10 @@ void write_bemio(const std::filesystem::path& path, const dynamics::Hydrodynamic
 ///   .hst  I J C                           C / (rho g L^(k-1))
 ///   .7, .9, .8   PER BETA1 BETA2 I |F| phase Re Im   F / (rho g a^2 L^(m-1)), where BETA1 = BETA2
 /// Mean drift forces come from the first of these endings that is there, .8 for a single body only.
-/// A .1 file has the same pairs of modes at all periods, and those above the diagonal below it, too,
-/// unless it has none there: then it is mirrored. A .3 file has all its periods and headings for all
-/// its modes and those that the .1 file has on its diagonal; a .hst file all 36 entries of each body.
+/// A .1 file has the same pairs of modes at all periods, and those above the diagonal below it,
+/// too, unless it has none there: then it is mirrored. A .3 file has all its periods and headings
+/// for the modes that the .1 file has on its diagonal, and for no others; a .hst file all 36 entries
+/// of each body.
 /// k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the period, s; 0: infinite
 /// frequency, negative: zero frequency (passed over). BETA in degrees, force Re X e^{+i w t} of the
 /// wave cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies' own origins, which the

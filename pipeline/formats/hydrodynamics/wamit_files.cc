@@ -296,8 +296,7 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
     if (missing == radiating.end()) continue;
     throw HydrodynamicFileError(
         fmt::format("{}: no excitation of mode {} at the period {:.6g} s and the heading {:.6g} "
-                    "degrees: lines are "
-                    "missing",
+                    "degrees: lines are missing",
                     path.string(), *missing + 1, two_pi / database.frequencies[place.first],
                     database.headings[place.second] / degree));
   }

@@ -105,8 +105,8 @@ TEST(Equilibrium, FindsItsWayFromARoughGuess) {
   EXPECT_LT(q[2], 0.0);
 }
 
-/// A load of 5 t on one rope from 10 m above its pin, in wind along +x on a flat area whose centre of
-/// pressure is 0.5 m beside its centre of mass; drawn at a heading.
+/// A load of 5 t on one rope from 10 m above its pin, in wind along +x on a flat area whose centre
+/// of pressure is 0.5 m beside its centre of mass; drawn at a heading.
 LiftSystem load_in_wind(double speed, double heading) {
   MechanismBuilder builder;
   builder.set_gravity({0, 0, -g});

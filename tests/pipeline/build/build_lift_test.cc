@@ -38,8 +38,8 @@ double tension(dynamics::EquilibriumSolver& solver, const BuiltLift& lift,
   return solver.workspace().rope_loads[index].tension;
 }
 
-// Nothing but the air turns what hangs on one hook: its heading is held at rest. Two hooks or a tugger
-// turn it themselves.
+// Nothing but the air turns what hangs on one hook: its heading is held at rest. Two hooks or a
+// tugger turn it themselves.
 TEST(BuildLiftTest, HoldsTheHeadingOfALoadOnOneHook) {
   EXPECT_FALSE(build_sample().held_heading);
   SampleLift one;

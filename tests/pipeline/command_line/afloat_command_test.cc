@@ -68,7 +68,8 @@ TEST_F(AfloatCommand, RefusesWavesThatCannotBe) {
               HasSubstr("pair.yaml:4:28: error: "));
 }
 
-// JONSWAP of 5 s keeps 45.8 % of its significant height up to 1.2 rad/s.
+// JONSWAP of 5 s has 45.8 % of its significant height up to 1.2 rad/s, of which a thousandth of
+// all energy is left out at the low end.
 TEST_F(AfloatCommand, SaysWhatIsLeftOfAnIrregularSea) {
   const std::string sea =
       with(with(pair, "regular: {amplitude: 0.2 m, period: 8 s, heading: 30 deg}",

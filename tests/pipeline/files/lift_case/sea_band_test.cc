@@ -107,8 +107,8 @@ TEST(SeaBand, RadiationReachesWhatTheSeaAsksFor) {
   EXPECT_NEAR(long_sea.kept, std::sqrt(0.995), 1e-3);
 }
 
-// Of a peak period of 5 s what lies below 1.2 rad/s is 45.8 % of the significant height; a thousandth
-// of the energy is left out at the low end.
+// Of a peak period of 5 s what lies below 1.2 rad/s is 45.8 % of the significant height; a
+// thousandth of the energy is left out at the low end.
 TEST(SeaBand, ObeysAHighestFrequency) {
   for (const char* vessel : {"vessels/buoy, radiation: none", "vessels/barge"}) {
     const MechanismFile file =
