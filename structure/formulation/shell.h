@@ -86,6 +86,8 @@ class ShellOperator {
   bool is_tied(int strain) const {
     return is_tied_[strain] && (ties_membrane_ || strain > membrane_12);
   }
+  /// Has the cell any of the strains that are tied there?
+  bool is_used(const TiedStrains& tie) const;
   void tie_strains(double offset);
   void find_mean_strains(double offset);
 
