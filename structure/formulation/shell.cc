@@ -13,7 +13,6 @@
 #include "algebra/products.h"
 #include "structure/formulation/gauss_line.h"
 #include "structure/index.h"
-#include "structure/mesh/shell_edges.h"
 #include "structure/space/space_implementation.h"
 
 namespace blocklift::structure {
@@ -488,14 +487,13 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Me
 ShellStiffness::ShellStiffness(const Space& space)
     : space_(space),
       weights_(square_rule(space.degree() + 1).row(2)),
-      operator_(space, square_rule(space.degree() + 1).topRows<2>()),
-      is_facet_(find_facets(space.mesh())) {}
+      operator_(space, square_rule(space.degree() + 1).topRows<2>()) {}
 
 const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
   operator_.reinit(cell);
   const std::vector<ShellPoint>& points = operator_.points();
-  const bool is_facet = is_facet_[space_.shells()[cell].shell];
+  const bool is_facet = space_.is_facet(space_.shells()[cell].shell);
   const bool is_uneven = shell.taper >= 0 || space_.mesh().section_of(shell).laminate >= 0;
   Eigen::Matrix<double, shell_strains, shell_strains> root;
   const Eigen::Index columns = points.front().strain.cols();

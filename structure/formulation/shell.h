@@ -125,7 +125,6 @@ class ShellStiffness {
   const Space& space_;
   Eigen::VectorXd weights_;
   ShellOperator operator_;
-  std::vector<bool> is_facet_;  ///< of the mesh's shells
   Eigen::MatrixXd rooted_, stiffness_;
 };
 

@@ -323,5 +323,57 @@ TEST(DeckSolution, SolvesStepsOfAbaqus) {
   EXPECT_NEAR(reaction_at(solution.cases[0], 0).moment.z(), 130, 1e-5);
 }
 
+/// A cube of 1 m whose lower corners are held against displacement; grid 9 is above it.
+std::string held_cube(const std::string& cards) {
+  return "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
+         "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+         "GRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
+         "GRID,9,,.5,.3,1.5\nCHEXA,1,1,1,2,3,4,5,6\n,7,8\nPSOLID,1,1\n"
+         "MAT1,1,2.+11,,0.3,7850.\nSPC1,1,123,1,2,3,4\n" +
+         cards + "ENDDATA\n";
+}
+
+// A link that counts the rotations of solids' grids, which resist none, spreads forces and moments
+// to their displacements: all of them arrive at the supports.
+TEST(DeckSolution, LinksOnSolidsPassMomentsOn) {
+  const Deck deck =
+      test::nastran(held_cube("RBE3,20,,9,123456,1.,123456,5,6\n,7,8\n"
+                              "FORCE,2,9,,1000.,1.,0.,-1.\nMOMENT,2,9,,500.,1.,0.,0.\n"));
+  const DeckSolution solution = solved(deck, 1);
+  const DeckCaseSolution& one = solution.cases.at(0);
+  EXPECT_LT(one.force_residual, rounding);
+  EXPECT_LT(one.moment_residual, rounding);
+  // r x F + M about the origin, r = (0.5, 0.3, 1.5), F = (1000, 0, -1000).
+  test::expect_near(one.supported.moment, -Vector3(-300 + 500, 1500 + 500, -300), 1e-2);
+}
+
+// A solid's grid takes no moment, nor does a joint of rods; a support takes one itself.
+TEST(DeckSolution, LoadsThatNothingBearsAreRefused) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      solved(test::nastran(text), 1);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(complaint(held_cube("FORCE,2,5,,1000.,1.,0.,0.\nMOMENT,2,6,,500.,0.,1.,0.\n")),
+              testing::HasSubstr("a moment acts at node 6 at (1, 0, 1) m: no element resists the "
+                                 "rotation about y there"));
+  const Deck held = test::nastran(
+      held_cube("FORCE,2,5,,1000.,1.,0.,0.\nMOMENT,2,1,,500.,0.,1.,0.\nSPC1,1,456,1\n"));
+  const DeckSolution solution = solved(held, 1);
+  EXPECT_NEAR(reaction_at(solution.cases.at(0), 0).moment.y(), -500, 1e-9);
+  EXPECT_LT(solution.cases[0].moment_residual, rounding);
+  const std::string tripod =
+      "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
+      "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,.3,.3,1.\n"
+      "CROD,1,1,1,4\nCROD,2,1,2,4\nCROD,3,1,3,4\nPROD,1,1,.001\nMAT1,1,2.+11,,0.3,7850.\n"
+      "SPC1,1,123,1,2,3\nFORCE,2,4,,1000.,0.,0.,-1.\n";
+  EXPECT_EQ(complaint(tripod + "ENDDATA\n"), "");
+  EXPECT_THAT(complaint(tripod + "MOMENT,2,4,,500.,1.,0.,0.\nENDDATA\n"),
+              testing::HasSubstr("a load acts where no element bears it"));
+}
+
 }  // namespace
 }  // namespace blocklift::structure
