@@ -231,7 +231,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
                      const std::vector<int>& cases, int threads, DeckSolution& result) {
   const Space& space = model.space();
   const std::vector<HeldDirection> directions =
-      find_held_directions(space, supports_of(deck, sets));
+      find_held_directions(space, supports_of(deck, sets), own_middles(deck));
   const std::vector<HeldSum> sums = as_sums(space, directions);
   Stopwatch watch;
   Eigen::VectorXd diagonal;
