@@ -134,8 +134,8 @@ struct Deck {
   UnitSystem units;
   std::string title;
   Mesh mesh;
-  /// So many of the mesh's vertices are nodes of the file; middles of solids' edges behind them were
-  /// made by the reader.
+  /// Where there are solids, so many of the mesh's vertices are nodes of the file; middles of their
+  /// edges behind them were made by the reader. 0: not known.
   int own_vertices = 0;
   /// Middles of shells' edges that are nodes of the file, whether anything uses them or not.
   std::vector<SurfacePoint> shell_middles;

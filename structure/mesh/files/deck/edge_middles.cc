@@ -55,6 +55,7 @@ EdgeMiddles own_middles(const Deck& deck) {
 
 Deck with_held_middles(const Deck& deck) {
   Deck held = deck;
+  if (deck.own_vertices == 0) return held;  // no reader's: none is known to be made
   for (SupportSet& set : held.support_sets) {
     std::multimap<int, Support> of_vertex;
     for (const Support& support : set.supports) of_vertex.emplace(support.vertex, support);

@@ -1,7 +1,6 @@
 // Rigid links.
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
