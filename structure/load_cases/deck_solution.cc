@@ -214,16 +214,33 @@ void add(std::vector<SupportReaction>& reactions, const SupportReaction& one) {
   known->moment += one.moment;
 }
 
-/// What is stiffened by nothing but a stiffness that keeps it at rest (hold_loose_rotations) takes
-/// loads away from the supports.
-void require_balance(const DeckCaseSolution& solution, const DeckLoadCase& load_case) {
+/// What is stiffened by nothing but a stiffness that keeps it at rest (assemble_stiffness) takes
+/// loads away from the supports. Loads may balance one another: what is missing is held against all
+/// forces and moments there are, with the deck's size as the arm.
+void require_balance(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& load,
+                     const DeckCaseSolution& solution, const DeckLoadCase& load_case) {
   constexpr double most = 1e-3;  // rounding leaves 1e-6 where plates are thin
-  const double residual = std::max(solution.force_residual, solution.moment_residual);
-  if (!(residual > most)) return;
+  double forces = 0, moments = 0;
+  for (Eigen::Index row = 0; row < load.size(); row += 6) {
+    forces += load.segment<3>(row).norm();
+    moments += load.segment<3>(row + 3).norm();
+  }
+  for (const SupportReaction& reaction : solution.reactions) {
+    forces += reaction.force.norm();
+    moments += reaction.moment.norm();
+  }
+  const double size = size_of(space);
+  const double missing = std::max(size * (solution.applied.force + solution.supported.force).norm(),
+                                  (solution.applied.moment + solution.supported.moment).norm());
+  // About the origin, which may be far from the deck.
+  const double farthest = space.nodes().colwise().norm().maxCoeff();
+  if (!(missing > most * (std::max(size, farthest) * forces + moments))) return;
   throw ModelError(fmt::format(
-      "{}: loads and reactions differ by {:.2g} of the larger: a load acts where no element bears "
-      "it, such as a moment at a joint of rods or of released bars, by itself or through a link",
-      name_of(load_case), residual));
+      "{}: of its loads {:.3g} N and {:.3g} N m about the origin do not arrive at the supports: "
+      "they act where no element bears them, such as a moment at a joint of rods or of released "
+      "bars, by themselves or through a link",
+      name_of(load_case), (solution.applied.force + solution.supported.force).norm(),
+      (solution.applied.moment + solution.supported.moment).norm()));
 }
 
 /// Solves the cases that some supports hold.
@@ -282,7 +299,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
                                 most_moved_freedom(space, solution.motion));
                  });
     sum_up(space, loads.col(column), solution);
-    require_balance(solution, deck.load_cases[cases[c]]);
+    require_balance(space, loads.col(column), solution, deck.load_cases[cases[c]]);
   }
   result.times.solve += watch.lap();
 }
