@@ -189,7 +189,9 @@ void write_part_results(const PartAssessment& assessment, const std::filesystem:
   if (assessment.modes)
     structure::write_part_modes_vtu((aside / "modes.vtu").string(), assessment.model,
                                     *assessment.modes);
-  if (calculix) structure::write_calculix((aside / "part.inp").string(), assessment.model);
+  if (calculix)
+    structure::write_calculix((aside / "part.inp").string(), assessment.model,
+                              {!assessment.file.loads.empty(), assessment.file.modes.value_or(0)});
   write_fields(assessment, aside / "results.h5");
   write_file(aside / "summary.json", make_part_summary(assessment).dump(2));
   preparation.move_into_place({"part.vtu", "modes.vtu", "part.inp"});

@@ -13,7 +13,6 @@
 #include "algebra/products.h"
 #include "structure/formulation/gauss_line.h"
 #include "structure/index.h"
-#include "structure/mesh/shell_edges.h"
 #include "structure/space/space_implementation.h"
 
 namespace blocklift::structure {
@@ -343,13 +342,18 @@ void ShellOperator::reinit(int cell) {
   const Shell& shell = space_.mesh().shells[located.shell];
   ties_membrane_ = space_.degree() == 1 || !shell.is_triangle();
   table_->values.reinit(iterator);
-  mean_->table.values.reinit(iterator);
-  for (TiedStrains& tie : ties_) tie.table->values.reinit(iterator);
+  for (TiedStrains& tie : ties_)
+    if (is_used(tie)) tie.table->values.reinit(iterator);
 
   const double offset = space_.mesh().section_of(shell).offset;
   // One direction for the whole cell, so that components can be compared and averaged in it.
   const Vector3 along = space_.place(cell, {1, 0.5}) - space_.place(cell, {0, 0.5});
-  mean_->reinit(along, offset);
+  // Triangles of degree 2 and above, and strains of the displacements, have no mean to give back.
+  const bool has_mean = has_ties_ && ties_membrane_;
+  if (has_mean) {
+    mean_->table.values.reinit(iterator);
+    mean_->reinit(along, offset);
+  }
 
   static thread_local std::vector<Turn> turns;
   turns.clear();
@@ -370,8 +374,7 @@ void ShellOperator::reinit(int cell) {
                      located.origin + located.size * places_.col(static_cast<Eigen::Index>(q)));
     turns.push_back(turn_to(surface, point.e_1, point.e_2));
   }
-  const bool is_balanced =
-      !has_ties_ || !ties_membrane_ || (space_.degree() > 1 && mean_->is_even());
+  const bool is_balanced = !has_mean || (space_.degree() > 1 && mean_->is_even());
   mean_->strains.resize(3, 0);
   if (!is_balanced) find_mean_strains(offset);
   tie_strains(offset);
@@ -409,7 +412,8 @@ void ShellOperator::tie_strains(double offset) {
   for (ShellPoint& point : points_)
     for (int strain = 0; strain < shell_strains; ++strain)
       if (is_tied(strain)) point.strain.row(strain).setZero();
-  for (const TiedStrains& tie : ties_)
+  for (const TiedStrains& tie : ties_) {
+    if (!is_used(tie)) continue;
     for (std::size_t k = 0; k < tie.table->shapes.size(); ++k) {
       const auto column = static_cast<Eigen::Index>(k);
       const Surface surface = surface_for(offset, tie.table->values, static_cast<unsigned>(k));
@@ -429,6 +433,12 @@ void ShellOperator::tie_strains(double offset) {
         for (int i = 0; i < 3; ++i) mean_->strains.row(i) -= shares[i] * row;
       }
     }
+  }
+}
+
+bool ShellOperator::is_used(const TiedStrains& tie) const {
+  return std::any_of(tie.strains.begin(), tie.strains.end(),
+                     [&](ShellStrain strain) { return is_tied(strain); });
 }
 
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
@@ -477,14 +487,13 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Me
 ShellStiffness::ShellStiffness(const Space& space)
     : space_(space),
       weights_(square_rule(space.degree() + 1).row(2)),
-      operator_(space, square_rule(space.degree() + 1).topRows<2>()),
-      is_facet_(find_facets(space.mesh())) {}
+      operator_(space, square_rule(space.degree() + 1).topRows<2>()) {}
 
 const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
   operator_.reinit(cell);
   const std::vector<ShellPoint>& points = operator_.points();
-  const bool is_facet = is_facet_[space_.shells()[cell].shell];
+  const bool is_facet = space_.is_facet(space_.shells()[cell].shell);
   const bool is_uneven = shell.taper >= 0 || space_.mesh().section_of(shell).laminate >= 0;
   Eigen::Matrix<double, shell_strains, shell_strains> root;
   const Eigen::Index columns = points.front().strain.cols();

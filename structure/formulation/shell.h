@@ -86,6 +86,8 @@ class ShellOperator {
   bool is_tied(int strain) const {
     return is_tied_[strain] && (ties_membrane_ || strain > membrane_12);
   }
+  /// Has the cell any of the strains that are tied there?
+  bool is_used(const TiedStrains& tie) const;
   void tie_strains(double offset);
   void find_mean_strains(double offset);
 
@@ -123,7 +125,6 @@ class ShellStiffness {
   const Space& space_;
   Eigen::VectorXd weights_;
   ShellOperator operator_;
-  std::vector<bool> is_facet_;  ///< of the mesh's shells
   Eigen::MatrixXd rooted_, stiffness_;
 };
 

@@ -18,6 +18,7 @@
 #include "structure/mesh/spring_motion.h"
 #include "structure/response/loose_block.h"
 #include "structure/space/freedom_text.h"
+#include "structure/space/links.h"
 #include "structure/stopwatch.h"
 #include "structure/system/assembly.h"
 #include "structure/system/held_sums.h"
@@ -152,12 +153,102 @@ void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& s
       share(solution.applied.moment + solution.supported.moment, std::max(moments, forces * size));
 }
 
+/// The support that holds a freedom of a node along the world's axes; nullptr if none does.
+const HeldDirection* holder_of(const std::vector<HeldDirection>& directions, int freedom) {
+  const auto found =
+      std::find_if(directions.begin(), directions.end(), [&](const HeldDirection& held) {
+        return held.node == freedom / 6 && held.is_rotation == (freedom % 6 >= 3) &&
+               std::abs(held.axis[freedom % 3]) > 1 - 1e-9;
+      });
+  return found != directions.end() ? &*found : nullptr;
+}
+
+[[noreturn]] void refuse_lost_load(const Space& space, const Space::LoosePart& part,
+                                   const DeckLoadCase& load_case) {
+  std::vector<int> node_of_vertex;
+  for (std::size_t v = 0; v < space.mesh().vertices.size(); ++v)
+    node_of_vertex.push_back(space.node_of_vertex(static_cast<int>(v)));
+  const auto name = [&](int node) {
+    return describe_node(space.mesh(), node_of_vertex, space.nodes(), node);
+  };
+  const int from = part.freedom / 6, to = part.of / 6;
+  throw ModelError(fmt::format(
+      "{}: a {} acts at {}{}: no element resists the {} {} there, so that it would be lost",
+      name_of(load_case), part.freedom % 6 < 3 ? "force" : "moment", name(from),
+      from == to ? "" : fmt::format(", which a link passes on to {}", name(to)),
+      part.of % 6 < 3 ? "displacement along" : "rotation about",
+      static_cast<char>('x' + part.of % 3)));
+}
+
+/// Loads on freedoms without stiffness (a rotation of a solid's node, a node that nothing is joined
+/// to): supports take those that act on what they hold, and others would be lost.
+std::vector<SupportReaction> reactions_of_loose_parts(const Space& space,
+                                                      const std::vector<HeldDirection>& directions,
+                                                      const Eigen::Ref<const Eigen::VectorXd>& load,
+                                                      const DeckLoadCase& load_case) {
+  constexpr double rounding = 1e-9;
+  const double least = rounding * load.cwiseAbs().maxCoeff();
+  std::vector<SupportReaction> reactions;
+  for (const Space::LoosePart& part : space.loose_parts()) {
+    const double lost = part.weight * load[part.freedom];
+    if (std::abs(lost) <= least) continue;
+    const HeldDirection* held = part.freedom == part.of ? holder_of(directions, part.of) : nullptr;
+    if (held == nullptr) refuse_lost_load(space, part, load_case);
+    SupportReaction& reaction = reactions.emplace_back();
+    reaction.vertex = held->holders[0].first;
+    (held->is_rotation ? reaction.moment : reaction.force)[part.of % 3] = -lost;
+  }
+  return reactions;
+}
+
+/// Adds a reaction to that of its vertex.
+void add(std::vector<SupportReaction>& reactions, const SupportReaction& one) {
+  const auto known =
+      std::find_if(reactions.begin(), reactions.end(),
+                   [&](const SupportReaction& reaction) { return reaction.vertex == one.vertex; });
+  if (known == reactions.end()) {
+    reactions.push_back(one);
+    return;
+  }
+  known->force += one.force;
+  known->moment += one.moment;
+}
+
+/// What is stiffened by nothing but a stiffness that keeps it at rest (assemble_stiffness) takes
+/// loads away from the supports. Loads may balance one another: what is missing is held against all
+/// forces and moments there are, with the deck's size as the arm.
+void require_balance(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& load,
+                     const DeckCaseSolution& solution, const DeckLoadCase& load_case) {
+  constexpr double most = 1e-3;  // rounding leaves 1e-6 where plates are thin
+  double forces = 0, moments = 0;
+  for (Eigen::Index row = 0; row < load.size(); row += 6) {
+    forces += load.segment<3>(row).norm();
+    moments += load.segment<3>(row + 3).norm();
+  }
+  for (const SupportReaction& reaction : solution.reactions) {
+    forces += reaction.force.norm();
+    moments += reaction.moment.norm();
+  }
+  const double size = size_of(space);
+  const double missing = std::max(size * (solution.applied.force + solution.supported.force).norm(),
+                                  (solution.applied.moment + solution.supported.moment).norm());
+  // About the origin, which may be far from the deck.
+  const double farthest = space.nodes().colwise().norm().maxCoeff();
+  if (!(missing > most * (std::max(size, farthest) * forces + moments))) return;
+  throw ModelError(fmt::format(
+      "{}: of its loads {:.3g} N and {:.3g} N m about the origin do not arrive at the supports: "
+      "they act where no element bears them, such as a moment at a joint of rods or of released "
+      "bars, by themselves or through a link",
+      name_of(load_case), (solution.applied.force + solution.supported.force).norm(),
+      (solution.applied.moment + solution.supported.moment).norm()));
+}
+
 /// Solves the cases that some supports hold.
 void solve_supported(const ElasticModel& model, const Deck& deck, const std::vector<int>& sets,
                      const std::vector<int>& cases, int threads, DeckSolution& result) {
   const Space& space = model.space();
   const std::vector<HeldDirection> directions =
-      find_held_directions(space, supports_of(deck, sets));
+      find_held_directions(space, supports_of(deck, sets), own_middles(deck));
   const std::vector<HeldSum> sums = as_sums(space, directions);
   Stopwatch watch;
   Eigen::VectorXd diagonal;
@@ -181,7 +272,11 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   result.times.factorisation += watch.lap();
   Eigen::MatrixXd loads(model.freedoms(), static_cast<Eigen::Index>(cases.size()));
   for (std::size_t c = 0; c < cases.size(); ++c)
-    loads.col(c) = load_of(model, deck, deck.load_cases[cases[c]]);
+    loads.col(static_cast<Eigen::Index>(c)) = load_of(model, deck, deck.load_cases[cases[c]]);
+  std::vector<std::vector<SupportReaction>> of_loose_parts;
+  for (std::size_t c = 0; c < cases.size(); ++c)
+    of_loose_parts.push_back(reactions_of_loose_parts(
+        space, directions, loads.col(static_cast<Eigen::Index>(c)), deck.load_cases[cases[c]]));
   const Eigen::MatrixXd acting = space.reduce(loads);
   result.times.assembly += watch.lap();
   const Eigen::MatrixXd unknowns = system.solve(acting);
@@ -195,6 +290,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     solution.load_case = cases[c];
     solution.motion = motions.col(column);
     solution.reactions = reactions_at(space, directions, forces.col(column));
+    for (const SupportReaction& reaction : of_loose_parts[c]) add(solution.reactions, reaction);
     solution.strain_energy = system.energy(unknowns.col(column));
     const Eigen::VectorXd by_loads = unknowns.col(column) - unloaded;
     check_energy(is_moved ? system.energy(by_loads) : solution.strain_energy, diagonal,
@@ -203,6 +299,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
                                 most_moved_freedom(space, solution.motion));
                  });
     sum_up(space, loads.col(column), solution);
+    require_balance(space, loads.col(column), solution, deck.load_cases[cases[c]]);
   }
   result.times.solve += watch.lap();
 }

@@ -60,8 +60,9 @@ struct DeckSolution {
 /// Solves the load cases of a deck as it states them: its supports hold, its loads act. Cases with
 /// the same supports share a factorisation.
 /// @param model of the deck's mesh.
-/// @throws ModelError if the supports of a case leave a motion that nothing resists, naming case
-///   and place; if they contradict each other; or memory does not suffice.
+/// @throws ModelError if the supports of a case leave a motion that nothing resists, or a load acts
+///   where no element bears it, naming case and place; if supports contradict each other; or memory
+///   does not suffice.
 DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads = 0);
 
 /// Degree of the elements that a deck itself has: 1, or 2 where its shells are quadratic. Forces at

@@ -1,6 +1,7 @@
 #include "structure/load_cases/deck_supports.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -45,11 +46,12 @@ AxesOfVertices held_axes(const std::vector<Support>& supports) {
   return axes;
 }
 
-/// Holds a vertex's node, and what lies on edges of plates and solids between two held vertices. A
-/// bar between them bends.
+/// Holds a vertex's node, and what lies on edges of plates and solids between held vertices. A bar
+/// between them bends.
 class Holder {
  public:
-  Holder(const Space& space, const AxesOfVertices& axes) : space_(space), axes_(axes) {}
+  Holder(const Space& space, const AxesOfVertices& axes, const EdgeMiddles& middles)
+      : space_(space), axes_(axes), middles_(middles) {}
 
   std::vector<HeldDirection> hold() {
     for (const auto& [vertex, axes] : axes_) {
@@ -69,21 +71,39 @@ class Holder {
  private:
   void hold_between(int node, int from, int to, double share) {
     const auto at_from = axes_.find(from), at_to = axes_.find(to);
-    if (at_from == axes_.end() || at_to == axes_.end() || !done_.insert(node).second) return;
+    if (at_from == axes_.end() || at_to == axes_.end()) return;
+    const auto own = middles_.find(std::minmax(from, to));
+    const auto at_middle = own != middles_.end() ? axes_.find(own->second) : axes_.end();
+    if (own != middles_.end() && at_middle == axes_.end()) return;
+    if (!done_.insert(node).second) return;
     for (const HeldAxis& one : at_from->second) {
-      // About a cylinder axes turn from vertex to vertex.
-      const auto match = std::max_element(at_to->second.begin(), at_to->second.end(),
-                                          [&](const HeldAxis& a, const HeldAxis& b) {
-                                            return likeness(one, a) < likeness(one, b);
-                                          });
-      if (likeness(one, *match) < 0.8) continue;
-      const double sign = one.axis.dot(match->axis) < 0 ? -1 : 1;
-      directions_.push_back({node,
-                             ((1 - share) * one.axis + share * sign * match->axis).normalized(),
-                             one.is_rotation,
-                             (1 - share) * one.value + share * sign * match->value,
-                             {{{from, 1 - share}, {to, share}}}});
+      const HeldAxis* other = match(one, at_to->second);
+      const HeldAxis* between = at_middle != axes_.end() ? match(one, at_middle->second) : nullptr;
+      if (other == nullptr || (between == nullptr && own != middles_.end())) continue;
+      // Of the ends and the middle, which is nothing on a linear edge.
+      const double bulge = between != nullptr ? 4 * share * (1 - share) : 0;
+      const HeldAxis& middle = between != nullptr ? *between : one;
+      const std::array<std::pair<const HeldAxis*, double>, 3> parts{
+          {{&one, 1 - share - bulge / 2}, {other, share - bulge / 2}, {&middle, bulge}}};
+      Vector3 axis = Vector3::Zero();
+      double value = 0;
+      for (const auto& [part, weight] : parts) {
+        const double sign = one.axis.dot(part->axis) < 0 ? -1 : 1;
+        axis += weight * sign * part->axis;
+        value += weight * sign * part->value;
+      }
+      directions_.push_back(
+          {node, axis.normalized(), one.is_rotation, value, {{{from, 1 - share}, {to, share}}}});
     }
+  }
+
+  /// The held axis that is most like another one; nullptr if none is. About a cylinder axes turn
+  /// from vertex to vertex.
+  static const HeldAxis* match(const HeldAxis& one, const std::vector<HeldAxis>& others) {
+    const auto found = std::max_element(
+        others.begin(), others.end(),
+        [&](const HeldAxis& a, const HeldAxis& b) { return likeness(one, a) < likeness(one, b); });
+    return likeness(one, *found) < 0.8 ? nullptr : &*found;
   }
 
   static double likeness(const HeldAxis& a, const HeldAxis& b) {
@@ -92,6 +112,7 @@ class Holder {
 
   const Space& space_;
   const AxesOfVertices& axes_;
+  const EdgeMiddles& middles_;
   std::set<int> done_;
   std::vector<HeldDirection> directions_;
 };
@@ -99,9 +120,10 @@ class Holder {
 }  // namespace
 
 std::vector<HeldDirection> find_held_directions(const Space& space,
-                                                const std::vector<Support>& supports) {
+                                                const std::vector<Support>& supports,
+                                                const EdgeMiddles& middles) {
   const AxesOfVertices axes = held_axes(supports);
-  return Holder(space, axes).hold();
+  return Holder(space, axes, middles).hold();
 }
 
 std::vector<HeldSum> as_sums(const Space& space, const std::vector<HeldDirection>& directions) {

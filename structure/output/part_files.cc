@@ -92,6 +92,31 @@ VtkField field_of(std::string name, const std::vector<int>& node_of_point,
   return {std::move(name), std::move(at_points), 3};
 }
 
+void write_static_step(std::ofstream& file, const PartModel& model) {
+  std::vector<int> support_of;
+  fmt::print(file, "*STEP\n*STATIC\n*BOUNDARY\n");
+  for (const FixedUnknown& fixed : part_supports(model, support_of))
+    fmt::print(file, "{}, {}, {}, {:.12g}\n", fixed.unknown / 3 + 1, fixed.unknown % 3 + 1,
+               fixed.unknown % 3 + 1, fixed.value);
+  fmt::print(file, "*CLOAD\n");
+  const Eigen::VectorXd load = part_load(model);
+  for (Eigen::Index u = 0; u < load.size(); ++u)
+    if (load[u] != 0) fmt::print(file, "{}, {}, {:.15g}\n", u / 3 + 1, u % 3 + 1, load[u]);
+  fmt::print(file, "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=ALL_NODES\nU\n*END STEP\n");
+}
+
+// About the shape at rest: what supports move in the static step they hold here.
+void write_frequency_step(std::ofstream& file, const PartModel& model, int modes) {
+  std::vector<int> support_of;
+  fmt::print(file, "*STEP\n*FREQUENCY\n{}\n", modes);
+  const std::vector<FixedUnknown> supports = part_supports(model, support_of);
+  if (!supports.empty()) fmt::print(file, "*BOUNDARY, OP=NEW\n");
+  for (const FixedUnknown& fixed : supports)
+    fmt::print(file, "{}, {}, {}\n", fixed.unknown / 3 + 1, fixed.unknown % 3 + 1,
+               fixed.unknown % 3 + 1);
+  fmt::print(file, "*NODE FILE\nU\n*END STEP\n");
+}
+
 }  // namespace
 
 void write_part_vtu(const std::string& path, const PartModel& model, const PartSolution& solution) {
@@ -135,7 +160,7 @@ void write_part_modes_vtu(const std::string& path, const PartModel& model,
   write_vtk_grid(path, grid);
 }
 
-void write_calculix(const std::string& path, const PartModel& model) {
+void write_calculix(const std::string& path, const PartModel& model, const PartAnalyses& analyses) {
   std::ofstream file(path);
   fmt::print(file, "** Written by Blocklift. Units: m, kg, s, N, Pa.\n*NODE, NSET=ALL_NODES\n");
   for (Eigen::Index n = 0; n < model.mesh.nodes.cols(); ++n)
@@ -170,16 +195,8 @@ void write_calculix(const std::string& path, const PartModel& model) {
                name_of(material.name), material.youngs_modulus, material.poisson_ratio,
                material.density);
   }
-  std::vector<int> support_of;
-  fmt::print(file, "*STEP\n*STATIC\n*BOUNDARY\n");
-  for (const FixedUnknown& fixed : part_supports(model, support_of))
-    fmt::print(file, "{}, {}, {}, {:.12g}\n", fixed.unknown / 3 + 1, fixed.unknown % 3 + 1,
-               fixed.unknown % 3 + 1, fixed.value);
-  fmt::print(file, "*CLOAD\n");
-  const Eigen::VectorXd load = part_load(model);
-  for (Eigen::Index u = 0; u < load.size(); ++u)
-    if (load[u] != 0) fmt::print(file, "{}, {}, {:.15g}\n", u / 3 + 1, u % 3 + 1, load[u]);
-  fmt::print(file, "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=ALL_NODES\nU\n*END STEP\n");
+  if (analyses.has_loads) write_static_step(file, model);
+  if (analyses.modes > 0) write_frequency_step(file, model, analyses.modes);
   file.close();
   if (!file) throw ModelError("cannot write \"" + path + "\"");
 }

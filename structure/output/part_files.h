@@ -19,11 +19,19 @@ void write_part_vtu(const std::string& path, const PartModel& model, const PartS
 void write_part_modes_vtu(const std::string& path, const PartModel& model,
                           const NaturalModes& modes);
 
-/// Writes mesh, materials, supports and loads as input of CalculiX (`.inp`), in m, kg, s, N, Pa;
-/// the loads as nodal forces, just as they are solved here, so that a comparison compares elements.
+/// What is computed of a part.
+struct PartAnalyses {
+  bool has_loads = true;  ///< its loads, statically
+  int modes = 0;          ///< so many natural modes
+};
+
+/// Writes mesh, materials and supports as input of CalculiX (`.inp`), in m, kg, s, N, Pa, with a
+/// step for each analysis: *STATIC with the loads as nodal forces, just as they are solved here, so
+/// that a comparison compares elements, and *FREQUENCY for the modes about the shape at rest.
 /// Elements become C3D4, C3D10, C3D6, C3D15, C3D8 and C3D20.
 /// @throws ModelError if the mesh holds elements with nodes inside faces, which CalculiX lacks, or
 ///   the file cannot be written.
-void write_calculix(const std::string& path, const PartModel& model);
+void write_calculix(const std::string& path, const PartModel& model,
+                    const PartAnalyses& analyses = {});
 
 }  // namespace blocklift::structure

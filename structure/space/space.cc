@@ -15,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
+#include "structure/mesh/shell_edges.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/edge_nodes.h"
 #include "structure/space/joints.h"
@@ -244,6 +245,7 @@ Space::Space(const Mesh& mesh, const Resolution& resolution)
   if (degree_ < 1 || degree_ > 4)
     throw ModelError(fmt::format("elements of degree {} are asked for; 1 to 4 exist", degree_));
   check_mesh(mesh);
+  is_facet_ = find_facets(mesh);
   implementation_ = std::make_unique<Implementation>(degree_);
   node_of_vertex_.assign(mesh.vertices.size(), -1);
   nodes_.resize(3, 0);
@@ -527,9 +529,13 @@ void Space::number_unknowns() {
   // Without stiffness nothing moves.
   term_start_.assign(1, 0);
   for (int freedom = 0; freedom < freedoms(); ++freedom) {
-    for (long t = start[freedom]; t < start[freedom + 1]; ++t)
-      if (const int place = elimination_.place[terms[t].unknown]; place >= 0)
-        terms_.push_back({place, terms[t].weight});
+    for (long t = start[freedom]; t < start[freedom + 1]; ++t) {
+      const auto [of, weight] = terms[t];
+      if (const int place = elimination_.place[of]; place >= 0)
+        terms_.push_back({place, weight});
+      else
+        loose_parts_.push_back({freedom, of, weight});
+    }
     term_start_.push_back(static_cast<long>(terms_.size()));
   }
 }

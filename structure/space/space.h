@@ -101,6 +101,17 @@ class Space {
   const Term* end_of(int freedom) const {
     return terms_.data() + term_start_[static_cast<std::size_t>(freedom) + 1];
   }
+  /// A part of a freedom that nothing resists: it is no unknown, and what acts there acts on
+  /// nothing.
+  struct LoosePart {
+    int freedom = 0;
+    int of = 0;  ///< the freedom without stiffness that it follows, perhaps itself
+    double weight = 0;
+  };
+  /// All of them, by freedom.
+  const std::vector<LoosePart>& loose_parts() const { return loose_parts_; }
+  /// Is a shell of the mesh a facet of curved plating (find_facets)?
+  bool is_facet(int shell) const { return is_facet_[shell]; }
   /// Motion of all freedoms (rows) for unknowns (rows); a column each.
   Eigen::MatrixXd expand(const Eigen::MatrixXd& unknowns) const;
   /// Forces on the unknowns for forces on the freedoms: the transpose of expand().
@@ -140,6 +151,8 @@ class Space {
   std::vector<int> solid_nodes_, solid_start_;
   std::vector<long> term_start_;
   std::vector<Term> terms_;
+  std::vector<LoosePart> loose_parts_;
+  std::vector<bool> is_facet_;
   Elimination elimination_;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -127,13 +127,19 @@ class AbaqusReader {
 
   void begin_keyword(Keyword keyword, int depth) {
     finish_keyword();
-    const Keyword before = std::exchange(keyword_, std::move(keyword));
-    if (keyword_.name == "INCLUDE") {
-      const std::string input = required("INPUT");
-      keyword_ = before;  // whose lines of data the file may go on with
-      read_beside("INCLUDE", input, depth);
-      return;
+    // Copies: keywords of the file that is named take this one's place.
+    const std::string name = keyword.name;
+    const bool names_file = name == "INCLUDE" || (keyword.has("INPUT") && has_data_here(name));
+    const std::string input = names_file ? required(keyword, "INPUT") : std::string();
+    // A file that is included may go on with the data of the keyword before.
+    if (name != "INCLUDE") {
+      keyword_ = std::move(keyword);
+      begin_data();
     }
+    if (names_file) read_beside(name, input, depth);
+  }
+
+  void begin_data() {
     if (keyword_.name == "ELEMENT") {
       const std::string type = upper(required("TYPE"));
       const auto nodes = nodes_of_type(type);
@@ -149,11 +155,6 @@ class AbaqusReader {
           "MODEL=YES or \"do not use parts and assemblies\")");
     } else if (keyword_.name == "NSET" && keyword_.has("ELSET")) {
       nodes_of_element_set(keyword_.parameters["ELSET"]);
-    }
-    if (keyword_.has("INPUT") && has_data_here(keyword_.name)) {
-      // By value: keywords that the file has, though it should not, take the place of this one.
-      const std::string name = keyword_.name, input = required("INPUT");
-      read_beside(name, input, depth);
     }
   }
 
@@ -173,12 +174,14 @@ class AbaqusReader {
     read_file(beside.string(), depth + 1);
   }
 
-  std::string required(const std::string& parameter) const {
-    const auto found = keyword_.parameters.find(parameter);
-    if (found == keyword_.parameters.end() || found->second.empty())
-      fail(fmt::format("*{} needs {}=...", keyword_.name, parameter));
+  std::string required(const Keyword& keyword, const std::string& parameter) const {
+    const auto found = keyword.parameters.find(parameter);
+    if (found == keyword.parameters.end() || found->second.empty())
+      fail(fmt::format("*{} needs {}=...", keyword.name, parameter));
     return found->second;
   }
+
+  std::string required(const std::string& parameter) const { return required(keyword_, parameter); }
 
   // An element whose nodes end before they should.
   void finish_keyword() {

@@ -1,6 +1,7 @@
 // A deck's own load cases, against closed forms.
 #include "structure/load_cases/deck_solution.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -11,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "structure/error.h"
+#include "structure/mesh/files/abaqus/writer.h"
+#include "structure/mesh/files/nastran/writer.h"
 #include "tests/structure/mesh/files/deck_text.h"
 
 namespace blocklift::structure {
@@ -321,6 +324,115 @@ TEST(DeckSolution, SolvesStepsOfAbaqus) {
   const double sunk = -50 * 27 / (3 * bending) + 20 * 9 / (2 * bending);
   EXPECT_NEAR(motion_of(deck, solution.cases[0], 1)[1], sunk, 2e-3 * std::abs(sunk));
   EXPECT_NEAR(reaction_at(solution.cases[0], 0).moment.z(), 130, 1e-5);
+}
+
+/// A cube of 1 m whose lower corners are held against displacement; grid 9 is above it.
+std::string held_cube(const std::string& cards) {
+  return "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
+         "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+         "GRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
+         "GRID,9,,.5,.3,1.5\nCHEXA,1,1,1,2,3,4,5,6\n,7,8\nPSOLID,1,1\n"
+         "MAT1,1,2.+11,,0.3,7850.\nSPC1,1,123,1,2,3,4\n" +
+         cards + "ENDDATA\n";
+}
+
+// A link that counts the rotations of solids' grids, which resist none, spreads forces and moments
+// to their displacements: all of them arrive at the supports.
+TEST(DeckSolution, LinksOnSolidsPassMomentsOn) {
+  const Deck deck =
+      test::nastran(held_cube("RBE3,20,,9,123456,1.,123456,5,6\n,7,8\n"
+                              "FORCE,2,9,,1000.,1.,0.,-1.\nMOMENT,2,9,,500.,1.,0.,0.\n"));
+  const DeckSolution solution = solved(deck, 1);
+  const DeckCaseSolution& one = solution.cases.at(0);
+  EXPECT_LT(one.force_residual, rounding);
+  EXPECT_LT(one.moment_residual, rounding);
+  // r x F + M about the origin, r = (0.5, 0.3, 1.5), F = (1000, 0, -1000).
+  test::expect_near(one.supported.moment, -Vector3(-300 + 500, 1500 + 500, -300), 1e-2);
+}
+
+// A solid's grid takes no moment, nor does a joint of rods; a support takes one itself.
+TEST(DeckSolution, LoadsThatNothingBearsAreRefused) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      solved(test::nastran(text), 1);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(complaint(held_cube("FORCE,2,5,,1000.,1.,0.,0.\nMOMENT,2,6,,500.,0.,1.,0.\n")),
+              testing::HasSubstr("a moment acts at node 6 at (1, 0, 1) m: no element resists the "
+                                 "rotation about y there"));
+  const Deck held = test::nastran(
+      held_cube("FORCE,2,5,,1000.,1.,0.,0.\nMOMENT,2,1,,500.,0.,1.,0.\nSPC1,1,456,1\n"));
+  const DeckSolution solution = solved(held, 1);
+  EXPECT_NEAR(reaction_at(solution.cases.at(0), 0).moment.y(), -500, 1e-9);
+  EXPECT_LT(solution.cases[0].moment_residual, rounding);
+  const std::string tripod =
+      "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
+      "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,.3,.3,1.\n"
+      "CROD,1,1,1,4\nCROD,2,1,2,4\nCROD,3,1,3,4\nPROD,1,1,.001\nMAT1,1,2.+11,,0.3,7850.\n"
+      "SPC1,1,123,1,2,3\nFORCE,2,4,,1000.,0.,0.,-1.\n";
+  EXPECT_EQ(complaint(tripod + "ENDDATA\n"), "");
+  EXPECT_THAT(complaint(tripod + "MOMENT,2,4,,500.,1.,0.,0.\nENDDATA\n"),
+              testing::HasSubstr("do not arrive at the supports"));
+}
+
+/// Largest displacement of the nodes at a place.
+double displacement_at(const Deck& deck, const DeckCaseSolution& solution, const Vector3& place) {
+  const ElasticModel model = model_of(deck, 2);
+  double largest = 0;
+  for (int node = 0; node < model.space().node_count(); ++node)
+    if ((model.space().nodes().col(node) - place).norm() < 1e-9)
+      largest = std::max(largest, solution.motion.segment<3>(6L * node).norm());
+  return largest;
+}
+
+// Of a linear element an edge between held corners is held; the middle that a quadratic one has
+// there is a node of its own, free where the deck does not hold it.
+TEST(DeckSolution, MiddlesOfTheDeckAreFreeUnlessHeld) {
+  const std::string push = "FORCE,2,5,,1.+6,1.,0.,-1.\n";
+  const std::string linear = held_cube(push);
+  const std::string middles =
+      "GRID,11,,.5,0.,0.\nGRID,12,,1.,.5,0.\nGRID,13,,.5,1.,0.\nGRID,14,,0.,.5,0.\n"
+      "GRID,15,,0.,0.,.5\nGRID,16,,1.,0.,.5\nGRID,17,,1.,1.,.5\nGRID,18,,0.,1.,.5\n"
+      "GRID,19,,.5,0.,1.\nGRID,20,,1.,.5,1.\nGRID,21,,.5,1.,1.\nGRID,22,,0.,.5,1.\n";
+  const auto quadratic = [&](const std::string& more) {
+    std::string text = held_cube(push + middles + more);
+    const std::string corners = ",7,8\n";
+    return text.replace(text.find(corners), corners.size(),
+                        ",7,8,11,12,13,14,15,16\n,17,18,19,20,21,22\n");
+  };
+  const auto moved = [](const std::string& text) {
+    const Deck deck = test::nastran(text);
+    return displacement_at(deck, solved(deck, 2).cases.at(0), Vector3(0.5, 0, 0));
+  };
+  EXPECT_LT(moved(linear), 1e-15);
+  EXPECT_GT(moved(quadratic("")), 1e-8);
+  EXPECT_LT(moved(quadratic("SPC1,1,123,11\n")), 1e-15);
+  // Written, the middles that the reader made are nodes, and held.
+  const Deck deck = test::nastran(linear);
+  const DeckSolution before = solved(deck, 2);
+  for (const Deck& again : {test::nastran(to_nastran(deck)), test::abaqus(to_abaqus(deck))})
+    EXPECT_NEAR(solved(again, 2).cases.at(0).strain_energy, before.cases.at(0).strain_energy,
+                1e-7 * before.cases[0].strain_energy);
+}
+
+// The same of an edge of a plate: clamped corners alone, or all of the edge's nodes.
+TEST(DeckSolution, MiddlesOfPlatesAreFreeUnlessHeld) {
+  const auto moved = [](const std::string& card, const std::string& more) {
+    const Deck deck = test::nastran(
+        "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
+        "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+        "GRID,5,,.5,0.,0.\nGRID,6,,1.,.5,0.\nGRID,7,,.5,1.,0.\nGRID,8,,0.,.5,0.\n" +
+        card + plate_properties + "SPC1,1,123456,1,4\nFORCE,2,3,,1000.,0.,0.,1.\n" + more +
+        "ENDDATA\n");
+    return displacement_at(deck, solved(deck, 2).cases.at(0), Vector3(0, 0.5, 0));
+  };
+  const std::string eight = "CQUAD8,1,1,1,2,3,4,5,6\n,7,8\n";
+  EXPECT_LT(moved("CQUAD4,1,1,1,2,3,4\n", ""), 1e-12);
+  EXPECT_GT(moved(eight, ""), 1e-5);
+  EXPECT_LT(moved(eight, "SPC1,1,123456,8\n"), 1e-12);
 }
 
 }  // namespace

@@ -320,6 +320,29 @@ TEST(Part, WhatCannotBeLoadedOrHeldIsRefused) {
   EXPECT_THROW(read_part_mesh("/nowhere.msh", {}), ModelError);
 }
 
+TEST(Part, CalculixGetsAStepForEachAnalysis) {
+  PartModel model = part(box(Shape::hexahedra, 1, Vector3(1, 1, 1), {1, 1, 1}));
+  model.supports = {{"root", "x0", {true, true, true}, Vector3(1e-3, 0, 0)}};
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string path =
+      (folder / ("blocklift-modes-" + std::to_string(::getpid()) + ".inp")).string();
+  const auto written = [&](const PartAnalyses& analyses) {
+    write_calculix(path, model, analyses);
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    std::filesystem::remove(path);
+    return text.substr(text.find("*STEP"));
+  };
+  const std::string modes = written({false, 3});
+  EXPECT_THAT(modes, ::testing::StartsWith("*STEP\n*FREQUENCY\n3\n*BOUNDARY, OP=NEW\n"));
+  EXPECT_THAT(modes, ::testing::Not(HasSubstr("*STATIC")));
+  EXPECT_THAT(modes, ::testing::Not(HasSubstr("0.001")));
+  const std::string both = written({true, 3});
+  EXPECT_THAT(both, ::testing::StartsWith("*STEP\n*STATIC\n*BOUNDARY\n"));
+  EXPECT_LT(both.find("0.001"), both.find("*END STEP\n*STEP\n*FREQUENCY\n3\n"));
+  EXPECT_NE(both.find("*END STEP\n*STEP\n*FREQUENCY\n3\n"), std::string::npos);
+}
+
 TEST(Part, FilesForOtherPrograms) {
   PartModel model = part(box(Shape::wedges, 2, Vector3(1, 1, 1), {1, 1, 1}));
   model.supports = {{"root", "x0", {true, true, true}, Vector3::Zero()}};
@@ -335,8 +358,10 @@ TEST(Part, FilesForOtherPrograms) {
     return text;
   };
   const std::string input = text_of(stem + ".inp"), fields = text_of(stem + ".vtu");
-  for (const char* needed : {"TYPE=C3D15", "*ELASTIC\n206000000000, 0.3", "*BOUNDARY", "*CLOAD"})
+  for (const char* needed :
+       {"TYPE=C3D15", "*ELASTIC\n206000000000, 0.3", "*STEP\n*STATIC\n", "*BOUNDARY\n", "*CLOAD"})
     EXPECT_THAT(input, HasSubstr(needed));
+  EXPECT_THAT(input, ::testing::Not(HasSubstr("*FREQUENCY")));
   for (const char* needed : {"Name=\"displacement\"", "Name=\"stress\"", "</VTKFile>"})
     EXPECT_THAT(fields, HasSubstr(needed));
 }

@@ -201,8 +201,6 @@ const std::set<std::string, std::less<>>& keywords_of_steps() {
                                                         "INCIDENT WAVE",
                                                         "INCIDENT WAVE INTERACTION",
                                                         "INCREMENTATION OUTPUT",
-                                                        "INERTIA RELIEF",
-                                                        "MASS ADJUST",
                                                         "MASS DIFFUSION",
                                                         "MASS FLOW RATE",
                                                         "MATRIX GENERATE",
@@ -210,11 +208,8 @@ const std::set<std::string, std::less<>>& keywords_of_steps() {
                                                         "MODAL FILE",
                                                         "MODAL OUTPUT",
                                                         "MODAL PRINT",
-                                                        "MODEL CHANGE",
                                                         "MOTION",
                                                         "NODE RESPONSE",
-                                                        "PRESSURE PENETRATION",
-                                                        "PRESSURE STRESS",
                                                         "PRINT",
                                                         "RADIATE",
                                                         "RADIATION FILE",
@@ -279,6 +274,14 @@ std::string_view instead_of_keyword(const std::string& keyword) {
       {"EMBEDDED ELEMENT", "give embedded bars nodes of their host"},
       {"LOAD CASE", "give each load case of a step a step of its own"},
       {"END LOAD CASE", "give each load case of a step a step of its own"},
+      {"MODEL CHANGE",
+       "elements that go and come again are not known; give a deck of its own for each state"},
+      {"INERTIA RELIEF",
+       "hold the model by supports in place of its inertia; a lift hangs on ropes"},
+      {"MASS ADJUST", "give the masses as they are to be"},
+      {"PRESSURE PENETRATION",
+       "give the pressure by *DLOAD or *DSLOAD on the faces that it reaches"},
+      {"PRESSURE STRESS", "stress that is given beforehand is not known"},
       {"SUBSTRUCTURE GENERATE", "give the parts themselves in place of a substructure"},
       {"MATRIX INPUT", "give the parts themselves in place of a matrix"}};
   const auto found = all.find(keyword);
@@ -327,7 +330,13 @@ void take_stock_of_keywords(AbaqusModel& model, const std::vector<AbaqusBlock>& 
       model.log.use("*HEADING");
     }
     if (keywords_read().count(block.name) > 0) continue;
-    if (wishes().count(block.name) > 0)
+    // Elements may go at a restart, which changes nothing yet; contact is left out as it is.
+    const bool changes_no_element =
+        block.name == "MODEL CHANGE" &&
+        (block.has("ACTIVATE") || without_blanks(block.value("TYPE")) == "CONTACTPAIR");
+    if (changes_no_element)
+      model.log.leave_out("*MODEL CHANGE", "of contact, or for restarts alone");
+    else if (wishes().count(block.name) > 0)
       model.log.leave_out_wish("*" + block.name, "what is printed, or how it is solved");
     else if (keywords_left_out().count(block.name) > 0)
       model.log.leave_out("*" + block.name, "what no plate or beam meets in a static load case");

@@ -87,6 +87,7 @@ void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const Abaqu
 // First those that tell their edges' middles, which others have in common with them.
 void complete_abaqus_solids(AbaqusModel& model) {
   Mesh& mesh = model.deck.mesh;
+  model.deck.own_vertices = static_cast<int>(mesh.vertices.size());
   SolidEdgeMiddles middles(mesh);
   for (const bool is_told : {true, false})
     for (Solid& solid : mesh.solids) {

@@ -166,11 +166,16 @@ class StepBlocks {
   void read_step(const std::vector<const AbaqusBlock*>& blocks) {
     const AbaqusBlock& step = *blocks.front();
     model_.log.use("*STEP");
-    // A perturbation begins without the loads of the steps before.
+    // A perturbation begins without the loads of the steps before, and what these have moved stays
+    // where it is: Abaqus Analysis User's Guide, general and perturbation procedures.
     const State kept = now_;
-    if (step.has("PERTURBATION")) {
+    const bool is_perturbation = step.has("PERTURBATION");
+    if (is_perturbation) {
       now_.points = {};
       now_.on_elements = now_.on_surfaces = {};
+      for (Support& support : now_.supports) support.value = {};
+    } else if (step.has("NLGEOM") && step.value("NLGEOM") != "NO") {
+      is_strained_ = true;
     }
     now_.points.begin_step();
     now_.on_elements.begin_step();
@@ -206,11 +211,11 @@ class StepBlocks {
         });
     }
     ++step_;
-    const std::string why_not = why_no_load_case(blocks);
+    const std::string why_not = why_no_load_case(blocks, is_perturbation);
     if (!why_not.empty())
       model_.log.remark(step.line, fmt::format("step {} is no load case: {}", step_, why_not));
     keep(step, step_, why_not.empty());
-    if (step.has("PERTURBATION")) now_ = kept;
+    if (is_perturbation) now_ = kept;
   }
 
   SpreadLoads& spread_of(const AbaqusBlock& block) {
@@ -219,13 +224,33 @@ class StepBlocks {
 
   /// Steps that are solved in time, or for modes or heat; those of buckling have static loads.
   /// Empty for a load case.
-  std::string why_no_load_case(const std::vector<const AbaqusBlock*>& blocks) const {
-    static const std::set<std::string, std::less<>> others{
-        "FREQUENCY",         "COMPLEX FREQUENCY",     "DYNAMIC",
-        "MODAL DYNAMIC",     "STEADY STATE DYNAMICS", "RANDOM RESPONSE",
-        "RESPONSE SPECTRUM", "HEAT TRANSFER"};
+  std::string why_no_load_case(const std::vector<const AbaqusBlock*>& blocks,
+                               bool is_perturbation) const {
+    static const std::set<std::string, std::less<>> others{"FREQUENCY",
+                                                           "COMPLEX FREQUENCY",
+                                                           "DYNAMIC",
+                                                           "MODAL DYNAMIC",
+                                                           "STEADY STATE DYNAMICS",
+                                                           "RANDOM RESPONSE",
+                                                           "RESPONSE SPECTRUM",
+                                                           "HEAT TRANSFER",
+                                                           "COUPLED TEMPERATURE-DISPLACEMENT",
+                                                           "UNCOUPLED TEMPERATURE-DISPLACEMENT",
+                                                           "DYNAMIC TEMPERATURE-DISPLACEMENT",
+                                                           "COUPLED THERMAL-ELECTRICAL",
+                                                           "ELECTROMAGNETIC",
+                                                           "MASS DIFFUSION",
+                                                           "ANNEAL",
+                                                           "DIRECT CYCLIC",
+                                                           "GEOSTATIC",
+                                                           "SOILS",
+                                                           "STEADY STATE TRANSPORT",
+                                                           "SUBSTRUCTURE GENERATE",
+                                                           "MATRIX GENERATE"};
     for (const AbaqusBlock* block : blocks)
       if (others.contains(block->name)) return fmt::format("*{} is not static", block->name);
+    if (is_perturbation && is_strained_)
+      return "a perturbation begins from the stress and shape that steps with NLGEOM have found";
     if (now_.is_held_as_moved) return "*BOUNDARY, FIXED holds what the steps before have moved";
     return {};
   }
@@ -428,6 +453,7 @@ class StepBlocks {
     bool is_held_as_moved = false;  ///< at displacements that the steps before have found
   };
   State now_;
+  bool is_strained_ = false;  ///< by a step before, with NLGEOM
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
@@ -578,7 +579,7 @@ class AbaqusText {
 
 }  // namespace
 
-std::string to_abaqus(const Deck& deck) { return AbaqusText(deck).write(); }
+std::string to_abaqus(const Deck& deck) { return AbaqusText(with_held_middles(deck)).write(); }
 
 void write_abaqus(const Deck& deck, const std::filesystem::path& path) {
   const std::string text = to_abaqus(deck);

@@ -134,6 +134,11 @@ struct Deck {
   UnitSystem units;
   std::string title;
   Mesh mesh;
+  /// Where there are solids, so many of the mesh's vertices are nodes of the file; middles of their
+  /// edges behind them were made by the reader. 0: not known.
+  int own_vertices = 0;
+  /// Middles of shells' edges that are nodes of the file, whether anything uses them or not.
+  std::vector<SurfacePoint> shell_middles;
   std::vector<SupportSet> support_sets;
   std::vector<LoadSet> load_sets;
   std::vector<DeckLoadCase> load_cases;

@@ -3,6 +3,7 @@
 namespace blocklift::structure {
 
 void fasten_used_middles(Deck& deck, const std::vector<SurfacePoint>& middles) {
+  deck.shell_middles = middles;
   if (middles.empty()) return;
   Mesh& mesh = deck.mesh;
   std::vector<char> used(mesh.vertices.size(), 0);

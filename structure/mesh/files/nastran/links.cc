@@ -1,7 +1,6 @@
-// Rigid and distributing links.
+// Rigid links.
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -24,7 +23,6 @@ class Links {
 
   void read() {
     model_.for_each({{"RBE2", [&](const CardView& card) { add_rbe2(card); }},
-                     {"RBE3", [&](const CardView& card) { add_rbe3(card); }},
                      {"RBE1", [&](const CardView& card) { add_rbe1(card); }},
                      {"RBAR", [&](const CardView& card) { add_rbar(card); }},
                      {"RTRPLT", [&](const CardView& card) { add_triangle(card); }},
@@ -72,52 +70,6 @@ class Links {
     if (std::find(slaves.begin(), slaves.end(), master) != slaves.end())
       throw CardError{fmt::format("RBE2 {} binds its independent grid", label)};
     add_rigid(label, master, slaves, bound);
-  }
-
-  // RBE3 EID blank REFGRID REFC WT1 C1 G1,1 G1,2 ... WT2 ... UM ... ALPHA ...
-  void add_rbe3(const CardView& card) {
-    DistributingLink link;
-    link.label = model_.new_element(card);
-    link.reference = model_.vertex(card, 2, "reference grid");
-    link.bound = card.components(3, "bound components");
-    link.axes = is_free_of_axes(link.bound) ? Eigen::Matrix3d::Identity()
-                                            : model_.output_axes(link.reference);
-    double weight = 0;
-    Components counts{};
-    std::vector<Components> counts_of;
-    bool is_after_um = false;
-    for (std::size_t i = 4; i < card.size(); ++i) {
-      if (!card.has(i)) continue;
-      if (card.is(i, "ALPHA")) {
-        model_.log.leave_out("RBE3", "ALPHA (thermal expansion)");
-        break;
-      }
-      // UM says which freedoms the solver eliminates; the motion is the same for any of them.
-      is_after_um = is_after_um || card.is(i, "UM");
-      if (is_after_um) continue;
-      if (!card.is_integer(i) || (link.vertices.empty() && weight == 0)) {
-        weight = card.real(i, "weight");
-        counts = card.components(++i, "components that count");
-        if (!(weight > 0))
-          throw CardError{fmt::format("RBE3 {} has a weight that is not positive", link.label)};
-        continue;
-      }
-      link.vertices.push_back(model_.vertex(card, i, "grid"));
-      link.weights.push_back(weight);
-      counts_of.push_back(counts);
-    }
-    if (link.vertices.empty()) throw CardError{fmt::format("RBE3 {} names no grids", link.label)};
-    constexpr Components displacements{true, true, true, false, false, false};
-    if (std::all_of(counts_of.begin(), counts_of.end(),
-                    [&](const Components& one) { return one == displacements; })) {
-      mesh_.distributing_links.push_back(link);
-      return;
-    }
-    std::vector<CountedFreedom> counted;
-    for (std::size_t i = 0; i < link.vertices.size(); ++i)
-      for (const DeckFreedom& freedom : freedoms(link.vertices[i], counts_of[i]))
-        counted.push_back({freedom, link.weights[i]});
-    add_mean_equations(model_.deck, freedoms(link.reference, link.bound), counted);
   }
 
   std::vector<DeckFreedom> freedoms(int vertex, const Components& components) {

@@ -123,7 +123,7 @@ void read_nastran_solids(NastranModel& model);
 void read_nastran_masses(NastranModel& model);
 /// CSHEAR with PSHEAR.
 void read_nastran_shear_panels(NastranModel& model);
-/// RBE1, RBE2, RBE3, RBAR, RROD, RTRPLT, RJOINT.
+/// RBE1, RBE2, RBAR, RROD, RTRPLT, RJOINT.
 void read_nastran_links(NastranModel& model);
 /// RSPLINE.
 void read_nastran_splines(NastranModel& model);
@@ -134,6 +134,9 @@ void read_nastran_springs(NastranModel& model);
 void use_nonstructural_mass(NastranModel& model, long set);
 /// Supports and loads by their sets, and case control that combines them.
 void read_nastran_cases(NastranModel& model);
+/// RBE3, when all that resists the motion of their grids is read: cells, springs, other links and
+/// equations.
+void read_nastran_means(NastranModel& model);
 /// Fills the deck's load sets; FORCE, MOMENT, PLOAD2, PLOAD4, GRAV and the like.
 /// @returns places of the sets by their numbers
 std::map<long, int> read_nastran_loads(NastranModel& model);

@@ -263,6 +263,7 @@ Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
   read_nastran_splines(model);
   read_nastran_springs(model);
   read_nastran_cases(model);
+  read_nastran_means(model);
   log.check_left_out(options);
   log.check();
   fasten_used_middles(deck, model.middles);

@@ -49,6 +49,7 @@ class Solids {
     model_.for_each(handlers);
     // First those that tell their edges' middles, which others have in common with them.
     Mesh& mesh = model_.deck.mesh;
+    model_.deck.own_vertices = static_cast<int>(mesh.vertices.size());
     SolidEdgeMiddles middles(mesh);
     for (const bool is_told : {true, false})
       for (std::size_t s = 0; s < mesh.solids.size(); ++s)

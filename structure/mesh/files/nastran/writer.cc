@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
@@ -577,7 +578,7 @@ class NastranText {
 
 }  // namespace
 
-std::string to_nastran(const Deck& deck) { return NastranText(deck).write(); }
+std::string to_nastran(const Deck& deck) { return NastranText(with_held_middles(deck)).write(); }
 
 void write_nastran(const Deck& deck, const std::filesystem::path& path) {
   const std::string text = to_nastran(deck);

@@ -128,13 +128,35 @@ TEST(AbaqusData, KeywordsOfStepsThatThereAreNotAreErrors) {
               HasSubstr("the keyword *DLAOD is not known here (did you mean *DLOAD?)"));
   EXPECT_THAT(complaints_of_abaqus(step("*LOAD CASE, NAME=A\n")),
               HasSubstr("*LOAD CASE: give each load case of a step a step of its own"));
-  const Deck deck = abaqus(step("*MODEL CHANGE, REMOVE\nA\n*SELECTEIGENMODES\n1\n"));
-  EXPECT_THAT(entry(deck, "*MODEL CHANGE").left_out, HasSubstr("what a step does beyond"));
+  const Deck deck = abaqus(step("*CHANGE FRICTION\n*SELECTEIGENMODES\n1\n"));
+  EXPECT_THAT(entry(deck, "*CHANGE FRICTION").left_out, HasSubstr("what a step does beyond"));
   EXPECT_THAT(entry(deck, "*SELECT EIGENMODES").left_out, HasSubstr("what a step does beyond"));
   EXPECT_EQ(deck.load_cases.size(), 1U);
   // It is a step's alone.
-  EXPECT_THAT(complaints_of_abaqus(plate_of_two + "*MODEL CHANGE\n"),
-              HasSubstr("*MODEL CHANGE: it is known in steps alone, and stands in none"));
+  EXPECT_THAT(complaints_of_abaqus(plate_of_two + "*CHANGE FRICTION\n"),
+              HasSubstr("*CHANGE FRICTION: it is known in steps alone, and stands in none"));
+}
+
+// What changes the structure or its loads from step to step is not left out unasked.
+TEST(AbaqusData, ElementsThatGoAndOtherChangesAreErrors) {
+  const auto step = [](const std::string& keywords) {
+    return plate_of_two + "*BOUNDARY\n1, 1, 6\n*STEP\n*STATIC\n" + keywords +
+           "*CLOAD\n6, 1, 500.\n*END STEP\n";
+  };
+  EXPECT_THAT(
+      complaints_of_abaqus(step("*MODEL CHANGE, REMOVE\nA\n")),
+      HasSubstr("deck.inp:22: error: *MODEL CHANGE: elements that go and come again are not "
+                "known"));
+  EXPECT_THAT(complaints_of_abaqus(step("*INERTIA RELIEF\n")),
+              HasSubstr("*INERTIA RELIEF: hold the model by supports"));
+  DeckOptions options;
+  options.leave_out = {"MODEL CHANGE"};
+  const Deck asked = abaqus(step("*MODEL CHANGE, REMOVE\nA\n"), "m-kg-N", options);
+  EXPECT_EQ(asked.load_cases.size(), 1U);
+  for (const char* harmless :
+       {"*MODEL CHANGE, ACTIVATE\n", "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nS1, S2\n"})
+    EXPECT_THAT(entry(abaqus(step(harmless)), "*MODEL CHANGE").left_out,
+                HasSubstr("of contact, or for restarts alone"));
 }
 
 // A box of 2 m^3.

@@ -352,7 +352,28 @@ Plate, P, 1000.
   EXPECT_EQ(deck.support_sets[0].supports.size(), 1U);
   EXPECT_EQ(deck.support_sets[1].supports.size(), 2U);
   EXPECT_DOUBLE_EQ(deck.support_sets[1].supports[1].value[1], 0.1);
+  // A perturbation moves no further what the step before it has moved.
+  EXPECT_EQ(deck.support_sets[2].supports.size(), 2U);
+  EXPECT_EQ(deck.support_sets[2].supports[1].value[1], 0);
   EXPECT_THAT(entry(deck, "*OUTPUT").left_out, HasSubstr("printed"));
+}
+
+// A perturbation after a step with NLGEOM has the stiffness of what that has strained.
+TEST(AbaqusReader, PerturbationsOfWhatIsStrainedAreNoLoadCases) {
+  const auto deck_of = [](const std::string& of_first) {
+    return abaqus(square_plate + "*BOUNDARY\n1, ENCASTRE\n*STEP" + of_first +
+                  "\n*STATIC\n*CLOAD\n2, 3, 100.\n*END STEP\n*STEP, PERTURBATION\n*STATIC\n"
+                  "*CLOAD\n3, 1, 5.\n*END STEP\n");
+  };
+  EXPECT_EQ(deck_of("").load_cases.size(), 2U);
+  EXPECT_EQ(deck_of(", NLGEOM=NO").load_cases.size(), 2U);
+  const Deck strained = deck_of(", NLGEOM");
+  ASSERT_EQ(strained.load_cases.size(), 1U);
+  EXPECT_EQ(strained.load_cases[0].label, 1);
+  const auto says = [&](const DeckRemark& remark) {
+    return remark.text.find("step 2 is no load case: a perturbation begins") != std::string::npos;
+  };
+  EXPECT_TRUE(std::any_of(strained.remarks.begin(), strained.remarks.end(), says));
 }
 
 // What is given again in a later step takes the place of what was there; within a step loads add

@@ -130,6 +130,63 @@ TEST(NastranLinks, MeansOfAnyComponents) {
               HasSubstr("RBE3: the components that count do not determine the motion"));
 }
 
+const std::string cube = R"(GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,5,,0.,0.,1.
+GRID,6,,1.,0.,1.
+GRID,7,,1.,1.,1.
+GRID,8,,0.,1.,1.
+GRID,9,,.5,.3,1.5
+CHEXA,1,1,1,2,3,4,5,6
+,7,8
+PSOLID,1,7
+MAT1,7,206.+9,,.3,7850.
+)";
+
+// Nothing resists the rotations of solids' grids: they take no share of a load.
+TEST(NastranLinks, RotationsThatNothingResistsDoNotCount) {
+  const auto turns_of = [](const Deck& deck, int vertex) {
+    double sum = 0;
+    for (const MotionEquation& equation : deck.mesh.equations)
+      for (const MotionEquation::Term& term : equation.terms)
+        if (term.vertex == vertex) sum += term.of_rotation.norm();
+    return sum;
+  };
+  const std::string mean = "RBE3,20,,9,123456,1.,123456,5,6\n,7,8\n";
+  const Deck deck = nastran(cube + mean);
+  ASSERT_EQ(deck.mesh.equations.size(), 6U);
+  for (int vertex = 4; vertex < 8; ++vertex) EXPECT_EQ(turns_of(deck, vertex), 0);
+  const auto of_rotations = [](const Deck& of) {
+    std::vector<DeckRemark> remarks;
+    for (const DeckRemark& remark : of.remarks)
+      if (remark.text.find("rotations of a grid of solids or rods") != std::string::npos)
+        remarks.push_back(remark);
+    return remarks;
+  };
+  const std::vector<DeckRemark> remarks = of_rotations(deck);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_THAT(remarks[0].place, testing::EndsWith("deck.bdf:14"));
+  EXPECT_EQ(remarks[0].count, 4);
+  // A plate over the face resists them.
+  const Deck plated = nastran(cube + mean + "CQUAD4,2,2,5,6,7,8\nPSHELL,2,7,.01,7,,7\n");
+  EXPECT_GT(turns_of(plated, 4), 0.01);
+  EXPECT_TRUE(of_rotations(plated).empty());
+  // On a line nothing else tells how the reference turns about it.
+  EXPECT_THAT(complaints_of_nastran(cube + "RBE3,20,,9,123456,1.,123456,5,6\n"),
+              HasSubstr("deck.bdf:14: error: RBE3: the components that count do not determine"));
+}
+
+TEST(NastranLinks, MeansOfGridsWithoutElementsAreRefused) {
+  const std::string mean = "GRID,10,,0.,0.,2.\nRBE3,20,,9,123456,1.,123,5,6\n,7,10\n";
+  EXPECT_THAT(complaints_of_nastran(cube + mean),
+              HasSubstr("deck.bdf:15: error: RBE3: RBE3 20 spreads loads to grid 10, which has no "
+                        "element, spring or other link"));
+  EXPECT_EQ(complaints_of_nastran(cube + mean + "RBE2,21,5,123,10\n"), "");
+  EXPECT_EQ(complaints_of_nastran(cube + mean + "CELAS2,21,1000.,5,1,10,1\n"), "");
+}
+
 const std::string plate = R"(GRID,1,,0.,0.,0.
 GRID,2,,2.,0.,0.
 GRID,3,,2.,1.,0.
