@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <numbers>
 #include <queue>
@@ -24,6 +25,7 @@ namespace {
 struct BelowLugs {
   std::set<EdgeKey> edges;
   std::set<int> toes;
+  std::vector<std::array<int, 2>> roots;  ///< from toe to toe
 };
 
 BelowLugs find_below_lugs(const Mesh& mesh, const EdgeMap& edges) {
@@ -31,6 +33,7 @@ BelowLugs find_below_lugs(const Mesh& mesh, const EdgeMap& edges) {
   BelowLugs below;
   for (const SolidLugBase& base : find_solid_lug_bases(mesh)) {
     below.toes.insert(base.ends.begin(), base.ends.end());  // within a plate, too
+    below.roots.push_back(base.ends);
     const Vector3 way = base.to - base.from;
     const auto lies_on = [&](int vertex) {
       const Vector3 off = mesh.vertices[vertex] - base.from;
@@ -103,6 +106,9 @@ class FieldFinder {
     for (int shell = 0; shell < static_cast<int>(mesh_.shells.size()); ++shell)
       if (result_.field_of_shell[shell] < 0) grow(shell);
     for (PlateField& field : result_.fields) outline(field);
+    result_.lug_roots = below_lugs_.roots;
+    for (const auto& [key, shells] : edges_)
+      if (is_root(shells)) result_.lug_roots.push_back({key.first, key.second});
     result_.singular_vertices.insert(result_.singular_vertices.end(), below_lugs_.toes.begin(),
                                      below_lugs_.toes.end());
     std::sort(result_.singular_vertices.begin(), result_.singular_vertices.end());
@@ -116,6 +122,15 @@ class FieldFinder {
   /// How many plates meet at an edge; a lug of solids is one.
   std::size_t meeting(const EdgeKey& key) const {
     return edges_.at(key).size() + below_lugs_.edges.count(key);
+  }
+
+  /// Do a lug's plate and another one meet?
+  bool is_root(const std::vector<EdgeOfShell>& shells) const {
+    const auto is_of_lug = [&](const EdgeOfShell& edge) {
+      return mesh_.regions[mesh_.shells[edge.shell].region].is_lug;
+    };
+    const auto of_lugs = std::count_if(shells.begin(), shells.end(), is_of_lug);
+    return of_lugs > 0 && of_lugs < static_cast<std::ptrdiff_t>(shells.size());
   }
 
   void grow(int first) {
@@ -357,9 +372,43 @@ OverShell over_shell(const Mesh& mesh, int shell, const Vector3& place,
 
 constexpr double on_edge = 1e-6;  // of a shell's size
 
+/// Height of a shell over its longest edge, m: what a step may have that passes into the next one.
+double height_of(const Mesh& mesh, int shell) {
+  const Shell& s = mesh.shells[shell];
+  const auto side = [&](int from, int to) -> Vector3 {
+    return mesh.vertices[s.vertices[to]] - mesh.vertices[s.vertices[from]];
+  };
+  // Of a triangle the last two are one, so that both diagonals span all of it.
+  const double area = 0.5 * side(0, 3).cross(side(1, 2)).norm();
+  const double height = area / longest_edge(mesh, s);
+  return s.is_triangle() ? 2 * height : height;
+}
+
 }  // namespace
 
 std::optional<ShellPlace> FieldWalker::find(const Vector3& place, const ShellPlace& start) const {
+  const auto found = walk(place, start);
+  return found ? found : march(place, start);
+}
+
+std::optional<ShellPlace> FieldWalker::march(const Vector3& place, const ShellPlace& start) const {
+  constexpr int most_steps = 10000;
+  const Vector3 begin = position(mesh_, mesh_.shells[start.shell], start.xi);
+  const double length = (place - begin).norm();
+  ShellPlace here = start;
+  double gone = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    gone += height_of(mesh_, here.shell);
+    const bool is_last = !(gone < length);
+    if (is_last && step == 0) return std::nullopt;  // the way that was gone already
+    const auto found = walk(is_last ? place : begin + gone / length * (place - begin), here);
+    if (!found || is_last) return found;
+    here = *found;
+  }
+  return std::nullopt;
+}
+
+std::optional<ShellPlace> FieldWalker::walk(const Vector3& place, const ShellPlace& start) const {
   constexpr int most_steps = 400;
   ShellPlace here = start;
   int came_from = -1;

@@ -45,6 +45,8 @@ struct PlateFields {
   std::vector<PlateField> fields;
   std::vector<int> field_of_shell;
   std::vector<int> singular_vertices;
+  /// Straight stretches along which lugs stand on plating: the vertices at their ends.
+  std::vector<std::array<int, 2>> lug_roots;
 };
 
 /// Is a field to go on from one of two shells into the other, which meet nothing else at the edge
@@ -71,6 +73,12 @@ class FieldWalker {
   std::optional<ShellPlace> find(const Vector3& place, const ShellPlace& start) const;
 
  private:
+  /// Goes to the neighbour across the edge beyond which the place lies farthest. From many shells
+  /// away, over curved ones most of all, that may end beside the place.
+  std::optional<ShellPlace> walk(const Vector3& place, const ShellPlace& start) const;
+  /// Goes along the straight line to the place in steps of a shell's height.
+  std::optional<ShellPlace> march(const Vector3& place, const ShellPlace& start) const;
+
   const Mesh& mesh_;
   std::vector<std::array<int, 4>> neighbours_;  ///< across edges, within the field; -1: none
 };

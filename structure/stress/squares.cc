@@ -248,7 +248,8 @@ class SquarePlacer {
   std::vector<Square> squares_;
 };
 
-/// Tells the squares near vertices without a limit of the stress, and which of them touch a weld.
+/// Tells the squares near vertices without a limit of the stress and near roots of lugs, and which
+/// of them touch a weld.
 class SiteMarker {
  public:
   SiteMarker(const Mesh& mesh, const PlateFields& fields, double size, std::vector<Square>& squares)
@@ -256,33 +257,43 @@ class SiteMarker {
 
   void mark_corners() {
     const double reach = corner_reach * size_;
-    PlaceGrid corners(reach);
-    for (const int vertex : fields_.singular_vertices) corners.add(mesh_.vertices[vertex], vertex);
-    PlaceGrid at_corners(reach);
-    for (std::size_t s = 0; s < squares_.size(); ++s) {
-      Square& square = squares_[s];
-      const Vector3 around = Vector3::Constant(reach);
-      corners.visit(square.centre_B - around, square.centre_B + around, [&](int vertex) {
-        if ((square.centre_B - mesh_.vertices[vertex]).norm() <= reach)
-          square.site = SquareSite::corner;
+    PlaceGrid all(reach);
+    for (std::size_t s = 0; s < squares_.size(); ++s)
+      all.add(squares_[s].centre_B, static_cast<int>(s));
+    const auto mark = [&](int from, int to) {
+      visit_near(all, mesh_.vertices[from], mesh_.vertices[to], reach, [&](int s, double distance) {
+        if (distance <= reach) squares_[s].site = SquareSite::corner;
       });
-      if (square.at_corner()) at_corners.add(square.centre_B, static_cast<int>(s));
-    }
-    mark_welds(at_corners);
+    };
+    for (const int vertex : fields_.singular_vertices) mark(vertex, vertex);
+    for (const auto& [from, to] : fields_.lug_roots) mark(from, to);
+    mark_welds();
   }
 
  private:
+  /// Calls visit(square, distance from its centre) for the squares of a grid that lie near a
+  /// straight line, and more about it.
+  template <typename Visit>
+  void visit_near(const PlaceGrid& grid, const Vector3& begin, const Vector3& end, double reach,
+                  const Visit& visit) const {
+    const Vector3 way = end - begin, around = Vector3::Constant(reach);
+    const double length_squared = way.squaredNorm();
+    grid.visit(begin.cwiseMin(end) - around, begin.cwiseMax(end) + around, [&](int s) {
+      const Vector3 off = squares_[s].centre_B - begin;
+      const double share =
+          length_squared > 0 ? std::clamp(off.dot(way) / length_squared, 0.0, 1.0) : 0;
+      visit(s, (off - share * way).norm());
+    });
+  }
+
   /// Squares near corners that touch a joint between plates or a stiffener.
-  void mark_welds(const PlaceGrid& at_corners) {
+  void mark_welds() {
+    PlaceGrid at_corners(corner_reach * size_);
+    for (std::size_t s = 0; s < squares_.size(); ++s)
+      if (squares_[s].at_corner()) at_corners.add(squares_[s].centre_B, static_cast<int>(s));
     const auto mark = [&](const Vector3& begin, const Vector3& end) {
-      const Vector3 way = end - begin, around = Vector3::Constant(beside_weld * size_);
-      if (!(way.squaredNorm() > 0)) return;
-      at_corners.visit(begin.cwiseMin(end) - around, begin.cwiseMax(end) + around, [&](int s) {
-        Square& square = squares_[s];
-        const Vector3 off = square.centre_B - begin;
-        const double share = std::clamp(off.dot(way) / way.squaredNorm(), 0.0, 1.0);
-        if ((off - share * way).norm() < beside_weld * square.size)
-          square.site = SquareSite::welded_corner;
+      visit_near(at_corners, begin, end, beside_weld * size_, [&](int s, double distance) {
+        if (distance < beside_weld * squares_[s].size) squares_[s].site = SquareSite::welded_corner;
       });
     };
     for (const PlateField& field : fields_.fields)
