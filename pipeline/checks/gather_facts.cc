@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -286,6 +287,17 @@ void add_table(const Assessment& assessment, LiftFacts& facts) {
   facts.net_weight = assessment.block.model->mass_properties().mass * assessment.lift_case.gravity;
   facts.at_rest = sum(block.static_state.load);
   facts.in_motion = sum(block.dynamic_state.load);
+  const auto& lugs = assessment.block.model->mesh().lifting_points;
+  for (std::size_t i = 0; i < lugs.size(); ++i) {
+    LugPull pull;
+    pull.lug = lugs[i].name;
+    pull.load.at_rest = block.static_state.load.lug_forces_B[i].norm();
+    pull.load.in_motion = block.dynamic_state.load.lug_forces_B[i].norm();
+    if (!(pull.load.at_rest > 0)) continue;
+    pull.load.amplification = facts.in_motion / facts.at_rest;
+    pull.load.resharing = pull.load.in_motion / pull.load.at_rest / pull.load.amplification;
+    facts.pulls.push_back(std::move(pull));
+  }
 }
 
 LugFacts lug_facts(const PadeyeAssessment& padeye, const LiftFacts& facts) {
@@ -304,16 +316,8 @@ LugFacts lug_facts(const PadeyeAssessment& padeye, const LiftFacts& facts) {
   }
   const auto pull = std::find_if(facts.pulls.begin(), facts.pulls.end(),
                                  [&](const LugPull& one) { return one.lug == padeye.lug; });
-  if (pull != facts.pulls.end()) {
-    lug.pull = *pull;
-    return lug;
-  }
-  LoadFacts& load = lug.pull.load;
-  lug.pull.lug = padeye.lug;
-  load.at_rest = lug.at_rest.norm();
-  load.in_motion = lug.in_motion.norm();
-  load.amplification = facts.in_motion / facts.at_rest;
-  load.resharing = load.in_motion / load.at_rest / load.amplification;
+  if (pull == facts.pulls.end()) throw std::logic_error("nothing pulls at lug " + padeye.lug);
+  lug.pull = *pull;
   return lug;
 }
 
