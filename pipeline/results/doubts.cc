@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/lift/parallel_baskets.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
@@ -58,6 +60,8 @@ class Doubts {
 
   std::vector<std::string> list() {
     doubt_cranes();
+    if (const std::string baskets = doubt_about_baskets(case_); !baskets.empty())
+      list_.push_back(baskets + ".");
     doubt_sea();
     doubt_water();
     doubt_wind();
