@@ -55,6 +55,7 @@ class Doubts {
     doubt_sliding(lift);
     doubt_falls(lift);
     doubt_suspension(lift);
+    doubt_turn(lift);
     say_faults(lift);
   }
 
@@ -80,6 +81,23 @@ class Doubts {
   static const dynamics::BodyHistory& load_of(const LiftRun& lift,
                                               const dynamics::History& history) {
     return history.bodies[static_cast<std::size_t>(lift.model.load) - 1];
+  }
+
+  /// Of a load that hangs on one hook: nothing holds its heading in the motion, as is taken at rest.
+  void doubt_turn(const LiftRun& lift) {
+    constexpr double degree = std::numbers::pi / 180;
+    constexpr double usual = 15 * degree;
+    if (!lift.model.held_heading) return;
+    const LiftMeasure turn = turn_of_load(lift);
+    const MeasurePeak peak =
+        find_peak(lift.dynamic_history().time, turn.in_motion, Extreme::largest_magnitude);
+    if (!(std::abs(peak.value) > usual)) return;
+    doubt(
+        "The load turns by {:.0f} deg about the plumb, at {:.0f} s: it hangs on one hook, and "
+        "nothing "
+        "holds its heading in the motion or damps that turn, which a swing to two sides drives, as "
+        "gusts do. Tag lines that hold it are tuggers of the case; checks.turn bounds it.",
+        std::abs(peak.value) / degree, peak.time);
   }
 
   /// The place that the case gives is a first guess, but not of another yard.

@@ -37,7 +37,7 @@ const std::vector<IdleKeys>& idle_keys() {
        "a load table has no ropes, cranes and spreaders: their checks are those of a lift that "
        "is simulated"},
       {"checks",
-       {"swing", "falls_twist", "tilt", "sling_angle", "offlead", "sidelead", "clearance",
+       {"swing", "falls_twist", "tilt", "turn", "sling_angle", "offlead", "sidelead", "clearance",
         "righting_height", "heel", "freeboard"},
        "a load table says nothing of where load, ropes and cranes are: the limit would hold "
        "nothing"},
