@@ -273,7 +273,7 @@ std::vector<PadeyeInstant> find_instants(PadeyeRun& run, const BlockAttachment& 
 std::string ropes_at(const LiftCase& lift_case, const std::string& lug) {
   std::string names;
   for (const RopeInCase& rope : lift_case.ropes)
-    if (rope.path.front().lug == lug || rope.lug() == lug)
+    if (!rope.path.empty() && (rope.path.front().lug == lug || rope.lug() == lug))
       names += (names.empty() ? "" : ", ") + rope.name.value;
   return names;
 }
