@@ -83,7 +83,7 @@ class Doubts {
     return history.bodies[static_cast<std::size_t>(lift.model.load) - 1];
   }
 
-  /// Of a load that hangs on one hook: nothing holds its heading in the motion, as is taken at rest.
+  /// Of a load on one hook: nothing holds its heading in the motion, as is taken at rest.
   void doubt_turn(const LiftRun& lift) {
     constexpr double degree = std::numbers::pi / 180;
     constexpr double usual = 15 * degree;

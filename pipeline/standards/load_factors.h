@@ -45,8 +45,8 @@ class LoadFactors {
                int slings_on_hook, bool in_motion = true) const;
 
   /// All of them on what the slings at a lug bear together. Each sling has its own factors, and
-  /// bears anything between its load and that times them: the sum of the forces is that of the worst
-  /// of these sets.
+  /// bears anything between its load and that times them: the sum of the forces is that of the
+  /// worst of these sets.
   void add_all_at_lug(ChainBuilder& chain, const LugPull& pull, bool in_motion = true) const;
 
   /// Amplification of the rules; 1 without. @param hoisting_speed where it depends on that, m/s.

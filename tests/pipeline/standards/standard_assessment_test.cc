@@ -233,8 +233,8 @@ TEST(StandardAssessment, TakesAllSlingsOfALugAlike) {
   EXPECT_NEAR(chain_of(assess_standard(standard, facts), "shackle L1").simulated, sum, 1e-6);
 }
 
-// A sling that pulls down by 100 kN at a lug that hangs on 600 kN eases it: that it bears 3 times as
-// much is no help, and that the other bears 1.2 times as much counts whole: 720 - 100 kN.
+// A sling that pulls down by 100 kN at a lug that hangs on 600 kN eases it: that it bears 3 times
+// as much is no help, and that the other bears 1.2 times as much counts whole: 720 - 100 kN.
 TEST(StandardAssessment, DoesNotCountOnASlingThatEasesTheLug) {
   StandardInCase standard = with_shackle_at_l1();
   standard.skew.reset();

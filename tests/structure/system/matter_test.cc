@@ -161,8 +161,8 @@ TEST(MassDistribution, GivesAnyStatedMassWithoutTheElements) {
   EXPECT_THROW(distribution.with(&stated, &far), ModelError);
 }
 
-// Along a plate of the length l the density is 1 + 12 d (x - l / 2) / l^2 of the mean for a centre d
-// beside the middle: it is zero at an end for d = l / 6, 0.5 m here, whatever the mass.
+// Along a plate of the length l the density is 1 + 12 d (x - l / 2) / l^2 of the mean for a centre
+// d beside the middle: it is zero at an end for d = l / 6, 0.5 m here, whatever the mass.
 TEST(MassDistribution, SaysHowFarTheCentreMayBeStatedWhateverTheMass) {
   const Mesh mesh = plate(0);
   const MassDistribution distribution{Matter(Space(mesh, {2, {}}))};
