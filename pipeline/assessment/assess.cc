@@ -50,20 +50,6 @@ namespace fs = std::filesystem;
 /// Regions of the shell, each of which takes the water's pressure as one, over the block's length.
 constexpr double regions_along_the_shell = 20;
 
-/// Forces of a load table in the order of the mesh's lugs, N, in the block frame.
-std::vector<structure::Vector3> table_forces(const LoadTable& table,
-                                             const std::vector<Named<double>>& loads,
-                                             const std::vector<structure::LiftingPoint>& lugs) {
-  std::vector<structure::Vector3> forces(lugs.size(), structure::Vector3::Zero());
-  for (const Named<double>& load : loads) {
-    for (std::size_t i = 0; i < lugs.size(); ++i) {
-      if (lugs[i].name == load.name.value)
-        forces[i] = load.value * table.direction_at(lugs[i].name);
-    }
-  }
-  return forces;
-}
-
 HistorySettings history_settings(const StructureSettings& settings) {
   HistorySettings result;
   for (const Named<Vector3>& point : settings.stress_points)
@@ -253,19 +239,9 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
 /// @throws InputError at the table.
 void require_that_table_lifts(const LiftCase& the_case, const structure::ElasticModel& model) {
   const LoadTable& table = *the_case.load_table;
-  const std::vector<structure::LiftingPoint>& lugs = model.mesh().lifting_points;
-  const TableBalance balance = find_table_balance(table_forces(table, table.static_loads, lugs),
-                                                  lugs, model.mass_properties(), the_case.gravity);
   Diagnostics diagnostics;
-  const std::string sum = fmt::format(
-      "the static loads of the load table sum to ({:.4g}, {:.4g}, {:.4g}) kN in the block's frame",
-      balance.force_B.x() / 1e3, balance.force_B.y() / 1e3, balance.force_B.z() / 1e3);
-  if (balance.bears_nothing())
-    diagnostics.error(table.place, fmt::format("{}, which bears nothing of its weight, {:.4g} kN",
-                                               sum, balance.weight / 1e3));
-  else if (balance.presses_down())
-    diagnostics.error(table.place, sum + ": they press the block down at its lugs",
-                      {"direction is that of the pull on the block, [0, 0, 1] for plumb ropes"});
+  check_that_table_lifts(
+      table, find_table_balance(table, table.static_loads, model, the_case.gravity), diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
 }
 

@@ -17,23 +17,6 @@ namespace {
 
 using dynamics::BodyIndex;
 
-std::vector<double> radiation_frequencies(const MarineParts& parts, double gravity) {
-  const SeaInCase& sea = *parts.sea;
-  const SeaBand band = find_sea_band(parts, gravity);
-  const auto [lowest, highest] = band.radiation;
-  std::vector<double> frequencies;
-  for (int i = 0; i < band.frequencies; ++i) {
-    frequencies.push_back(lowest + i * (highest - lowest) / (band.frequencies - 1));
-  }
-  if (sea.waves && sea.waves->regular) {
-    for (const RegularWaveInCase& wave : *sea.waves->regular) frequencies.push_back(wave.omega());
-  }
-  std::sort(frequencies.begin(), frequencies.end());
-  const auto same = [](double a, double b) { return b - a < 1e-9 * b; };
-  frequencies.erase(std::unique(frequencies.begin(), frequencies.end(), same), frequencies.end());
-  return frequencies;
-}
-
 /// A wave of the world as a frame with the same axes has it whose origin is at p.
 dynamics::RegularWave seen_from(const Vector3& p, const dynamics::WaveComponent& wave,
                                 double wave_number) {
@@ -257,7 +240,8 @@ RadiationProblem MarineBuilder::radiation_problem() const {
       problem.bodies[k].X_DB = X_DW * vessels[k].X_WB;
     }
     if (has_waves()) {
-      problem.field = std::make_shared<const dynamics::WaveField>(make_sea(parts_, gravity_).waves);
+      const auto moving = sea(false);
+      problem.field = std::shared_ptr<const dynamics::WaveField>(moving, &moving->waves);
     }
   }
   problem.origin = middle.head<2>();
@@ -266,7 +250,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   }
   problem.water = water_of(*parts_.sea, gravity_);
   problem.place = parts_.sea->radiation.place;
-  problem.frequencies = radiation_frequencies(parts_, gravity_);
+  problem.frequencies = radiation_frequencies();
   problem.method = parts_.sea->radiation.method.value;
   problem.headings = default_headings();
   for (const VesselInCase& vessel : parts_.vessels) {
@@ -277,7 +261,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
       parts_.vessels.begin(), parts_.vessels.end(),
       [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });
   if (problem.direct && has_waves()) {
-    const dynamics::WaveField waves = make_sea(parts_, gravity_).waves;
+    const dynamics::WaveField& waves = sea(false)->waves;
     problem.ramp = waves.ramp();
     for (std::size_t k = 0; k < waves.component_count(); ++k) {
       problem.waves.push_back(seen_from(middle, waves.component(k), waves.wave_number(k)));
@@ -286,10 +270,34 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   return problem;
 }
 
-std::shared_ptr<const dynamics::Sea> MarineBuilder::sea(bool at_rest) {
+std::vector<double> MarineBuilder::radiation_frequencies() const {
+  const SeaInCase& sea = *parts_.sea;
+  const auto [lowest, highest] = band().radiation;
+  const int count = band().frequencies;
+  std::vector<double> frequencies;
+  for (int i = 0; i < count; ++i) {
+    frequencies.push_back(lowest + i * (highest - lowest) / (count - 1));
+  }
+  if (sea.waves && sea.waves->regular) {
+    for (const RegularWaveInCase& wave : *sea.waves->regular) frequencies.push_back(wave.omega());
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  const auto same = [](double a, double b) { return b - a < 1e-9 * b; };
+  frequencies.erase(std::unique(frequencies.begin(), frequencies.end(), same), frequencies.end());
+  return frequencies;
+}
+
+const SeaBand& MarineBuilder::band() const {
+  if (!band_) band_ = find_sea_band(parts_, gravity_);
+  return *band_;
+}
+
+std::shared_ptr<const dynamics::Sea> MarineBuilder::sea(bool at_rest) const {
   auto& sea = seas_[at_rest];
   if (!sea) {
-    sea = std::make_shared<const dynamics::Sea>(make_sea(parts_, gravity_, at_rest));
+    sea = std::make_shared<const dynamics::Sea>(at_rest || !has_waves()
+                                                    ? make_sea(parts_, gravity_, true)
+                                                    : make_sea(parts_, gravity_, band()));
   }
   return sea;
 }
@@ -330,7 +338,7 @@ dynamics::Arrangement MarineBuilder::arrangement(const BodyOf& point) const {
                                   size.minCoeff()});
   }
   if (!vessels.empty() && has_waves()) {
-    arrangement.wave_length = mean_wave_length(make_sea(parts_, gravity_).waves);
+    arrangement.wave_length = mean_wave_length(sea(false)->waves);
   }
   return arrangement;
 }

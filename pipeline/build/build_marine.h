@@ -13,6 +13,7 @@
 #include "dynamics/simulation/lift_system.h"
 #include "dynamics/simulation/misplacement.h"
 #include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/lift_case/sea_band.h"
 
 namespace blocklift::pipeline {
 
@@ -145,7 +146,9 @@ class MarineBuilder {
   bool has_waves() const { return parts_.sea && parts_.sea->waves; }
 
  private:
-  std::shared_ptr<const dynamics::Sea> sea(bool at_rest);
+  const SeaBand& band() const;
+  std::shared_ptr<const dynamics::Sea> sea(bool at_rest) const;
+  std::vector<double> radiation_frequencies() const;
   std::shared_ptr<const dynamics::HullClusters> clusters(const Vessel& vessel);
   void add_vessel(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
                   dynamics::ForceElements& elements);
@@ -197,7 +200,8 @@ class MarineBuilder {
   std::optional<FloatingLoad> load_;
   std::map<std::string, dynamics::Pose> start_;
   std::map<std::string, double> displaced_mass_;  ///< kg
-  std::map<bool, std::shared_ptr<const dynamics::Sea>> seas_;
+  mutable std::optional<SeaBand> band_;           ///< found once: vessels may be floated for it
+  mutable std::map<bool, std::shared_ptr<const dynamics::Sea>> seas_;
   std::map<const Vessel*, std::shared_ptr<const dynamics::HullClusters>> clusters_;
 };
 

@@ -57,4 +57,12 @@ std::optional<dynamics::HeldHeading> find_held_heading(
   return drawn;
 }
 
+dynamics::EquilibriumSettings settings_at_rest(const BuiltLift& model) {
+  return {.held_heading = model.held_heading};
+}
+
+dynamics::EquilibriumSolver solver_at_rest(const BuiltLift& model) {
+  return dynamics::EquilibriumSolver(model.at_rest(), settings_at_rest(model));
+}
+
 }  // namespace blocklift::pipeline

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/rigging_facts.h"
 #include "pipeline/checks/structure_skew.h"
+#include "pipeline/lift/sling_ends.h"
 #include "pipeline/measures/chart_derating.h"
 #include "pipeline/measures/crane_measures.h"
 #include "pipeline/measures/spreader_measures.h"
@@ -72,6 +74,7 @@ class LiftedFacts {
     facts_.has_environment = lift_.model.calm.has_value();
     add_crane_measures(case_, lift_, crane_measures_);
     add_slings();
+    for (const LugEnds& lug : find_lug_ends(lift_.model)) add_pull(lug);
     for (const LiftSpreader& bar : lift_.model.spreaders) add_spreader(bar);
     for (std::size_t h = 0; h < lift_.model.hoists.size(); ++h) add_hook(h);
     for (std::size_t c = 0; c < case_.cranes.size(); ++c) add_crane(c);
@@ -119,6 +122,28 @@ class LiftedFacts {
       facts_.rigging += link.mass * case_.gravity;
       rigging_at_[link.name.value] += link.mass * case_.gravity;
     }
+  }
+
+  // Each sling has its own factors, at the instant at which the lug bears most.
+  void add_pull(const LugEnds& lug) {
+    Index sample = 0;
+    LugPull pull;
+    pull.lug = lug.lug;
+    pull.load = load_of(lug.load(lift_.static_history), lug.load(lift_.dynamic_history()), sample);
+    for (const SlingEnd& end : lug.ends) {
+      const LiftRope& rope = lift_.model.ropes[end.sling];
+      const auto sling = std::find_if(facts_.slings.begin(), facts_.slings.end(),
+                                      [&](const SlingFacts& one) { return one.name == rope.name; });
+      SlingPull one;
+      one.sling = rope.name;
+      one.force = end.pull(lift_.static_history).row(sample);
+      if (sling != facts_.slings.end()) {  // a rope that begins at a lug and ends at none is none
+        one.computed = rigging_.of_sling(rope, sample);
+        one.slings_on_hook = sling->slings_on_hook;
+      }
+      pull.slings.push_back(std::move(one));
+    }
+    facts_.pulls.push_back(std::move(pull));
   }
 
   SlingFacts sling_facts(const LiftRope& rope, const std::map<std::string, int>& on_hook,
@@ -262,6 +287,17 @@ void add_table(const Assessment& assessment, LiftFacts& facts) {
   facts.net_weight = assessment.block.model->mass_properties().mass * assessment.lift_case.gravity;
   facts.at_rest = sum(block.static_state.load);
   facts.in_motion = sum(block.dynamic_state.load);
+  const auto& lugs = assessment.block.model->mesh().lifting_points;
+  for (std::size_t i = 0; i < lugs.size(); ++i) {
+    LugPull pull;
+    pull.lug = lugs[i].name;
+    pull.load.at_rest = block.static_state.load.lug_forces_B[i].norm();
+    pull.load.in_motion = block.dynamic_state.load.lug_forces_B[i].norm();
+    if (!(pull.load.at_rest > 0)) continue;
+    pull.load.amplification = facts.in_motion / facts.at_rest;
+    pull.load.resharing = pull.load.in_motion / pull.load.at_rest / pull.load.amplification;
+    facts.pulls.push_back(std::move(pull));
+  }
 }
 
 LugFacts lug_facts(const PadeyeAssessment& padeye, const LiftFacts& facts) {
@@ -278,18 +314,10 @@ LugFacts lug_facts(const PadeyeAssessment& padeye, const LiftFacts& facts) {
     lug.lateral = share;
     lug.lateral_time = state.time;
   }
-  const auto sling = std::find_if(facts.slings.begin(), facts.slings.end(),
-                                  [&](const SlingFacts& one) { return one.lug == padeye.lug; });
-  if (sling != facts.slings.end()) {
-    lug.load = sling->load;
-    lug.computed = sling->computed;
-    lug.slings_on_hook = sling->slings_on_hook;
-    return lug;
-  }
-  lug.load.at_rest = lug.at_rest.norm();
-  lug.load.in_motion = lug.in_motion.norm();
-  lug.load.amplification = facts.in_motion / facts.at_rest;
-  lug.load.resharing = lug.load.in_motion / lug.load.at_rest / lug.load.amplification;
+  const auto pull = std::find_if(facts.pulls.begin(), facts.pulls.end(),
+                                 [&](const LugPull& one) { return one.lug == padeye.lug; });
+  if (pull == facts.pulls.end()) throw std::logic_error("nothing pulls at lug " + padeye.lug);
+  lug.pull = *pull;
   return lug;
 }
 

@@ -42,6 +42,8 @@ class MeasureChecks {
         "twist of falls", "twist of falls: largest of a hook block that turns",
         limits.largest_falls_twist ? value_of(limits.largest_falls_twist) : usual_falls_twist);
     add_at_most("tilt", "tilt: angle of the load against the plumb", limits.largest_tilt);
+    add_at_most("turn", "turn: of the load about the plumb, away from its start",
+                limits.largest_turn);
     add_at_least("sling angle", "angle of slings: smallest against the level",
                  limits.smallest_sling_angle);
     add_at_least("righting height", "righting height: how far the suspension is from tipping",

@@ -270,10 +270,12 @@ std::vector<PadeyeInstant> find_instants(PadeyeRun& run, const BlockAttachment& 
   return instants;
 }
 
-std::string rope_at(const LiftCase& lift_case, const std::string& lug) {
+std::string ropes_at(const LiftCase& lift_case, const std::string& lug) {
+  std::string names;
   for (const RopeInCase& rope : lift_case.ropes)
-    if (rope.lug() == lug) return rope.name.value;
-  return {};
+    if (!rope.path.empty() && (rope.path.front().lug == lug || rope.lug() == lug))
+      names += (names.empty() ? "" : ", ") + rope.name.value;
+  return names;
 }
 
 /// @param find_instants_of the instants of a padeye that finite elements look at, formulae
@@ -293,7 +295,7 @@ PadeyesAssessment assess_at(const LiftCase& lift_case, const UnitResponses& resp
     std::vector<PadeyeInstant> instants = find_instants_of(run);
     if (instants.empty()) continue;
     run.add_rules();
-    run.result().rope = rope_at(lift_case, run.result().lug);
+    run.result().rope = ropes_at(lift_case, run.result().lug);
     const int model = wanted.add(run.result().input, divisions_of(lift_case, run.result().padeye));
     all.push_back({std::move(run), std::move(instants), static_cast<std::size_t>(model)});
   }

@@ -38,7 +38,7 @@ struct PadeyeFormulaAtWorst {
 /// A padeye of the block over the whole lift.
 struct PadeyeAssessment {
   std::string lug;
-  std::string rope;    ///< empty: none pulls there in a load table without names
+  std::string rope;    ///< all that end at it: "R1, R3"; empty: none, under a load table
   std::string padeye;  ///< name of its design
   PlacedPadeye placed;
   structure::PadeyeFormulaInput input;

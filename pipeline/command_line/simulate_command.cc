@@ -118,6 +118,9 @@ void print_lift(const LiftSimulation& simulation) {
                    at_rest[i].tension / newton_per_tonne, at_rest[i].time,
                    in_motion[i].tension / newton_per_tonne, in_motion[i].time});
   fmt::print("{}\n", table.text());
+  if (const std::string sea = describe_sea(simulation.lift_case, simulation.lift_case.gravity);
+      !sea.empty())
+    print_wrapped(sea);
   if (!simulation.run.natural_modes.empty()) {
     print_wrapped(describe_natural_periods(simulation.run.natural_modes.front()));
   }

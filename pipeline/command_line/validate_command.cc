@@ -23,9 +23,11 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/lift/block_preparation.h"
+#include "pipeline/lift/table_balance.h"
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/mesh_page.h"
+#include "pipeline/results/table_summary.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/study_design.h"
 #include "pipeline/terminal/run_log.h"
@@ -55,6 +57,21 @@ std::string summary_of(const LiftCase& lift_case) {
 std::string lines_on_stiffener_plates(const BlockModel& block) {
   std::string lines;
   for (const std::string& line : describe_stiffener_plates(block)) lines += "\n" + line;
+  return lines;
+}
+
+/// Complains about a load table that cannot hold up the block of a case.
+/// @returns why the loads are to be doubted that can: a line each.
+std::string look_at_load_table(const LiftCase& lift_case, const structure::ElasticModel& block,
+                               Diagnostics& diagnostics) {
+  const LoadTable& table = *lift_case.load_table;
+  const auto balance = [&](const std::vector<Named<double>>& loads) {
+    return find_table_balance(table, loads, block, lift_case.gravity);
+  };
+  const TableBalances balances{balance(table.static_loads), balance(table.dynamic_loads)};
+  check_that_table_lifts(table, balances.at_rest, diagnostics);
+  std::string lines;
+  for (const std::string& doubt : list_doubts(balances)) lines += "\nwarning: " + doubt;
   return lines;
 }
 
@@ -152,14 +169,19 @@ std::optional<std::string> validate(const fs::path& named, ModelLibrary& library
   const std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
   if (!lift_case) return std::nullopt;
   block = lift_case->load.model;
+  std::string table_doubts;
   if (lift_case->has_structure()) {
-    check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
+    const auto coarse =
+        check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
+    if (coarse && lift_case->load_table)
+      table_doubts = look_at_load_table(*lift_case, *coarse, diagnostics);
   }
   std::string summary = fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case));
   if (lift_case->load.model && lift_case->load.model->mesh)
     summary += "\n" + describe_block_mesh(*lift_case->load.model->mesh);
   if (lift_case->load.model) summary += lines_on_stiffener_plates(*lift_case->load.model);
   for (const std::string& doubt : list_doubts(*lift_case)) summary += "\nwarning: " + doubt;
+  summary += table_doubts;
   return if_sound(std::move(summary));
 }
 

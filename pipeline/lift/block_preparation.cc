@@ -148,13 +148,15 @@ std::unique_ptr<structure::UnitResponses> make_unit_responses(const structure::E
   }
 }
 
-void check_block_model(const BlockModel& block, const std::string& name, Diagnostics& diagnostics) {
+std::unique_ptr<structure::ElasticModel> check_block_model(const BlockModel& block,
+                                                           const std::string& name,
+                                                           Diagnostics& diagnostics) {
   constexpr int coarse_degree = 1;
   constexpr double coarse_element = 100;  // m: cuts where plates meet, and no others
   StructureSettings settings;
   settings.element_degree = coarse_degree;
   settings.largest_element = coarse_element;
-  make_block_model(block, name, settings, diagnostics);
+  return make_block_model(block, name, settings, diagnostics);
 }
 
 }  // namespace blocklift::pipeline

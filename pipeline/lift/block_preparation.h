@@ -41,8 +41,10 @@ bool check_stated_mass(const BlockModel& block, const structure::MassProperties&
 std::unique_ptr<structure::UnitResponses> make_unit_responses(const structure::ElasticModel& model,
                                                               const BlockModel& block);
 
-/// The complaints of make_block_model at little cost: the block in coarse elements of degree 1,
-/// made and forgotten.
-void check_block_model(const BlockModel& block, const std::string& name, Diagnostics& diagnostics);
+/// The complaints of make_block_model at little cost: by the block in coarse elements of degree 1.
+/// @returns that model, whose mass is the block's; null after a complaint.
+std::unique_ptr<structure::ElasticModel> check_block_model(const BlockModel& block,
+                                                           const std::string& name,
+                                                           Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

@@ -4,14 +4,17 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "dynamics/simulation/equilibrium.h"
+#include "dynamics/errors.h"
 #include "dynamics/simulation/linearisation.h"
+#include "pipeline/build/held_heading.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
+#include "pipeline/lift/parallel_baskets.h"
 #include "pipeline/lift/stage_end.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/lift/worst_instant.h"
@@ -34,6 +37,18 @@ void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorksp
     const double size = dynamics::ElasticBody::displacement(w.elastic.front(), end).norm();
     if (largest && size <= largest->size) continue;
     largest = {lug_of(model, ends[end].rope), size, time};
+  }
+}
+
+/// The equilibrium at the start from a guess. Where there is none, what the case says against one
+/// goes with the message.
+void find_start(const LiftCase& lift_case, const BuiltLift& model, Eigen::VectorXd& q) {
+  try {
+    solver_at_rest(model).solve(0, q);
+  } catch (const dynamics::SimulationError& error) {
+    const std::string why = doubt_about_baskets(lift_case);
+    if (why.empty()) throw;
+    throw dynamics::SimulationError(fmt::format("{}. {}", error.what(), why));
   }
 }
 
@@ -67,8 +82,7 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
         dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
   // Both histories begin at the same equilibrium.
   Eigen::VectorXd q = system.q_start();
-  const dynamics::EquilibriumSettings rest{.held_heading = model.held_heading};
-  dynamics::EquilibriumSolver(at_rest, rest).solve(0, q);
+  find_start(lift_case, model, q);
   Eigen::VectorXd righting_height =
       Eigen::VectorXd::Constant(times.size(), std::numeric_limits<double>::quiet_NaN());
   std::function<void(Eigen::Index, double, dynamics::LiftWorkspace&)> observe;
@@ -78,8 +92,9 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
       righting_height[sample] = dynamics::calc_righting_height(
           at_rest, time, w, model.load, tangent, model.held_heading.has_value());
     };
-  dynamics::History static_history = dynamics::static_sweep(
-      at_rest, times, q, rest, report("static sweep"), observe, extent.recording());
+  dynamics::History static_history =
+      dynamics::static_sweep(at_rest, times, q, settings_at_rest(model), report("static sweep"),
+                             observe, extent.recording());
   std::vector<NaturalModes> natural_modes;
   if (extent.natural_modes)
     natural_modes =

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dynamics/simulation/history.h"
+#include "pipeline/build/held_heading.h"
 #include "pipeline/formats/json_values.h"
 #include "pipeline/formats/results/results_layout.h"
 
@@ -159,8 +160,8 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
   const std::vector<Instant> instants = instants_of(model, static_history);
   std::vector<double> times;
   for (const Instant& instant : instants) times.push_back(instant.time);
-  std::vector<dynamics::Linearisation> results = dynamics::linearise_sweep(
-      model.at_rest(), times, q_start, interval, {.held_heading = model.held_heading});
+  std::vector<dynamics::Linearisation> results =
+      dynamics::linearise_sweep(model.at_rest(), times, q_start, interval, settings_at_rest(model));
   std::vector<NaturalModes> all;
   for (std::size_t i = 0; i < instants.size(); ++i)
     all.push_back({instants[i].name, std::move(results[i])});

@@ -1,5 +1,7 @@
 #include "pipeline/lift/sling_ends.h"
 
+#include <algorithm>
+
 namespace blocklift::pipeline {
 
 std::vector<SlingEnd> find_sling_ends(const BuiltLift& model) {
@@ -11,6 +13,26 @@ std::vector<SlingEnd> find_sling_ends(const BuiltLift& model) {
     if (!sling.lug.empty()) ends.push_back({i, sling.rope, false, points.back().p_BoQ_B});
   }
   return ends;
+}
+
+Eigen::VectorXd LugEnds::load(const dynamics::History& history) const {
+  if (ends.size() == 1) return history.ropes[ends.front().rope].tension;
+  dynamics::RopeHistory::Rows3 sum = dynamics::RopeHistory::Rows3::Zero(history.sample_count(), 3);
+  for (const SlingEnd& end : ends) sum += end.pull(history);
+  return sum.rowwise().norm();
+}
+
+std::vector<LugEnds> find_lug_ends(const BuiltLift& model) {
+  std::vector<LugEnds> lugs;
+  for (const SlingEnd& end : find_sling_ends(model)) {
+    const LiftRope& rope = model.ropes[end.sling];
+    const std::string& lug = end.first ? rope.first_lug : rope.lug;
+    auto known =
+        std::find_if(lugs.begin(), lugs.end(), [&](const LugEnds& one) { return one.lug == lug; });
+    if (known == lugs.end()) known = lugs.insert(lugs.end(), LugEnds{lug, {}});
+    known->ends.push_back(end);
+  }
+  return lugs;
 }
 
 std::vector<Eigen::Vector3d> bearing_places(const BuiltLift& model,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,6 +27,19 @@ struct SlingEnd {
 
 /// Both ends at the load of each rope that ends at a lug, in the order of the ropes.
 std::vector<SlingEnd> find_sling_ends(const BuiltLift& model);
+
+/// The ends of all slings at one lug.
+struct LugEnds {
+  std::string lug;
+  std::vector<SlingEnd> ends;
+
+  /// What the lug bears at each sample, N: the tension of one sling, and of several the size of the
+  /// sum of their forces.
+  Eigen::VectorXd load(const dynamics::History& history) const;
+};
+
+/// All lugs at which slings end, in the order of the ropes.
+std::vector<LugEnds> find_lug_ends(const BuiltLift& model);
 
 /// Places of the load that bear, at a sample, in its frame, m: lugs whose slings pull, and where
 /// slings press on edges upwards, on the edge's axis in the middle of the touch.

@@ -6,7 +6,7 @@
 
 #include "algebra/decompositions.h"
 #include "dynamics/errors.h"
-#include "dynamics/simulation/equilibrium.h"
+#include "pipeline/build/held_heading.h"
 #include "pipeline/lift/sling_ends.h"
 
 namespace blocklift::pipeline {
@@ -37,10 +37,9 @@ class SlingStates {
   /// Brings the lift as it is to an instant by the equilibria before it.
   void go_to(double time) {
     const BuiltLift model = build_lift(case_, load_, nullptr, flexibility_);
-    const dynamics::LiftSystem& at_rest = model.at_rest();
-    q_ = at_rest.q_start();
+    q_ = model.at_rest().q_start();
     time_ = time;
-    dynamics::EquilibriumSolver solver(at_rest, {.held_heading = model.held_heading});
+    dynamics::EquilibriumSolver solver = solver_at_rest(model);
     solver.solve(0, q_);
     double now = 0;
     while (now < time) {
@@ -56,7 +55,7 @@ class SlingStates {
       for (RopeInCase& rope : case_.ropes)
         if (rope.name.value == slings_[i]) rope.length.value = lengths[i];
     const BuiltLift model = build_lift(case_, load_, nullptr, flexibility_);
-    dynamics::EquilibriumSolver solver(model.at_rest(), {.held_heading = model.held_heading});
+    dynamics::EquilibriumSolver solver = solver_at_rest(model);
     Eigen::VectorXd q = q_;
     solver.solve(time_, q);
     return state_of(model, solver.workspace());

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/simulation/equilibrium.h"
+#include "pipeline/build/held_heading.h"
 
 namespace blocklift::pipeline {
 
@@ -53,7 +53,7 @@ dynamics::IntegrationResult run_up_to(const LiftCase& lift_case, const BuiltLift
                                       const EndBy& end_by) {
   const dynamics::LiftSystem& system = model.system;
   Eigen::VectorXd q = system.q_start();
-  dynamics::EquilibriumSolver(model.at_rest(), {.held_heading = model.held_heading}).solve(0, q);
+  solver_at_rest(model).solve(0, q);
   dynamics::IntegrationSettings settings;
   settings.relative_tolerance = lift_case.dynamics.relative_tolerance;
   settings.sample_interval = lift_case.dynamics.sample_interval;

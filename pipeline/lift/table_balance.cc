@@ -1,6 +1,9 @@
 #include "pipeline/lift/table_balance.h"
 
 #include <cmath>
+#include <string>
+
+#include <fmt/format.h>
 
 namespace blocklift::pipeline {
 
@@ -38,6 +41,39 @@ TableBalance find_table_balance(const std::vector<structure::Vector3>& lug_force
   balance.weight = mass.mass * gravity;
   balance.radius_of_gyration = std::sqrt(mass.inertia_BBcm_B.trace() / (3 * mass.mass));
   return balance;
+}
+
+std::vector<structure::Vector3> table_forces(const LoadTable& table,
+                                             const std::vector<Named<double>>& loads,
+                                             const std::vector<structure::LiftingPoint>& lugs) {
+  std::vector<structure::Vector3> forces(lugs.size(), structure::Vector3::Zero());
+  for (const Named<double>& load : loads) {
+    for (std::size_t i = 0; i < lugs.size(); ++i) {
+      if (lugs[i].name == load.name.value)
+        forces[i] = load.value * table.direction_at(lugs[i].name);
+    }
+  }
+  return forces;
+}
+
+TableBalance find_table_balance(const LoadTable& table, const std::vector<Named<double>>& loads,
+                                const structure::ElasticModel& model, double gravity) {
+  const std::vector<structure::LiftingPoint>& lugs = model.mesh().lifting_points;
+  return find_table_balance(table_forces(table, loads, lugs), lugs, model.mass_properties(),
+                            gravity);
+}
+
+void check_that_table_lifts(const LoadTable& table, const TableBalance& at_rest,
+                            Diagnostics& diagnostics) {
+  const std::string sum = fmt::format(
+      "the static loads of the load table sum to ({:.4g}, {:.4g}, {:.4g}) kN in the block's frame",
+      at_rest.force_B.x() / 1e3, at_rest.force_B.y() / 1e3, at_rest.force_B.z() / 1e3);
+  if (at_rest.bears_nothing())
+    diagnostics.error(table.place, fmt::format("{}, which bears nothing of its weight, {:.4g} kN",
+                                               sum, at_rest.weight / 1e3));
+  else if (at_rest.presses_down())
+    diagnostics.error(table.place, sum + ": they press the block down at its lugs",
+                      {"direction is that of the pull on the block, [0, 0, 1] for plumb ropes"});
 }
 
 }  // namespace blocklift::pipeline

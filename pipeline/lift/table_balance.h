@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "pipeline/coupling/load_mapping.h"
+#include "pipeline/files/lift_case/lift_case.h"
+#include "structure/response/elastic_model.h"
 #include "structure/rigid_body.h"
 
 namespace blocklift::pipeline {
@@ -45,5 +47,19 @@ struct TableBalance {
 TableBalance find_table_balance(const std::vector<structure::Vector3>& lug_forces_B,
                                 const std::vector<structure::LiftingPoint>& lugs,
                                 const structure::MassProperties& mass, double gravity);
+
+/// Forces of a load table in the order of a mesh's lugs, N, in the block's frame.
+/// @param loads its static or its dynamic ones.
+std::vector<structure::Vector3> table_forces(const LoadTable& table,
+                                             const std::vector<Named<double>>& loads,
+                                             const std::vector<structure::LiftingPoint>& lugs);
+
+/// The balance of these loads on the block of a model. @param gravity m/s^2.
+TableBalance find_table_balance(const LoadTable& table, const std::vector<Named<double>>& loads,
+                                const structure::ElasticModel& model, double gravity);
+
+/// Complains, at the table, about loads at rest that cannot hold the block up.
+void check_that_table_lifts(const LoadTable& table, const TableBalance& at_rest,
+                            Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

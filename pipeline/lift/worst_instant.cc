@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/simulation/equilibrium.h"
+#include "pipeline/build/held_heading.h"
 
 namespace blocklift::pipeline {
 
@@ -69,8 +69,7 @@ class Search {
                                       lift_case.dynamics.sample_interval)),
         watch_(fault, undisturbed_),
         q_(undisturbed_.system.q_start()) {
-    dynamics::EquilibriumSolver(undisturbed_.at_rest(), {.held_heading = undisturbed_.held_heading})
-        .solve(0, q_);
+    solver_at_rest(undisturbed_).solve(0, q_);
     find_moving();
   }
 

@@ -55,20 +55,7 @@ void add_attitude(const LiftRun& lift, std::vector<LiftMeasure>& measures) {
   };
   add_rise("trim", 0, "angle of the load's x axis above the level");
   add_rise("list", 1, "angle of the load's y axis above the level");
-  measures.push_back(make_measure(lift,
-                                  {.subject = "load",
-                                   .kind = "turn",
-                                   .unit = "rad",
-                                   .extreme = Extreme::largest_magnitude,
-                                   .meaning = "turn of the load about the plumb away from where it "
-                                              "hangs at the start"},
-                                  [&](const dynamics::History& history, Eigen::Index sample) {
-                                    const Eigen::Quaterniond turn(
-                                        attitude(history, sample) *
-                                        attitude(lift.static_history, 0).transpose());
-                                    const double angle = 2 * std::atan2(turn.z(), turn.w());
-                                    return std::remainder(angle, 2 * std::numbers::pi);
-                                  }));
+  measures.push_back(turn_of_load(lift));
 }
 
 /// Against the level, of a pull upwards, rad; no number where there is none.
@@ -167,6 +154,24 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
 }
 
 }  // namespace
+
+LiftMeasure turn_of_load(const LiftRun& lift) {
+  const auto attitude = [&](const dynamics::History& history, Eigen::Index sample) {
+    return history.bodies[lift.model.load - 1].X_WB(sample).R;
+  };
+  return make_measure(
+      lift,
+      {.subject = "load",
+       .kind = "turn",
+       .unit = "rad",
+       .extreme = Extreme::largest_magnitude,
+       .meaning = "turn of the load about the plumb away from where it hangs at the start"},
+      [&](const dynamics::History& history, Eigen::Index sample) {
+        const Eigen::Quaterniond turn(attitude(history, sample) *
+                                      attitude(lift.static_history, 0).transpose());
+        return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * std::numbers::pi);
+      });
+}
 
 double distance_within(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& point) {
   // Lugs in a line are so to within what their places are known to.

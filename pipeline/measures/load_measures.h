@@ -11,6 +11,9 @@ namespace blocklift::pipeline {
 void add_load_measures(const LiftCase& lift_case, const LiftRun& lift,
                        std::vector<LiftMeasure>& measures);
 
+/// Turn of the load about the plumb away from where it hangs at the start, rad.
+LiftMeasure turn_of_load(const LiftRun& lift);
+
 /// The load's dynamics::calc_righting_height, while slings bear nine tenths of its weight: of the
 /// equilibrium at each instant; in motion that of the last sample at rest.
 LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift);

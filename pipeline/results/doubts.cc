@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/lift/parallel_baskets.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
@@ -53,11 +55,14 @@ class Doubts {
     doubt_sliding(lift);
     doubt_falls(lift);
     doubt_suspension(lift);
+    doubt_turn(lift);
     say_faults(lift);
   }
 
   std::vector<std::string> list() {
     doubt_cranes();
+    if (const std::string baskets = doubt_about_baskets(case_); !baskets.empty())
+      list_.push_back(baskets + ".");
     doubt_sea();
     doubt_water();
     doubt_wind();
@@ -76,6 +81,23 @@ class Doubts {
   static const dynamics::BodyHistory& load_of(const LiftRun& lift,
                                               const dynamics::History& history) {
     return history.bodies[static_cast<std::size_t>(lift.model.load) - 1];
+  }
+
+  /// Of a load on one hook: nothing holds its heading in the motion, as is taken at rest.
+  void doubt_turn(const LiftRun& lift) {
+    constexpr double degree = std::numbers::pi / 180;
+    constexpr double usual = 15 * degree;
+    if (!lift.model.held_heading) return;
+    const LiftMeasure turn = turn_of_load(lift);
+    const MeasurePeak peak =
+        find_peak(lift.dynamic_history().time, turn.in_motion, Extreme::largest_magnitude);
+    if (!(std::abs(peak.value) > usual)) return;
+    doubt(
+        "The load turns by {:.0f} deg about the plumb, at {:.0f} s: it hangs on one hook, and "
+        "nothing "
+        "holds its heading in the motion or damps that turn, which a swing to two sides drives, as "
+        "gusts do. Tag lines that hold it are tuggers of the case; checks.turn bounds it.",
+        std::abs(peak.value) / degree, peak.time);
   }
 
   /// The place that the case gives is a first guess, but not of another yard.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/loop_loads.h"
 #include "pipeline/files/lift_case/input_hash.h"
+#include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/formats/json_values.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/results/assumptions.h"
@@ -563,6 +565,8 @@ Json make_simulation_summary(const LiftCase& lift_case, const LiftRun& lift,
                {"created", creation_time()}};
   summary.update(make_simulation_figures(lift_case, lift, measures, all_parts));
   add_doubts(lift_case, lift, summary);
+  if (std::string sea = describe_sea(lift_case, lift_case.gravity); !sea.empty())
+    summary["assumptions"].push_back(std::move(sea));
   return summary;
 }
 

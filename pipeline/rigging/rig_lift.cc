@@ -89,16 +89,6 @@ class LiftRunner {
   std::optional<LoadFlexibility> flexibility_;
 };
 
-/// One shackle a lug: where two slings end, the stronger.
-void add_shackle(ChosenShackle chosen, std::vector<ChosenShackle>& shackles) {
-  const auto known = std::find_if(shackles.begin(), shackles.end(),
-                                  [&](const ChosenShackle& one) { return one.lug == chosen.lug; });
-  if (known == shackles.end())
-    shackles.push_back(std::move(chosen));
-  else if (chosen.index > known->index || !chosen.pass())
-    *known = std::move(chosen);
-}
-
 bool has_slings(const LiftCase& lift_case) {
   return std::any_of(lift_case.ropes.begin(), lift_case.ropes.end(),
                      [](const RopeInCase& rope) { return rope.is_sling() && !rope.winch; });
@@ -174,11 +164,9 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
       rigged.sheaves.push_back(choose_sheave(rigged.stock, runner.the_case(), loads.facts,
                                              loads.demands[i],
                                              rigged.stock.slings[index].sling.rope));
-    // Those at the eyes of a spreader are its own.
-    if (!loads.demands[i].lug.empty())
-      add_shackle(choose_shackle(rigged.stock, runner.the_case(), loads.facts, loads.demands[i]),
-                  rigged.shackles);
   }
+  for (const ShackleDemand& demand : shackle_demands(runner.the_case(), runner.lift()))
+    rigged.shackles.push_back(choose_shackle(rigged.stock, runner.the_case(), loads.facts, demand));
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const std::size_t index = rigged.settled.choice[loads.demands.size() + i];
     rigged.spreaders.push_back({bars[i], index,

@@ -5,24 +5,26 @@
 #include <fmt/format.h>
 
 #include "pipeline/checks/standard_checks.h"
+#include "pipeline/lift/sling_ends.h"
 #include "pipeline/standards/rigging_chains.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 std::vector<Check> check_shackle(const ShackleInStock& candidate, const LiftCase& lift_case,
-                                 const std::optional<LiftFacts>& facts, const SlingDemand& demand) {
+                                 const std::optional<LiftFacts>& facts,
+                                 const ShackleDemand& demand) {
   const StockShackle& shackle = candidate.shackle;
   if (!facts || !lift_case.standard->rules.shackle)
     return {check_at_most(fmt::format("working load at rest, {}", candidate.rule), demand.at_rest,
                           shackle.working_load, "N")};
   const LoadFactors factors(*lift_case.standard, *facts);
-  const auto sling = std::find_if(facts->slings.begin(), facts->slings.end(),
-                                  [&](const SlingFacts& one) { return one.name == demand.rope; });
+  const auto pull = std::find_if(facts->pulls.begin(), facts->pulls.end(),
+                                 [&](const LugPull& one) { return one.lug == demand.lug; });
   StandardAssessment assessment;
   assessment.name = lift_case.standard->rules.name;
   assessment.chains = shackle_chains(
-      factors, {{demand.lug, {}}, shackle.working_load, shackle.breaking_load}, *sling);
+      factors, {{demand.lug, {}}, shackle.working_load, shackle.breaking_load}, *pull);
   std::vector<Check> checks = checks_of(assessment);
   for (std::size_t i = 0; i < checks.size(); ++i)
     checks[i].name = fmt::format("{}, {}", assessment.name, i == 0 ? "at rest" : "in motion");
@@ -32,7 +34,7 @@ std::vector<Check> check_shackle(const ShackleInStock& candidate, const LiftCase
 }  // namespace
 
 ChosenShackle choose_shackle(const Stock& stock, const LiftCase& lift_case,
-                             const std::optional<LiftFacts>& facts, const SlingDemand& demand) {
+                             const std::optional<LiftFacts>& facts, const ShackleDemand& demand) {
   ChosenShackle chosen;
   chosen.lug = demand.lug;
   for (std::size_t i = 0; i < stock.shackles.size() && !chosen.pass(); ++i) {
@@ -40,6 +42,18 @@ ChosenShackle choose_shackle(const Stock& stock, const LiftCase& lift_case,
     chosen.checks = check_shackle(stock.shackles[i], lift_case, facts, demand);
   }
   return chosen;
+}
+
+std::vector<ShackleDemand> shackle_demands(const LiftCase& lift_case, const LiftRun& lift) {
+  std::vector<ShackleDemand> demands;
+  for (const LugEnds& lug : find_lug_ends(lift.model)) {
+    const bool has_sling = std::any_of(lug.ends.begin(), lug.ends.end(), [&](const SlingEnd& end) {
+      const RopeInCase& rope = *lift_case.find_rope(lift.model.ropes[end.sling].name);
+      return rope.is_sling() && !rope.winch;
+    });
+    if (has_sling) demands.push_back({lug.lug, lug.load(lift.static_history).maxCoeff()});
+  }
+  return demands;
 }
 
 }  // namespace blocklift::pipeline

@@ -48,6 +48,21 @@ struct SlingFacts {
   double angle = 0;  ///< at its upper end to the plumb, at the largest load at rest, rad
 };
 
+/// One end of a sling at a lug.
+struct SlingPull {
+  std::string sling;
+  ComputedFactors computed;
+  int slings_on_hook = 1;
+  structure::Vector3 force = structure::Vector3::Zero();  ///< at rest, when LugPull::load is, N
+};
+
+/// What all slings that end at one lug do to it, and to the shackle in its hole.
+struct LugPull {
+  std::string lug;
+  LoadFacts load;                 ///< of one sling, or of the sum of the forces of several
+  std::vector<SlingPull> slings;  ///< none: the loads are those of a load table
+};
+
 /// Spreader bar or frame.
 struct SpreaderFacts {
   std::string name;
@@ -97,9 +112,7 @@ struct CraneFacts {
 /// Lug that is made as a padeye.
 struct LugFacts {
   std::string name;
-  LoadFacts load;  ///< of the rope at it
-  ComputedFactors computed;
-  int slings_on_hook = 1;
+  LugPull pull;
   structure::PadeyeFormulaInput input;
   structure::Vector3 at_rest = structure::Vector3::Zero();    ///< largest force in P, N
   structure::Vector3 in_motion = structure::Vector3::Zero();  ///< in motion, in P, N
@@ -134,6 +147,7 @@ struct LiftFacts {
   double spreader_factor = 1;  ///< on the forces in spreader bars
   double lateral = 0;          ///< that the case takes along a lug's pin, share of the force
   std::vector<SlingFacts> slings;
+  std::vector<LugPull> pulls;  ///< of each lug at which slings end
   std::vector<SpreaderFacts> spreaders;
   std::vector<HookFacts> hooks;
   std::vector<CraneFacts> cranes;

@@ -17,6 +17,41 @@ constexpr double degree = std::numbers::pi / 180;
 /// structure, while its own load may grow by a large factor.
 constexpr double least_share_of_structure = 0.25;
 
+/// Factors of the slings at one lug in one column, and what they make of the sum of their forces.
+class FactorsAtLug {
+ public:
+  explicit FactorsAtLug(const std::vector<SlingPull>& slings)
+      : slings_(slings), factors_(slings.size(), 1) {}
+
+  /// Multiplies each sling's factor. @returns by how much that lets the sum grow.
+  double grow(const std::vector<double>& by) {
+    for (std::size_t i = 0; i < by.size(); ++i) factors_[i] *= by[i];
+    const double before = growth_;
+    growth_ = largest_growth();
+    return growth_ / before;
+  }
+
+ private:
+  // The size of a sum is convex in each factor: it is largest where each is at an end of its range.
+  double largest_growth() const {
+    structure::Vector3 at_rest = structure::Vector3::Zero();
+    for (const SlingPull& sling : slings_) at_rest += sling.force;
+    if (!(at_rest.norm() > 0)) return *std::max_element(factors_.begin(), factors_.end());
+    double most = 0;
+    for (std::size_t set = 0; set < std::size_t{1} << slings_.size(); ++set) {
+      structure::Vector3 sum = at_rest;
+      for (std::size_t i = 0; i < slings_.size(); ++i)
+        if ((set >> i & 1U) != 0) sum += (factors_[i] - 1) * slings_[i].force;
+      most = std::max(most, sum.norm());
+    }
+    return most / at_rest.norm();
+  }
+
+  const std::vector<SlingPull>& slings_;
+  std::vector<double> factors_;
+  double growth_ = 1;
+};
+
 }  // namespace
 
 std::string load_text(double newtons) {
@@ -210,15 +245,19 @@ void LoadFactors::add_structure_tilt(ChainBuilder& chain, const StressFacts& str
   add_largest(chain, stress, [&](const SlingFacts& sling) { return yaw(sling.slings_on_hook); });
 }
 
-void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed) const {
+std::optional<LoadFactors::Factor> LoadFactors::skew(const ComputedFactors& computed) const {
   const NamedFactor* factor =
       standard_.skew ? find_by_name(rules().skew, standard_.skew->value) : nullptr;
   const std::optional<double> by_rules = factor ? std::optional(factor->value) : std::nullopt;
-  if (!factor && !computed.skew) return;
-  chain.times("skew of sling lengths", by_rules, computed.skew ? computed.skew : by_rules,
-              factor ? factor->clause : "",
-              computed.skew ? "computed by re-sharing for all sets of length tolerances"
-                            : standard_.skew->value + "; no tolerance of lengths is given");
+  if (!factor && !computed.skew) return {};
+  return Factor{"skew of sling lengths", by_rules, computed.skew ? computed.skew : by_rules,
+                factor ? factor->clause : "",
+                computed.skew ? "computed by re-sharing for all sets of length tolerances"
+                              : standard_.skew->value + "; no tolerance of lengths is given"};
+}
+
+void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed) const {
+  add(chain, skew(computed));
 }
 
 void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const {
@@ -239,15 +278,19 @@ void LoadFactors::add_lift_point_consequence(ChainBuilder& chain) const {
                 consequence->lift_point.clause);
 }
 
-void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
-                          const ComputedFactors& computed, int slings_on_hook,
-                          bool in_motion) const {
+void LoadFactors::add_load(ChainBuilder& chain, const LoadFacts& load) const {
   const auto when = [](const std::optional<double>& time) {
     return time ? fmt::format(" at {:.1f} s", *time) : std::string();
   };
   chain.add("largest load at rest", load.at_rest, facts_.rest_is_from,
             fmt::format("{}{}; in motion {}{}", load_text(load.at_rest), when(load.time_at_rest),
                         load_text(load.in_motion), when(load.time_in_motion)));
+}
+
+void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
+                          const ComputedFactors& computed, int slings_on_hook,
+                          bool in_motion) const {
+  add_load(chain, load);
   add_contingency(chain);
   add_centre(chain, computed);
   if (in_motion) {
@@ -257,6 +300,52 @@ void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
   add_tilt(chain, computed);
   add_yaw(chain, slings_on_hook);
   add_skew(chain, computed);
+}
+
+void LoadFactors::add_all_at_lug(ChainBuilder& chain, const LugPull& pull, bool in_motion) const {
+  if (pull.slings.size() < 2) {
+    const SlingPull alone = pull.slings.empty() ? SlingPull() : pull.slings.front();
+    add_all(chain, pull.load, alone.computed, alone.slings_on_hook, in_motion);
+    return;
+  }
+  FactorsAtLug by_standard(pull.slings), simulated(pull.slings);
+  const auto add_of_each = [&](const auto& factor_of) {
+    std::vector<double> standards, simulations;
+    std::optional<Factor> shown;
+    std::string each;
+    double most = 0;
+    for (const SlingPull& sling : pull.slings) {
+      const std::optional<Factor> factor = factor_of(sling);
+      standards.push_back(factor ? factor->standard.value_or(1) : 1);
+      simulations.push_back(factor ? factor->simulated.value_or(1) : 1);
+      if (!factor) continue;
+      const double larger = std::max(standards.back(), simulations.back());
+      each += fmt::format("{}{} {:.3f}", each.empty() ? "" : ", ", sling.sling, larger);
+      if (larger <= most) continue;
+      most = larger;
+      Factor worst = *factor;
+      worst.formula = fmt::format("{}: {}", sling.sling, factor->formula);
+      if (shown && !worst.standard) worst.standard = shown->standard;
+      if (shown && !worst.simulated) worst.simulated = shown->simulated;
+      shown = std::move(worst);
+    }
+    if (!shown) return;
+    const double standard = by_standard.grow(standards), computed = simulated.grow(simulations);
+    if (shown->standard) shown->standard = standard;
+    if (shown->simulated) shown->simulated = computed;
+    shown->formula = fmt::format("of the sum of {}; {}", each, shown->formula);
+    add(chain, std::move(shown));
+  };
+  add_load(chain, pull.load);
+  add_contingency(chain);
+  add_of_each([&](const SlingPull& sling) { return centre(sling.computed); });
+  if (in_motion) {
+    add_amplification(chain, pull.load.amplification, hoisting_speed());
+    add_resharing(chain, pull.load);
+  }
+  add_of_each([&](const SlingPull& sling) { return tilt(sling.computed); });
+  add_of_each([&](const SlingPull& sling) { return yaw(sling.slings_on_hook); });
+  add_of_each([&](const SlingPull& sling) { return skew(sling.computed); });
 }
 
 }  // namespace blocklift::pipeline

@@ -44,6 +44,11 @@ class LoadFactors {
   void add_all(ChainBuilder& chain, const LoadFacts& load, const ComputedFactors& computed,
                int slings_on_hook, bool in_motion = true) const;
 
+  /// All of them on what the slings at a lug bear together. Each sling has its own factors, and
+  /// bears anything between its load and that times them: the sum of the forces is that of the
+  /// worst of these sets.
+  void add_all_at_lug(ChainBuilder& chain, const LugPull& pull, bool in_motion = true) const;
+
   /// Amplification of the rules; 1 without. @param hoisting_speed where it depends on that, m/s.
   double amplification(double hoisting_speed) const;
   /// Weight with contingency, and rigging, N.
@@ -67,6 +72,8 @@ class LoadFactors {
   std::optional<Factor> centre(const ComputedFactors& computed) const;
   std::optional<Factor> tilt(const ComputedFactors& computed) const;
   std::optional<Factor> yaw(int slings_on_hook) const;
+  std::optional<Factor> skew(const ComputedFactors& computed) const;
+  void add_load(ChainBuilder& chain, const LoadFacts& load) const;
   std::vector<const SlingFacts*> slings_that_load(const StressFacts& stress) const;
   void add_largest(ChainBuilder& chain, const StressFacts& stress,
                    const std::function<std::optional<Factor>(const SlingFacts&)>& factor_of) const;

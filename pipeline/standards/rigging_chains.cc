@@ -308,7 +308,7 @@ Chain sling_chain(const LoadFactors& factors, const SlingFacts& sling) {
 }
 
 std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCase& shackle,
-                                  const SlingFacts& sling) {
+                                  const LugPull& pull) {
   const ShackleRules& rules = *factors.rules().shackle;
   const std::string& lug = shackle.name.value;
   const std::optional<ShackleSideLoad> side = side_load_of(factors, lug);
@@ -318,7 +318,7 @@ std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCas
     return share < 1 ? fmt::format("{:g} x {}", share, load_text(load)) : load_text(load);
   };
   ChainBuilder at_rest("shackle", lug + " at rest");
-  factors.add_all(at_rest, sling.load, sling.computed, sling.slings_on_hook, false);
+  factors.add_all_at_lug(at_rest, pull, false);
   at_rest.result("static sling load");
   const double working = shackle.working_load / rules.working.value;
   tell_side_load(at_rest, factors, side);
@@ -326,7 +326,7 @@ std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCas
                 rules.working.clause, share * working);
 
   ChainBuilder in_motion("shackle", lug);
-  factors.add_all(in_motion, sling.load, sling.computed, sling.slings_on_hook);
+  factors.add_all_at_lug(in_motion, pull);
   in_motion.result("dynamic sling load");
   const double amplification = factors.amplification(factors.hoisting_speed());
   const double by_working = working * amplification;

@@ -18,9 +18,9 @@ Chain crane_chain(const LoadFactors& factors, const CraneFacts& crane);
 /// Sling load against breaking load over the safety factor, whose parts are told.
 Chain sling_chain(const LoadFactors& factors, const SlingFacts& sling);
 
-/// A shackle at rest and in motion.
+/// A shackle at rest and in motion. It bears all slings that end at its lug.
 std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCase& shackle,
-                                  const SlingFacts& sling);
+                                  const LugPull& pull);
 
 /// A master link at rest and in motion: what hangs on its hook, against its working load. The load
 /// factor of its legs (load of the link over that of its most loaded leg) is told beside that of EN

@@ -124,9 +124,9 @@ StandardAssessment assess_standard(const StandardInCase& standard, const LiftFac
   for (const HookFacts& hook : facts.hooks) chains.push_back(hook_chain(factors, hook));
   for (const SlingFacts& sling : facts.slings) chains.push_back(sling_chain(factors, sling));
   for (const ShackleInCase& shackle : standard.shackles)
-    for (const SlingFacts& sling : facts.slings)
-      if (sling.lug == shackle.name.value)
-        for (Chain& chain : shackle_chains(factors, shackle, sling))
+    for (const LugPull& pull : facts.pulls)
+      if (pull.lug == shackle.name.value)
+        for (Chain& chain : shackle_chains(factors, shackle, pull))
           chains.push_back(std::move(chain));
   for (const MasterLinkInCase& link : standard.master_links)
     for (const HookFacts& hook : facts.hooks)

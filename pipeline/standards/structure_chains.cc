@@ -58,7 +58,7 @@ Vector3 along(const Vector3& direction, double size) {
 Chain lug_chain(const LoadFactors& factors, const LugFacts& lug) {
   const StandardRules& rules = factors.rules();
   ChainBuilder chain("lug", lug.name);
-  factors.add_all(chain, lug.load, lug.computed, lug.slings_on_hook);
+  factors.add_all_at_lug(chain, lug.pull);
   chain.result("lift point load");
   factors.add_lift_point_consequence(chain);
   PadeyeFormulaInput input = lug.input;

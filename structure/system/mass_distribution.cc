@@ -12,6 +12,33 @@
 
 namespace blocklift::structure {
 
+namespace {
+
+/// The density over that of the plates is alpha (1 + g . (x - centre of the plates)), and g follows
+/// from the way from there to the stated centre alone: more mass does not help, a shorter way does.
+/// @param worst where the density is least, below zero.
+[[noreturn]] void refuse_centre(const MassProperties& found, const Vector3& stated,
+                                const Vector3& worst) {
+  constexpr double margin = 0.99;  // on the way at which the density is zero there
+  const double share = margin / (1 - found.smallest_density_factor / found.factor_alpha);
+  const Vector3& steel = found.steel_centre_B;
+  const Vector3 possible = steel + share * (stated - steel);
+  throw ModelError(
+      fmt::format("no spread of outfitting over the plates, whose centre of mass is ({:.3f}, "
+                  "{:.3f}, {:.3f}) m, "
+                  "brings it to the stated ({:.3f}, {:.3f}, {:.3f}) m: the density would be "
+                  "negative at ({:.2f}, "
+                  "{:.2f}, {:.2f}) m, whatever mass is stated; on this way it may lie as far as "
+                  "({:.3f}, {:.3f}, "
+                  "{:.3f}) m. Mend the stated centre, or give what draws it there a place of its "
+                  "own: plates or "
+                  "beams that are as heavy, of a mesh also masses",
+                  steel.x(), steel.y(), steel.z(), stated.x(), stated.y(), stated.z(), worst.x(),
+                  worst.y(), worst.z(), possible.x(), possible.y(), possible.z()));
+}
+
+}  // namespace
+
 MassDistribution::MassDistribution(const Matter& matter) : nodes_(matter.space().nodes()) {
   matter.visit([&](const MatterPoint& point) { bits_.push_back({point.mass, point.place}); });
   bits_.shrink_to_fit();
@@ -43,15 +70,7 @@ MassProperties MassDistribution::with(const double* stated_mass,
     result.smallest_density_factor = std::min(result.smallest_density_factor, factor);
     result.largest_density_factor = std::max(result.largest_density_factor, factor);
   }
-  if (result.smallest_density_factor < 0)
-    throw ModelError(fmt::format(
-        "no spread of outfitting makes the stated mass {:.1f} t and centre of mass ({:.3f}, "
-        "{:.3f}, "
-        "{:.3f}) m out of the plates' {:.1f} t at ({:.3f}, {:.3f}, {:.3f}) m: the density would be "
-        "negative at ({:.2f}, {:.2f}, {:.2f}) m; move the stated centre towards the plates', or "
-        "state more mass",
-        mass / 1e3, centre.x(), centre.y(), centre.z(), steel.mass / 1e3, result.steel_centre_B.x(),
-        result.steel_centre_B.y(), result.steel_centre_B.z(), worst.x(), worst.y(), worst.z()));
+  if (result.smallest_density_factor < 0) refuse_centre(result, centre, worst);
   MassMoments all;
   for (const Bit& bit : bits_) all.add(bit.mass * result.density_factor(bit.place), bit.place);
   result.mass = all.mass;

@@ -39,6 +39,11 @@ expect(complaints_of({"pipeline/build/build.cc": '#include "dynamics/rope/road.h
        "pipeline/build/build.cc:1: error: includes \"dynamics/rope/road.h\", which is not a file")
 expect(complaints_of({"dynamics/rope/rope.h": "#include <deal.II/grid/tria.h>\n"}),
        "dynamics/rope/rope.h:1: error: includes <deal.II/grid/tria.h>, which is for structure")
+SOLVER = {"dynamics/simulation/equilibrium.h": "#pragma once\n",
+          "pipeline/lift/run.cc": '#include "dynamics/simulation/equilibrium.h"\n'}
+LIFT_ROOMS = ROOMS + "dynamics/simulation:\npipeline/lift: dynamics/simulation\n"
+expect(complaints_of(SOLVER, LIFT_ROOMS),
+       'pipeline/lift/run.cc:1: error: may not include "dynamics/simulation/equilibrium.h": a lift is brought')
 expect(complaints_of({"dynamics/attic/thing.h": "#pragma once\n"}),
        "dynamics/attic/thing.h:1: error: the room dynamics/attic does not stand in")
 expect(complaints_of({}, ROOMS.replace("dynamics:", "dynamics: pipeline/build")),

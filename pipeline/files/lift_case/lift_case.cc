@@ -9,6 +9,7 @@
 #include "pipeline/declaration/format_once.h"
 #include "pipeline/declaration/reading.h"
 #include "pipeline/files/lift_case/lift_case_check.h"
+#include "pipeline/files/lift_case/load_table_keys.h"
 #include "pipeline/files/lift_case/rope_points.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/atomic_file.h"
@@ -224,6 +225,7 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   load_models(lift_case, library, diagnostics);
   library.complain_about_unused_changes(diagnostics);
   if (document->root.IsMap()) {
+    if (lift_case.load_table) check_keys_beside_load_table(*document, diagnostics);
     resolve_points(lift_case, diagnostics);
     check_lift_case(lift_case, diagnostics);
   }

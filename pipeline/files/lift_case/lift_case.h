@@ -318,6 +318,7 @@ struct CheckSettings {
   std::optional<Located<double>> largest_falls_twist;
   // Of the lift's measures; absent: not checked.
   std::optional<double> largest_tilt;                 ///< of the load, rad
+  std::optional<double> largest_turn;                 ///< of the load about the plumb, rad
   std::optional<double> smallest_sling_angle;         ///< against the level, rad
   std::optional<Located<double>> largest_offlead;     ///< rad
   std::optional<Located<double>> largest_sidelead;    ///< rad

@@ -101,23 +101,17 @@ void check_spreader_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
 
 void check_comparison(const LiftCase& lift_case, Diagnostics& diagnostics) {
   if (!lift_case.compare) return;
-  std::vector<std::string> known = names_of(lift_case.ropes);
-  const bool by_lug = lift_case.load_table.has_value();
-  if (by_lug) known = names_of(lift_case.load_table->static_loads);
+  if (lift_case.load_table) return;
+  const std::vector<std::string> known = names_of(lift_case.ropes);
   const auto check = [&](const Located<std::string>& name) {
     if (std::find(known.begin(), known.end(), name.value) != known.end()) return;
-    diagnostics.error(name.mark,
-                      fmt::format("compare names {} \"{}\", which the case does not have",
-                                  by_lug ? "lug" : "rope", name.value),
-                      {names_hint(by_lug ? "the lugs of its load table are" : "its ropes are",
-                                  known, name.value)});
+    diagnostics.error(
+        name.mark,
+        fmt::format("compare names rope \"{}\", which the case does not have", name.value),
+        {names_hint("its ropes are", known, name.value)});
   };
   for (const auto& loads : lift_case.compare->ropes) check(loads.name);
   for (const auto& series : lift_case.compare->series) check(series.name);
-  if (by_lug && !lift_case.compare->series.empty()) {
-    diagnostics.error(lift_case.compare->series.front().name.mark,
-                      "a load table has no history that a measured series could be drawn over");
-  }
 }
 
 /// Every lug that the table names exists; static, dynamic and direction name the same ones.
@@ -151,29 +145,9 @@ void check_load_table(const LiftCase& lift_case, const LoadTable& table, Diagnos
   }
 }
 
-/// A case has cranes, ropes and an operation, or a load table; complains about what is missing or
-/// too much.
+/// A case has cranes, ropes and an operation, or a load table; complains about what is missing.
 void check_kind_of_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  if (lift_case.load_table) {
-    const auto refuse = [&](bool given, const char* key) {
-      if (!given) return;
-      diagnostics.error(lift_case.load_table->place,
-                        fmt::format("the case has a load table and {}", key),
-                        {"a load table stands in place of cranes, ropes, supports, wind and "
-                         "operation"});
-    };
-    refuse(!lift_case.cranes.empty(), "cranes");
-    refuse(!lift_case.ropes.empty(), "ropes");
-    refuse(!lift_case.spreaders.empty(), "spreaders");
-    refuse(!lift_case.supports.empty(), "supports");
-    refuse(lift_case.ground_contact.has_value(), "ground_contact");
-    refuse(lift_case.wind.has_value(), "wind");
-    refuse(lift_case.sea.has_value(), "a sea");
-    refuse(lift_case.load.vessel_name.has_value(), "a vessel as the load");
-    refuse(!lift_case.operation.empty(), "an operation");
-    refuse(lift_case.dynamics.flexibility != Flexibility::rigid, "a flexible block");
-    return;
-  }
+  if (lift_case.load_table) return;  // check_keys_beside_load_table says what is too much
   const auto require = [&](bool missing, const char* key) {
     if (!missing) return;
     diagnostics.error(lift_case.place, fmt::format("the lift case lacks the key \"{}\"", key),
@@ -343,7 +317,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_afloat(lift_case, diagnostics);
   check_ground(lift_case, diagnostics);
   check_flexibility(lift_case.dynamics, diagnostics);
-  check_limits_hold_something(lift_case, diagnostics);
+  if (!lift_case.load_table) check_limits_hold_something(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);
   check_standard(lift_case, diagnostics);

@@ -22,7 +22,7 @@ namespace {
 using dynamics::Sea;
 using dynamics::WaveField;
 
-WaveField make_waves(const MarineParts& parts, double gravity) {
+WaveField make_waves(const MarineParts& parts, double gravity, const SeaBand& band) {
   const dynamics::Water water = water_of(*parts.sea, gravity);
   const WavesInCase& waves = *parts.sea->waves;
   const dynamics::WaveRamp ramp{0.0, waves.ramp};
@@ -33,7 +33,6 @@ WaveField make_waves(const MarineParts& parts, double gravity) {
     }
     return WaveField(water, components, ramp);
   }
-  const SeaBand band = find_sea_band(parts, gravity);
   if (waves.spectrum) {
     const SpectrumInCase& s = *waves.spectrum;
     dynamics::SeaRealisation how;
@@ -51,7 +50,9 @@ WaveField make_waves(const MarineParts& parts, double gravity) {
   return realise(record, water);
 }
 
-dynamics::Current make_current(const CurrentInCase& current, const dynamics::Water& water) {
+dynamics::Current make_current(const SeaInCase& sea, const dynamics::Water& water) {
+  if (!sea.current) return {};
+  const CurrentInCase& current = *sea.current;
   switch (current.profile) {
     case CurrentProfile::tidal:
       return dynamics::Current::tidal(current.speed, current.towards, water.depth);
@@ -161,7 +162,7 @@ void check_sea(const MarineParts& parts, double gravity, Diagnostics& diagnostic
     check_frequencies(parts, diagnostics);
     const SeaBand band = find_sea_band(parts, gravity);
     if (!check_sea_band(band, mark, diagnostics)) return;
-    const Sea made = make_sea(parts, gravity);
+    const Sea made = make_sea(parts, gravity, band);
     require_not_breaking(made.waves);
     for (const VesselInCase& vessel : parts.vessels) {
       if (vessel.model) check_panels(vessel, made.waves, band, mark, diagnostics);
@@ -442,10 +443,15 @@ std::vector<PlacedHull> place_hulls(const MarineParts& parts) {
 }
 
 Sea make_sea(const MarineParts& parts, double gravity, bool at_rest) {
-  const SeaInCase& sea = *parts.sea;
-  const dynamics::Water water = water_of(sea, gravity);
-  return {sea.waves && !at_rest ? make_waves(parts, gravity) : WaveField(water),
-          sea.current ? make_current(*sea.current, water) : dynamics::Current()};
+  if (parts.sea->waves && !at_rest) return make_sea(parts, gravity, find_sea_band(parts, gravity));
+  const dynamics::Water water = water_of(*parts.sea, gravity);
+  return {WaveField(water), make_current(*parts.sea, water)};
+}
+
+Sea make_sea(const MarineParts& parts, double gravity, const SeaBand& band) {
+  const dynamics::Water water = water_of(*parts.sea, gravity);
+  return {parts.sea->waves ? make_waves(parts, gravity, band) : WaveField(water),
+          make_current(*parts.sea, water)};
 }
 
 }  // namespace blocklift::pipeline

@@ -42,6 +42,8 @@ struct SeaBand {
 /// distance.
 /// @throws dynamics::ModelError if the spectrum or record cannot be.
 SeaBand find_sea_band(const MarineParts& parts, double gravity);
+/// make_sea with its waves, where the band is known: to find it vessels may have to be floated.
+dynamics::Sea make_sea(const MarineParts& parts, double gravity, const SeaBand& band);
 
 /// What the sea is made of, with its significant height; empty if it is not irregular. The parts
 /// are sound.

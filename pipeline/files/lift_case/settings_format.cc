@@ -135,6 +135,9 @@ Format<CheckSettings> checks_format() {
                 "back most, at 180 deg they cross; 90 deg if left out")
       .optional("tilt", &CheckSettings::largest_tilt, quantity(Dimension::angle, Range::positive()),
                 "largest angle of the load's z axis against the plumb; not checked if left out")
+      .optional("turn", &CheckSettings::largest_turn, quantity(Dimension::angle, Range::positive()),
+                "largest turn of the load about the plumb, away from where it hangs at the start; "
+                "not checked if left out")
       .optional("sling_angle", &CheckSettings::smallest_sling_angle,
                 quantity(Dimension::angle, Range::not_negative()),
                 "smallest angle of a sling against the level; not checked if left out")

@@ -96,6 +96,12 @@ class StandardCheck {
                            fmt::format("a shackle is at lug \"{}\", which the load does not have",
                                        shackle.name.value),
                            {names_hint("its lugs are", lugs, shackle.name.value)});
+      else if (!is_pulled_at(shackle.name.value))
+        diagnostics_.error(
+            shackle.name.mark,
+            fmt::format("a shackle is at lug {}, at which {}", shackle.name.value,
+                        case_.load_table ? "the load table has no load" : "no rope ends"),
+            {"nothing would be held against it: leave it out"});
       breaks_above_working_load(shackle, "the shackle at lug");
     }
   }
@@ -129,6 +135,14 @@ class StandardCheck {
             {names_hint("its slings are", slings, sheave.name.value)});
       breaks_above_working_load(sheave, "the sheave of rope");
     }
+  }
+
+  bool is_pulled_at(const std::string& lug) const {
+    if (case_.load_table) return find_by_name(case_.load_table->static_loads, lug) != nullptr;
+    // Ropes whose points could not be found have been complained of.
+    return std::any_of(case_.ropes.begin(), case_.ropes.end(), [&](const RopeInCase& rope) {
+      return rope.path.empty() || rope.path.front().lug == lug || rope.path.back().lug == lug;
+    });
   }
 
   template <class Item>

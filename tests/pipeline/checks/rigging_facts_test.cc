@@ -186,5 +186,40 @@ TEST(RiggingFacts, TakeSlingsAboveASpreader) {
   EXPECT_EQ(facts.hooks[0].rigging, 0);
 }
 
+// Two slings side by side from hook to lug: the lug bears both, half of the weight.
+TEST(RiggingFacts, ALugBearsAllSlingsThatEndAtIt) {
+  const test::TemporaryFolder folder;
+  test::SampleLift lift;
+  lift.lift_case = test::with(
+      lift.lift_case, "  R2: {from",
+      "  R3: {from: C1.left, to: L1, length: 2 m, model: {axial_stiffness: 20 MN, breaking_load: "
+      "1000 kN}}\n  R2: {from");
+  lift.lift_case = test::with(lift.lift_case, "settle: 10 s", "settle: 0 s");
+  lift.write(folder);
+  LiftCase lift_case = read_lift_case("case.yaml");
+  lift_case.standard.emplace();
+  LiftRun run = run_below_spreader(lift_case, 0);
+  const double half_weight = 5e3 * lift_case.gravity;
+  const Assessment assessment{std::move(lift_case), std::move(run), {}, {}, {}, {}, 0};
+  const LiftFacts facts = gather_facts(assessment);
+  ASSERT_EQ(facts.pulls.size(), 2U);
+  const LugPull& pull = facts.pulls[0];
+  EXPECT_EQ(pull.lug, "L1");
+  ASSERT_EQ(pull.slings.size(), 2U);
+  EXPECT_EQ(pull.slings[0].sling, "R1");
+  EXPECT_EQ(pull.slings[1].sling, "R3");
+  EXPECT_NEAR(pull.load.at_rest, half_weight, 5e-3 * half_weight);
+  const structure::Vector3 sum = pull.slings[0].force + pull.slings[1].force;
+  EXPECT_NEAR(sum.norm(), pull.load.at_rest, 1e-9 * half_weight);
+  EXPECT_GT(sum.z(), 0.99 * half_weight);
+  // The stiffer one bears ten times as much as the other, and less than the lug.
+  EXPECT_NEAR(pull.slings[0].force.norm(), half_weight * 10 / 11, 0.01 * half_weight);
+  EXPECT_NEAR(pull.load.in_motion,
+              pull.load.at_rest * pull.load.amplification * pull.load.resharing,
+              1e-6 * half_weight);
+  EXPECT_EQ(facts.pulls[1].lug, "L2");
+  EXPECT_EQ(facts.pulls[1].load.at_rest, facts.slings[2].load.at_rest);
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

@@ -165,6 +165,16 @@ radii_of_gyration: [6 m, 11 m, 11 m]
   std::string out_;
 };
 
+// As of a mechanism, what is left of the sea is said, and kept with the results.
+TEST_F(LoweredBoat, SaysWhatIsLeftOfAnIrregularSea) {
+  const nlohmann::json summary =
+      simulate(with(boat_lift, "regular: {amplitude: 0.1 m, frequency: 0.8 rad/s, heading: 30 deg}",
+                    "spectrum: {significant_height: 0.2 m, peak_period: 8 s}"));
+  EXPECT_THAT(out_, HasSubstr("The irregular sea has waves of 0.7 to 1 rad/s"));
+  ASSERT_EQ(summary["assumptions"].size(), 1U);
+  EXPECT_THAT(summary["assumptions"][0].get<std::string>(), HasSubstr("of the spectrum"));
+}
+
 // One database of the pontoon alone and one for each draught, computed once. The boat is put into
 // the water 4 m from where they are for, which is said.
 TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {

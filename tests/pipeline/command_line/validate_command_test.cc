@@ -48,6 +48,36 @@ TEST(ValidateCommand, SaysWhatIsInASoundFile) {
             "gantry/ropes/tackle.yaml: valid, rope\n");
 }
 
+// The plate weighs 10 t.
+TEST(ValidateCommand, WeighsALoadTable) {
+  const auto validate_table = [](const std::string& direction, const std::string& loads) {
+    const TemporaryFolder folder;
+    SampleLift lift;
+    lift.lift_case =
+        with(with(test::sample_load_table_case, "direction: [0, 0, 2]", "direction: " + direction),
+             "static: {L1: 5 t, L2: 50 kN}", "static: " + loads);
+    lift.write(folder);
+    return run_blocklift("validate .");
+  };
+  const Outcome sound = validate_table("[0, 0, 1]", "{L1: 5 t, L2: 5 t}");
+  EXPECT_EQ(sound.exit_code, 0) << sound.err;
+  EXPECT_EQ(sound.out.find("warning"), std::string::npos) << sound.out;
+  const Outcome heavy = validate_table("[0, 0, 1]", "{L1: 7 t, L2: 7 t}");
+  EXPECT_EQ(heavy.exit_code, 0) << heavy.err;
+  EXPECT_NE(heavy.out.find("warning: The loads of the table at rest sum to 14 t, 40.0 % more than "
+                           "the weight of the block, 10 t"),
+            std::string::npos)
+      << heavy.out;
+  const Outcome beside = validate_table("[0, 0, 1]", "{L1: 2 t, L2: 8 t}");
+  EXPECT_NE(beside.out.find("warning: The loads of the table at rest pull 1.2 m beside the centre "
+                            "of mass"),
+            std::string::npos)
+      << beside.out;
+  const Outcome down = validate_table("[0, 0, -1]", "{L1: 5 t, L2: 5 t}");
+  EXPECT_EQ(down.exit_code, 2);
+  EXPECT_NE(down.err.find("they press the block down at its lugs"), std::string::npos) << down.err;
+}
+
 TEST(ValidateCommand, WarnsOfDoubtfulValues) {
   const TemporaryFolder folder;
   SampleLift lift;

@@ -7,9 +7,12 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "dynamics/errors.h"
 #include "pipeline/assessment/assess.h"
+#include "pipeline/lift/parallel_baskets.h"
 #include "pipeline/lift/sling_ends.h"
 #include "pipeline/measures/measure.h"
 #include "tests/pipeline/lift/over_edges.h"
@@ -18,6 +21,7 @@ namespace blocklift::pipeline {
 namespace {
 
 using test::OverEdges;
+using ::testing::HasSubstr;
 
 constexpr double EA = 200e6, weight = 10e3 * 9.81;
 
@@ -104,6 +108,50 @@ TEST(Basket, LoadsTheBlock) {
   for (const LoadComparison& loads : block.assessment.simultaneous_by_rope)
     EXPECT_LT(loads.dynamic_state.result.balance.reaction_over_weight, 1e-7);
   EXPECT_GT(block.history->dynamic_state.checked_von_mises.at.value, 1e6);
+}
+
+// Both baskets round the same two edges, and the centre of mass 0.1 m along these beside the hook.
+test::SampleLift parallel_baskets() {
+  test::SampleLift lift = test::basket_lift();
+  lift.lift_case =
+      test::with(lift.lift_case, "over: [port, starboard], model: ropes/tackle, length: 10.24 m",
+                 "over: [aft, fore], model: ropes/tackle, length: 12.94 m");
+  lift.block = test::with(lift.block, "[2 m, 0 m, 0.5 m]", "[2 m, 0.1 m, 0.5 m]");
+  return lift;
+}
+
+TEST(Basket, ParallelOnesDoNotHoldALoadAlongTheirEdges) {
+  const test::TemporaryFolder folder;
+  parallel_baskets().write(folder);
+  const std::string doubt = doubt_about_baskets(read_lift_case("."));
+  EXPECT_THAT(doubt,
+              HasSubstr("Nothing holds the load along its edges aft, fore: they run the same "
+                        "way, and baskets R1, R2 over them are all that carries it."));
+  try {
+    const OverEdges lift(parallel_baskets());
+    FAIL() << "the load hangs in baskets that slide";
+  } catch (const dynamics::SimulationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no static equilibrium was found"));
+    EXPECT_THAT(error.what(), HasSubstr(doubt));
+  }
+}
+
+TEST(Basket, NothingIsDoubtedWhereALoadIsHeldAlongItsEdges) {
+  const auto doubt_of = [](const test::SampleLift& lift) {
+    const test::TemporaryFolder folder;
+    lift.write(folder);
+    return doubt_about_baskets(read_lift_case("."));
+  };
+  EXPECT_EQ(doubt_of(test::basket_lift()), "");
+  test::SampleLift with_lug = parallel_baskets();
+  with_lug.lift_case =
+      test::with(with_lug.lift_case, "operation:",
+                 "  R3: {from: C1.right, to: L1, model: ropes/tackle, length: 3 m}\n"
+                 "operation:");
+  EXPECT_EQ(doubt_of(with_lug), "");
+  test::SampleLift on_pads = parallel_baskets();
+  on_pads.lift_case += "supports: {pad: {point: [2 m, 0 m, 0 m], stiffness: 100 MN/m}}\n";
+  EXPECT_EQ(doubt_of(on_pads), "");
 }
 
 }  // namespace

@@ -372,7 +372,8 @@ TEST(StageLoads, HoldTheWholeLiftsMaxima) {
 
 TEST(MeasureChecks, NameTheWorstOfEachKind) {
   const WatchedLift lift = watch(
-      "{tilt: 1 deg, sling_angle: 60 deg, offlead: 0.1 deg, sidelead: 10 deg, clearance: 2.5 m}");
+      "{tilt: 1 deg, turn: 0.001 deg, sling_angle: 60 deg, offlead: 0.1 deg, sidelead: 10 deg, "
+      "clearance: 2.5 m}");
   const std::vector<Check> checks = check_measures(lift.lift_case, lift.run, lift.measures);
   const auto check = [&](const std::string& beginning) -> const Check& {
     for (const Check& one : checks)
@@ -380,6 +381,10 @@ TEST(MeasureChecks, NameTheWorstOfEachKind) {
     throw std::out_of_range(beginning);
   };
   EXPECT_TRUE(check("tilt").pass);
+  // In motion, as at rest: whichever is further.
+  const double turn = std::abs(find_peak(lift.run, lift.measure("load: turn")).value);
+  EXPECT_DOUBLE_EQ(check("turn").demand, turn);
+  EXPECT_EQ(check("turn").pass, turn <= 0.001 * std::acos(-1.0) / 180);
   EXPECT_TRUE(check("angle of slings").pass);
   EXPECT_FALSE(check("offlead").pass);
   EXPECT_TRUE(check("sidelead").pass);

@@ -473,6 +473,25 @@ TEST_F(DoubtsOfALift, MaterialAndMass) {
   EXPECT_EQ(list_doubts(lift_case_).size(), 1u);  // without a run
 }
 
+// As if the load hung on one hook, turned by 40 degrees at one instant.
+TEST_F(DoubtsOfALift, TurnOfALoadThatNothingHolds) {
+  LiftRun& lift = *assessment_.lift;
+  const auto load = static_cast<std::size_t>(lift.model.load) - 1;
+  auto& pose = lift.dynamic_result.history.bodies[load].pose;
+  const auto before = pose;
+  const double half = 20 * std::acos(-1.0) / 180;
+  const Eigen::Matrix3d R = lift.static_history.bodies[load].X_WB(0).R;
+  const Eigen::Quaterniond turned =
+      Eigen::Quaterniond(std::cos(half), 0, 0, std::sin(half)) * Eigen::Quaterniond(R);
+  pose.row(5).tail(4) << turned.w(), turned.x(), turned.y(), turned.z();
+  EXPECT_EQ(doubts(), "");  // two hooks hold it
+  lift.model.held_heading = dynamics::HeldHeading();
+  EXPECT_THAT(doubts(), ::testing::HasSubstr("The load turns by 40 deg about the plumb, at "));
+  pose = before;
+  EXPECT_EQ(doubts(), "");
+  lift.model.held_heading.reset();
+}
+
 TEST_F(DoubtsOfALift, RopesBeyondTheirStrengthAndLoadInTheGround) {
   LiftRun& lift = *assessment_.lift;
   const double strength = std::exchange(lift.model.ropes.front().breaking_load, 1e3);

@@ -61,10 +61,12 @@ LiftFacts facts_of_r1() {
   sling.load = {400e3, 460e3, 10, 12, 1.04, 460.0 / 400 / 1.04};
   sling.slings_on_hook = 2;
   facts.slings.push_back(sling);
+  facts.pulls.push_back({"L1", sling.load, {{"R1", {}, 2, {0, 0, 400e3}}}});
   return facts;
 }
 
 const SlingDemand r1{"R1", "L1", 400e3, 460e3};
+const ShackleDemand at_l1{"L1", 400e3};
 
 // 460 kN x 5 = 2,300 kN; 400 kN in line asks for a working load of 400 kN, which 2,000 kN have.
 TEST(SlingChoiceTest, ByTheFactorOnTheLargestTension) {
@@ -165,7 +167,7 @@ TEST(SlingChoiceTest, PassesOverWhatIsBentTooSharply) {
 // 400 kN are 40.8 t.
 TEST(ShackleChoiceTest, ByItsWorkingLoad) {
   const Stock stock = stock_of({1900}, {35, 42, 55});
-  const ChosenShackle chosen = choose_shackle(stock, case_with_factor(5), {}, r1);
+  const ChosenShackle chosen = choose_shackle(stock, case_with_factor(5), {}, at_l1);
   ASSERT_TRUE(chosen.pass());
   EXPECT_EQ(stock.shackles[*chosen.index].name(), "b42");
   EXPECT_NEAR(governing_check(chosen.checks)->utilisation, 400e3 / (42e3 * 9.80665), 1e-12);
@@ -176,7 +178,7 @@ TEST(ShackleChoiceTest, ByItsWorkingLoad) {
 // the first, so that 67.57 t are needed.
 TEST(ShackleChoiceTest, ByTheChainsOfAStandard) {
   const Stock stock = stock_of({1900}, {55, 65, 70, 85});
-  const ChosenShackle chosen = choose_shackle(stock, case_by_nd_0027(), facts_of_r1(), r1);
+  const ChosenShackle chosen = choose_shackle(stock, case_by_nd_0027(), facts_of_r1(), at_l1);
   ASSERT_TRUE(chosen.pass());
   EXPECT_EQ(stock.shackles[*chosen.index].name(), "b70");
   const Check& governing = *governing_check(chosen.checks);
@@ -186,10 +188,10 @@ TEST(ShackleChoiceTest, ByTheChainsOfAStandard) {
 
 TEST(ShackleChoiceTest, SaysWhereNonePasses) {
   const ChosenShackle chosen =
-      choose_shackle(stock_of({1900}, {10, 20}), case_with_factor(5), {}, r1);
+      choose_shackle(stock_of({1900}, {10, 20}), case_with_factor(5), {}, at_l1);
   EXPECT_FALSE(chosen.pass());
   EXPECT_EQ(chosen.index, 1U);
-  EXPECT_FALSE(choose_shackle(stock_of({1900}), case_with_factor(5), {}, r1).index);
+  EXPECT_FALSE(choose_shackle(stock_of({1900}), case_with_factor(5), {}, at_l1).index);
 }
 
 }  // namespace

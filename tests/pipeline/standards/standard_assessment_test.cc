@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,6 +46,7 @@ LiftFacts two_slings() {
   sling.termination = "resin_socket";
   sling.slings_on_hook = 2;
   facts.slings.push_back(sling);
+  facts.pulls.push_back({"L1", sling.load, {{"R1", {}, 2, {0, 0, 400e3}}}});
   HookFacts hook;
   hook.name = "C1.main";
   hook.crane = "C1";
@@ -169,6 +171,81 @@ TEST(StandardAssessment, HoldsShacklesAgainstStaticAndDynamicLoad) {
   EXPECT_NEAR(*chain_of(result, "shackle L1").limit, 682.5e3, 1e-6);
 }
 
+const ChainStep& step_of(const Chain& chain, const std::string& name) {
+  const auto found = std::find_if(chain.steps.begin(), chain.steps.end(),
+                                  [&](const ChainStep& step) { return step.name == name; });
+  if (found == chain.steps.end()) throw std::out_of_range(name);
+  return *found;
+}
+
+/// Two slings at L1 whose forces of 300 and 400 kN meet at a right angle: 500 kN.
+LiftFacts two_slings_at_a_lug(const ComputedFactors& first, const ComputedFactors& second) {
+  LiftFacts facts = two_slings();
+  facts.pulls = {{"L1",
+                  {500e3, 550e3, 10, 12, 1.04, 1.1 / 1.04},
+                  {{"R1", first, 2, {0, 300e3, 0}}, {"R2", second, 2, {0, 0, 400e3}}}}};
+  return facts;
+}
+
+ComputedFactors with_skew(double skew) {
+  ComputedFactors factors;
+  factors.skew = skew;
+  return factors;
+}
+
+StandardInCase with_shackle_at_l1() {
+  StandardInCase standard = by_nd_0027();
+  ShackleInCase shackle;
+  shackle.name = called("L1");
+  shackle.working_load = 1000e3;
+  shackle.breaking_load = 5000e3;
+  standard.shackles.push_back(shackle);
+  return standard;
+}
+
+// 500 kN x 1.10 x 1.10 x 1.25 = 756.25 kN at rest by the standard, whose skew is the same for both.
+// Computed skew of 1.1 and 1.5: sqrt((1.1 x 300)^2 + (1.5 x 400)^2) = 684.763 kN, x 1.10 x 1.10.
+TEST(StandardAssessment, SumsTheSlingsOfALugWithTheirOwnFactors) {
+  const StandardAssessment result =
+      assess_standard(with_shackle_at_l1(), two_slings_at_a_lug(with_skew(1.1), with_skew(1.5)));
+  EXPECT_EQ(std::count_if(result.chains.begin(), result.chains.end(),
+                          [](const Chain& chain) { return chain.kind == "shackle"; }),
+            2);
+  const Chain& at_rest = chain_of(result, "shackle L1 at rest");
+  EXPECT_NEAR(at_rest.standard, 756.25e3, 1e-6);
+  EXPECT_NEAR(at_rest.simulated, 1.21 * std::hypot(330e3, 600e3), 1e-6);
+  const ChainStep& skew = step_of(at_rest, "skew of sling lengths");
+  EXPECT_NEAR(*skew.simulated, std::hypot(330.0, 600.0) / 500, 1e-12);
+  EXPECT_THAT(skew.formula, HasSubstr("of the sum of R1 1.250, R2 1.500; R2: computed"));
+  const Chain& in_motion = chain_of(result, "shackle L1");
+  EXPECT_NEAR(in_motion.standard, 1.05 * 756.25e3, 1e-6);
+  EXPECT_NEAR(in_motion.simulated, 1.1 * 1.21 * std::hypot(330e3, 600e3), 1e-6);
+}
+
+// The order in which the case names them does not matter, nor does one sling that bears nothing.
+TEST(StandardAssessment, TakesAllSlingsOfALugAlike) {
+  const StandardInCase standard = with_shackle_at_l1();
+  LiftFacts facts = two_slings_at_a_lug(with_skew(1.1), with_skew(1.5));
+  const double sum = chain_of(assess_standard(standard, facts), "shackle L1").simulated;
+  std::swap(facts.pulls[0].slings[0], facts.pulls[0].slings[1]);
+  EXPECT_NEAR(chain_of(assess_standard(standard, facts), "shackle L1").simulated, sum, 1e-6);
+  facts.pulls[0].slings.push_back({"R3", with_skew(9), 2, {0, 0, 0}});
+  EXPECT_NEAR(chain_of(assess_standard(standard, facts), "shackle L1").simulated, sum, 1e-6);
+}
+
+// A sling that pulls down by 100 kN at a lug that hangs on 600 kN eases it: that it bears 3 times
+// as much is no help. The other bears 1.1 (centre) x 1.2 (skew) times as much: 792 - 100 kN, and
+// 1.1 times that by the weight.
+TEST(StandardAssessment, DoesNotCountOnASlingThatEasesTheLug) {
+  StandardInCase standard = with_shackle_at_l1();
+  standard.skew.reset();
+  LiftFacts facts = two_slings_at_a_lug(with_skew(1.2), with_skew(3));
+  facts.pulls[0].slings[0].force = {0, 0, 600e3};
+  facts.pulls[0].slings[1].force = {0, 0, -100e3};
+  EXPECT_NEAR(chain_of(assess_standard(standard, facts), "shackle L1 at rest").simulated,
+              1.1 * 692e3, 1e-6);
+}
+
 /// The two slings with both legs at the hook, 35 degrees to the plumb.
 LiftFacts two_legs() {
   LiftFacts facts = two_slings();
@@ -182,13 +259,6 @@ LiftFacts two_legs() {
     sling.angle = 0.6;
   }
   return facts;
-}
-
-const ChainStep& step_of(const Chain& chain, const std::string& name) {
-  const auto found = std::find_if(chain.steps.begin(), chain.steps.end(),
-                                  [&](const ChainStep& step) { return step.name == name; });
-  if (found == chain.steps.end()) throw std::out_of_range(name);
-  return *found;
 }
 
 // (1,030 - 30) x 1.1 x 1.1 + 20 = 1,230 kN of 1,300 at rest; x 1.05 = 1,291.5 by the standard and
@@ -462,7 +532,7 @@ TEST(StandardAssessment, HoldsALugByTheFormulaeThatTheRulesName) {
                         0,          8 * inch,    8 * inch, 8 * inch};
   lug.input.material.yield_stress = 36 * ksi;
   lug.input.tensile_strength = 58 * ksi;
-  lug.load = {70 * kip, 80 * kip, 0, 0, 1, 8.0 / 7};
+  lug.pull.load = {70 * kip, 80 * kip, 0, 0, 1, 8.0 / 7};
   lug.at_rest = lug.in_motion = {0, 70 * kip, 0};
   facts.lugs.push_back(lug);
   const StandardAssessment result = assess_standard(standard, facts);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -158,6 +159,25 @@ TEST(MassDistribution, GivesAnyStatedMassWithoutTheElements) {
   EXPECT_EQ(distribution.with(nullptr, nullptr).inertia_BBcm_B, of_steel.inertia_BBcm_B);
   const Vector3 far(40, 1, 0.4);
   EXPECT_THROW(distribution.with(&stated, &far), ModelError);
+}
+
+// Along a plate of the length l the density is 1 + 12 d (x - l / 2) / l^2 of the mean for a centre
+// d beside the middle: it is zero at an end for d = l / 6, 0.5 m here, whatever the mass.
+TEST(MassDistribution, SaysHowFarTheCentreMayBeStatedWhateverTheMass) {
+  const Mesh mesh = plate(0);
+  const MassDistribution distribution{Matter(Space(mesh, {2, {}}))};
+  const Vector3 too_far(2.4, 1, 0.4), possible(1.995, 1, 0.4);
+  for (const double stated : {1e3, 1e6}) {
+    EXPECT_GT(distribution.with(&stated, &possible).smallest_density_factor, 0);
+    try {
+      distribution.with(&stated, &too_far);
+      FAIL() << "the density would be negative";
+    } catch (const ModelError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("may lie as far as (1.995, 1.000, 0.400) m"), std::string::npos) << text;
+      EXPECT_EQ(text.find("more mass"), std::string::npos) << text;
+    }
+  }
 }
 
 // d'Alembert: the loads' resultant is that of the whole mass as one rigid body,

@@ -517,20 +517,6 @@ TEST(LiftCaseErrors, NothingHangsWithoutGravity) {
   EXPECT_NE(complaints_about(lift).find("case.yaml:2:10: error: gravity"), std::string::npos);
 }
 
-TEST(LiftCaseErrors, LoadTableThatDoesNotFit) {
-  SampleLift lift;
-  lift.lift_case = with(test::sample_load_table_case, "dynamic: {L1: 6 t, L2: 6 t}",
-                        "dynamic: {L1: 6 t, L3: 6 t}\ncranes: {C1: {model: gantry, start: {}}}");
-  EXPECT_EQ(
-      complaints_about(lift),
-      "case.yaml:4:3: error: the case has a load table and cranes\n"
-      "    a load table stands in place of cranes, ropes, supports, wind and operation\n"
-      "case.yaml:5:21: error: lug L2 is missing under dynamic of the load table\n"
-      "case.yaml:6:22: error: the load table names lug \"L3\", which block plate does not have\n"
-      "    its lugs are L1, L2; did you mean \"L1\"?\n"
-      "3 errors\n");
-}
-
 TEST(LiftCaseErrors, CaseWithoutAnything) {
   SampleLift lift;
   lift.lift_case = "title: nothing\n";

@@ -167,5 +167,33 @@ TEST(StandardInCaseTest, LooksAtShacklesAndBends) {
               HasSubstr("the model of rope R1 has no diameter"));
 }
 
+// A load table has loads at lugs: rules on hooks, slings and motion would hold nothing.
+TEST(StandardInCaseTest, RefusesWhatALoadTableDoesNotHave) {
+  SampleLift lift;
+  lift.lift_case = test::sample_load_table_case;
+  const std::string begin =
+      "{rules: nd-0027, weight_class: weighed, setting: onshore, "
+      "skew: determinate";
+  const std::string shackle = ": {working_load: 5 t, breaking_load: 30 t}}";
+  EXPECT_EQ(complaints_about_standard(begin + ", shackles: {L1" + shackle + "}", lift), "");
+  for (const char* key : {"tilt: same_vessel", "centre_box: [1 m, 1 m, 1 m]",
+                          "length_tolerance: 0.2 %", "wear: inspected", "bend_diameter: 0.3 m"}) {
+    SCOPED_TRACE(key);
+    EXPECT_THAT(complaints_about_standard(begin + ", " + key + "}", lift),
+                HasSubstr("and the case has a load table"));
+  }
+  EXPECT_THAT(complaints_about_standard("{rules: en-13001, hoisting_class: HC2}", lift),
+              HasSubstr("its factor grows with the hoisting speed"));
+}
+
+TEST(StandardInCaseTest, RefusesAShackleAtWhichNothingPulls) {
+  SampleLift lift;
+  lift.lift_case = test::with(lift.lift_case, "to: L2", "to: L1");
+  EXPECT_THAT(complaints_about_standard("{rules: nd-0027, shackles: {L2: {working_load: 5 t, "
+                                        "breaking_load: 30 t}}}",
+                                        lift),
+              HasSubstr("a shackle is at lug L2, at which no rope ends"));
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline
