@@ -136,7 +136,7 @@ template <class Values, class Square>
 requires std::is_same_v<std::remove_const_t<Square>, structure::Square>
 void pass(Values& values, Square& square) {
   values(square.centre_B, square.e_1, square.e_2, square.size, square.region, square.shell,
-         square.site);
+         square.site, square.is_near_singularity);
 }
 
 template <class Values, class Refinement>

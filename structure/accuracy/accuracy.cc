@@ -83,7 +83,7 @@ std::vector<Square> candidates(const RefinementState& found) {
   const Eigen::VectorXd share = share_of(found);
   std::vector<Square> result;
   for (std::size_t s = 0; s < found.squares.size(); ++s)
-    if (share[s] >= (found.squares[s].at_corner() ? looked_at_in_corners : looked_at))
+    if (share[s] >= (found.squares[s].is_near_singularity ? looked_at_in_corners : looked_at))
       result.push_back(found.squares[s]);
   return result;
 }
@@ -101,7 +101,7 @@ std::vector<Vector3> centres_of(const RefinementState& found, double corners) {
   for (const int s : order) {
     if (share[s] < corners || centres.size() >= most_centres) break;
     const Square& square = found.squares[s];
-    if (share[s] < refined_at && !square.at_corner()) continue;
+    if (share[s] < refined_at && !square.is_near_singularity) continue;
     const auto is_near = [&](const Vector3& centre) {
       return (centre - square.centre_B).norm() < 2 * square.size;
     };

@@ -260,13 +260,18 @@ class SiteMarker {
     PlaceGrid all(reach);
     for (std::size_t s = 0; s < squares_.size(); ++s)
       all.add(squares_[s].centre_B, static_cast<int>(s));
-    const auto mark = [&](int from, int to) {
+    const auto near = [&](int from, int to, const auto& mark) {
       visit_near(all, mesh_.vertices[from], mesh_.vertices[to], reach, [&](int s, double distance) {
-        if (distance <= reach) squares_[s].site = SquareSite::corner;
+        if (distance <= reach) mark(squares_[s]);
       });
     };
-    for (const int vertex : fields_.singular_vertices) mark(vertex, vertex);
-    for (const auto& [from, to] : fields_.lug_roots) mark(from, to);
+    for (const auto& [from, to] : fields_.lug_roots)
+      near(from, to, [](Square& square) { square.site = SquareSite::corner; });
+    for (const int vertex : fields_.singular_vertices)
+      near(vertex, vertex, [](Square& square) {
+        square.site = SquareSite::corner;
+        square.is_near_singularity = true;
+      });
     mark_welds();
   }
 

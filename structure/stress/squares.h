@@ -18,6 +18,9 @@ struct Square {
   int region = 0;                                        ///< place in Mesh::regions
   int shell = 0;                                         ///< place in Mesh::shells
   SquareSite site = SquareSite::field;
+  /// Near a vertex where linear elasticity knows no limit of the stress. Else it is a lug's root
+  /// that makes a corner.
+  bool is_near_singularity = false;
 
   bool at_corner() const { return site != SquareSite::field; }
 };

@@ -392,5 +392,32 @@ TEST(SquareSites, AreToldApartAtAnInnerCorner) {
   }
 }
 
+// A lug on the edge of a plate from its corner (0, 0) to (0.5, 0): the toe within the edge has no
+// limit of the stress, the root as a whole makes a corner.
+TEST(SquareSites, AreCornersAlongALugsRoot) {
+  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  testing::add_sheet(
+      mesh, [](double s, double t) { return Vector3(2 * s, t, 0); }, 4, 2);
+  const auto plates = static_cast<std::ptrdiff_t>(mesh.shells.size());
+  testing::add_sheet(
+      mesh, [](double s, double t) { return Vector3(0.5 * s, 0, 0.3 * t); }, 1, 1);
+  mesh.regions.push_back({"L1", 0, true});
+  const int lug = static_cast<int>(mesh.regions.size()) - 1;
+  for (auto shell = mesh.shells.begin() + plates; shell != mesh.shells.end(); ++shell)
+    shell->region = lug;
+  const PlateFields fields = find_fields(mesh);
+  const Vector3 toe(0.5, 0, 0);
+  int at_root = 0;
+  for (const Square& square : place_squares(mesh, fields, FieldWalker(mesh, fields), 0.05)) {
+    if (square.region == lug) continue;
+    const Vector3 from_root(std::max(square.centre_B.x() - 0.5, 0.0), square.centre_B.y(), 0);
+    EXPECT_EQ(square.at_corner(), from_root.norm() <= 0.15) << square.centre_B.transpose();
+    EXPECT_EQ(square.is_near_singularity, (square.centre_B - toe).norm() <= 0.15)
+        << square.centre_B.transpose();
+    if (square.at_corner() && !square.is_near_singularity) ++at_root;
+  }
+  EXPECT_GE(at_root, 4);
+}
+
 }  // namespace
 }  // namespace blocklift::structure
