@@ -107,7 +107,8 @@ namespace {
 using Say = std::function<void(const std::string&)>;
 
 void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
-  for (const std::string& doubt : {doubt_about_panels(database), doubt_about_runs(database)}) {
+  for (const std::string& doubt : {doubt_about_panels(database), doubt_about_excitation(database),
+                                   doubt_about_runs(database)}) {
     if (!doubt.empty()) say("warning: " + doubt);
   }
 }

@@ -18,7 +18,7 @@
 ///     reference_points      [N, 3], and where known centres_of_buoyancy, centres_of_mass
 ///     displaced_volumes     [N]
 ///     hydrostatic_stiffness [6N, 6N], where known
-///     change_from_coarser, cut_off_by_end   [6N], where known
+///     change_from_coarser, excitation_change_from_coarser, cut_off_by_end   [6N], where known
 ///     infinite_added_mass   [6N, 6N]
 ///     added_mass, damping   [F, 6N, 6N]
 ///     retardation           [T, 6N, 6N], attribute time_step

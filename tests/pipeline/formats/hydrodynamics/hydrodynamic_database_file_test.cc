@@ -43,6 +43,7 @@ void expect_same(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b) {
   EXPECT_EQ(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
   EXPECT_EQ(a.infinite_added_mass, b.infinite_added_mass);
   EXPECT_EQ(a.change_from_coarser, b.change_from_coarser);
+  EXPECT_EQ(a.excitation_change_from_coarser, b.excitation_change_from_coarser);
   EXPECT_EQ(a.cut_off_by_end, b.cut_off_by_end);
   EXPECT_EQ(a.time_step, b.time_step);
   EXPECT_EQ(a.retardation, b.retardation);
@@ -75,6 +76,7 @@ TEST(HydrodynamicDatabaseFile, ReadsExactlyWhatWasWritten) {
   const test::TemporaryFolder folder;
   HydrodynamicDatabase database = make_sample_database();
   database.change_from_coarser = Eigen::VectorXd::LinSpaced(database.mode_count(), 0.01, 0.3);
+  database.excitation_change_from_coarser = 2.0 * database.change_from_coarser;
   database.cut_off_by_end = 0.1 * database.change_from_coarser;
   write_hydrodynamic_database("db.h5", database, "0123", "made up");
   expect_same(read_hydrodynamic_database("db.h5"), database);
