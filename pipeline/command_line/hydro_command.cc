@@ -191,11 +191,13 @@ WamitBody body_at(const std::string& text) {
 }
 
 /// Where WAMIT's files count from, for people and for the command that reads them again.
-std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
+std::string note_on_points(const dynamics::HydrodynamicDatabase& database, double length) {
   const std::vector<dynamics::Vector3> points = wamit_points(database);
+  const std::string option = length == 1.0 ? "" : fmt::format(" --wamit-length={}", length);
   if (points.size() == 1) {
     return "about the origin of the database's world, which --import takes: of a vessel computed "
-           "by itself the point of the water line over or under its own origin";
+           "by itself the point of the water line over or under its own origin" +
+           (option.empty() ? "" : "; to read them again:" + option);
   }
   std::string note = "about (XBODY)";
   for (std::size_t b = 0; b < points.size(); ++b) {
@@ -206,13 +208,21 @@ std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
   for (const dynamics::Vector3& point : points) {
     note += fmt::format(" --body-at={},{}", point.x(), point.y());
   }
-  return note;
+  return note + option;
+}
+
+/// @throws InputError if a length is given, and nothing of WAMIT is read or written.
+void require_wamit(const HydroOptions& options) {
+  if (!options.wamit_length || options.export_format == "wamit") return;
+  const std::string ending = options.import ? fs::path(*options.import).extension().string() : "";
+  if (ending == ".1" || ending == ".3" || ending == ".hst") return;
+  refuse("--wamit-length", "no file of WAMIT is read or written", {"leave it out"});
 }
 
 /// Takes a file over and writes it as our own, or as that of another program.
 int convert(const HydroOptions& options) {
   WamitScales scales;
-  scales.length = options.wamit_length;
+  scales.length = options.wamit_length.value_or(1.0);
   scales.water.density = options.water_density;
   scales.water.gravity = options.gravity;
   if (options.water_depth) scales.water.depth = *options.water_depth;
@@ -255,9 +265,9 @@ int convert(const HydroOptions& options) {
   } else {
     fs::path name = output;
     if (name.extension() == ".1") name.replace_extension();
-    write_wamit(name, database);
-    fmt::print("{0}.1, {0}.3, {0}.hst (ULEN 1 m)\n", name.string());
-    print_wrapped(note_on_points(database));
+    write_wamit(name, database, scales.length);
+    fmt::print("{0}.1, {0}.3, {0}.hst (ULEN {1} m)\n", name.string(), scales.length);
+    print_wrapped(note_on_points(database, scales.length));
   }
   return exit_code::done;
 }
@@ -265,6 +275,7 @@ int convert(const HydroOptions& options) {
 }  // namespace
 
 int hydro(const HydroOptions& options) {
+  require_wamit(options);
   if (options.import) return convert(options);
   if (options.vessel && !options.export_format) return compute_vessel(options);
   refuse(options.vessel.value_or("blocklift hydro"), "nothing is to be computed or converted",
