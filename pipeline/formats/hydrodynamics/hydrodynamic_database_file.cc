@@ -1,10 +1,12 @@
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "dynamics/errors.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/formats/read_apart.h"
 #include "pipeline/formats/results_store.h"
 
@@ -314,6 +316,10 @@ HydrodynamicFile read_all(const Source& source) {
   if (!(lowered >= 0.0 && lowered < static_cast<double>(common.body_names.size()))) {
     source.fail("the attribute lowered_body is no body's number");
   }
+  // Older programs imported what is refused today. What was computed here is not held to it: where
+  // water swings between hulls, damping may come out below zero.
+  if (result.origin.starts_with(imported_from))
+    std::for_each(databases.begin(), databases.end(), require_passive);
   result.series = make_series(static_cast<int>(lowered), std::move(draughts), std::move(databases));
   return result;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "dynamics/marine/radiation/hydrodynamic_series.h"
 
@@ -35,6 +36,9 @@ class HydrodynamicFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// How the origin begins of what another program computed.
+inline constexpr std::string_view imported_from = "imported from ";
 
 /// What a file holds.
 struct HydrodynamicFile {

@@ -1,5 +1,6 @@
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
+#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -70,6 +71,21 @@ void spoil(const std::string& file, const std::string& dataset, std::size_t inde
 void remove(const std::string& file, const std::string& object) {
   const hdf5::Handle handle(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
   H5Ldelete(handle.get(), object.c_str(), H5P_DEFAULT);
+}
+
+// An older program imported it; what is computed here is not refused for it.
+TEST(HydrodynamicDatabaseFile, RefusesImportsThatWavesBringEnergy) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = make_sample_database();
+  write_hydrodynamic_database("db.h5", database, "", "imported from pair.1 (WAMIT)");
+  EXPECT_NO_THROW(read_hydrodynamic_database("db.h5"));
+  database.damping[1](8, 8) = -std::abs(database.damping[0](8, 8));
+  write_hydrodynamic_database("db.h5", database, "", "imported from pair.1 (WAMIT)");
+  EXPECT_THAT(message_of([] { read_hydrodynamic_database("db.h5"); }),
+              AllOf(HasSubstr("db.h5: the damping of"), HasSubstr("heave on itself is -"),
+                    HasSubstr("below zero")));
+  write_hydrodynamic_database("db.h5", database, "0123", "computed by blocklift");
+  EXPECT_NO_THROW(read_hydrodynamic_database("db.h5"));
 }
 
 TEST(HydrodynamicDatabaseFile, ReadsExactlyWhatWasWritten) {
