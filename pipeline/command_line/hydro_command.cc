@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "dynamics/errors.h"
 #include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
@@ -169,25 +169,32 @@ bool lacks_volumes(const dynamics::HydrodynamicDatabase& database) {
   return std::any_of(volumes.begin(), volumes.end(), [](double volume) { return !(volume > 0.0); });
 }
 
-/// x,y[,z[,heading]], m and degrees.
+/// A quantity of one of the dimensions; a number alone is of the unit.
+double coordinate(const std::string& text, Dimension dimension, const char* unit) {
+  const auto last = text.find_last_not_of(' ');
+  const bool bare = last != std::string::npos &&
+                    std::string_view("0123456789.").find(text[last]) != std::string_view::npos;
+  return parse_quantity(bare ? text + " " + unit : text, dimension);
+}
+
+/// x,y[,z[,heading]], m and degrees where no unit is given.
 WamitBody body_at(const std::string& text) {
+  const std::string due = "x,y[,z[,heading]] is due, m and degrees, or with their units";
   std::vector<double> numbers;
   std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
-    char* end = nullptr;
-    const double number = std::strtod(part.c_str(), &end);
-    if (part.empty() || *end != '\0' || !std::isfinite(number)) {
-      refuse("--body-at " + text, fmt::format("\"{}\" is no number", part),
-             {"x,y[,z[,heading]] is due, m and degrees"});
+  try {
+    for (std::string part; std::getline(parts, part, ',');) {
+      const bool angle = numbers.size() == 3;
+      numbers.push_back(
+          coordinate(part, angle ? Dimension::angle : Dimension::length, angle ? "deg" : "m"));
     }
-    numbers.push_back(number);
+  } catch (const QuantityError& error) {
+    refuse("--body-at " + text, error.what(), {due});
   }
-  if (numbers.size() < 2 || numbers.size() > 4) {
-    refuse("--body-at " + text, fmt::format("{} numbers", numbers.size()),
-           {"x,y[,z[,heading]] is due, m and degrees"});
-  }
+  if (numbers.size() < 2 || numbers.size() > 4 || text.ends_with(','))
+    refuse("--body-at " + text, fmt::format("{} numbers", numbers.size()), {due});
   numbers.resize(4, 0.0);
-  return {{numbers[0], numbers[1], numbers[2]}, numbers[3] * degree};
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
 }
 
 /// Where WAMIT's files count from, for people and for the command that reads them again.
