@@ -248,6 +248,7 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
   dynamics::HydrodynamicSeries series;
   if (problem.given) {
     say("of the file that the case names");
+    say_doubt(*problem.given, say);
     series = {0, {0.0}, {take_given_database(problem)}};
   } else if (problem.lowered_body() >= 0) {
     series = find_series(problem, say);
