@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "dynamics/errors.h"
 #include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
@@ -169,33 +169,42 @@ bool lacks_volumes(const dynamics::HydrodynamicDatabase& database) {
   return std::any_of(volumes.begin(), volumes.end(), [](double volume) { return !(volume > 0.0); });
 }
 
-/// x,y[,z[,heading]], m and degrees.
+/// A quantity of one of the dimensions; a number alone is of the unit.
+double coordinate(const std::string& text, Dimension dimension, const char* unit) {
+  const auto last = text.find_last_not_of(' ');
+  const bool bare = last != std::string::npos &&
+                    std::string_view("0123456789.").find(text[last]) != std::string_view::npos;
+  return parse_quantity(bare ? text + " " + unit : text, dimension);
+}
+
+/// x,y[,z[,heading]], m and degrees where no unit is given.
 WamitBody body_at(const std::string& text) {
+  const std::string due = "x,y[,z[,heading]] is due, m and degrees, or with their units";
   std::vector<double> numbers;
   std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');) {
-    char* end = nullptr;
-    const double number = std::strtod(part.c_str(), &end);
-    if (part.empty() || *end != '\0' || !std::isfinite(number)) {
-      refuse("--body-at " + text, fmt::format("\"{}\" is no number", part),
-             {"x,y[,z[,heading]] is due, m and degrees"});
+  try {
+    for (std::string part; std::getline(parts, part, ',');) {
+      const bool angle = numbers.size() == 3;
+      numbers.push_back(
+          coordinate(part, angle ? Dimension::angle : Dimension::length, angle ? "deg" : "m"));
     }
-    numbers.push_back(number);
+  } catch (const QuantityError& error) {
+    refuse("--body-at " + text, error.what(), {due});
   }
-  if (numbers.size() < 2 || numbers.size() > 4) {
-    refuse("--body-at " + text, fmt::format("{} numbers", numbers.size()),
-           {"x,y[,z[,heading]] is due, m and degrees"});
-  }
+  if (numbers.size() < 2 || numbers.size() > 4 || text.ends_with(','))
+    refuse("--body-at " + text, fmt::format("{} numbers", numbers.size()), {due});
   numbers.resize(4, 0.0);
-  return {{numbers[0], numbers[1], numbers[2]}, numbers[3] * degree};
+  return {{numbers[0], numbers[1], numbers[2]}, numbers[3]};
 }
 
 /// Where WAMIT's files count from, for people and for the command that reads them again.
-std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
+std::string note_on_points(const dynamics::HydrodynamicDatabase& database, double length) {
   const std::vector<dynamics::Vector3> points = wamit_points(database);
+  const std::string option = length == 1.0 ? "" : fmt::format(" --wamit-length={}", length);
   if (points.size() == 1) {
     return "about the origin of the database's world, which --import takes: of a vessel computed "
-           "by itself the point of the water line over or under its own origin";
+           "by itself the point of the water line over or under its own origin" +
+           (option.empty() ? "" : "; to read them again:" + option);
   }
   std::string note = "about (XBODY)";
   for (std::size_t b = 0; b < points.size(); ++b) {
@@ -206,13 +215,21 @@ std::string note_on_points(const dynamics::HydrodynamicDatabase& database) {
   for (const dynamics::Vector3& point : points) {
     note += fmt::format(" --body-at={},{}", point.x(), point.y());
   }
-  return note;
+  return note + option;
+}
+
+/// @throws InputError if a length is given, and nothing of WAMIT is read or written.
+void require_wamit(const HydroOptions& options) {
+  if (!options.wamit_length || options.export_format == "wamit") return;
+  const std::string ending = options.import ? fs::path(*options.import).extension().string() : "";
+  if (ending == ".1" || ending == ".3" || ending == ".hst") return;
+  refuse("--wamit-length", "no file of WAMIT is read or written", {"leave it out"});
 }
 
 /// Takes a file over and writes it as our own, or as that of another program.
 int convert(const HydroOptions& options) {
   WamitScales scales;
-  scales.length = options.wamit_length;
+  scales.length = options.wamit_length.value_or(1.0);
   scales.water.density = options.water_density;
   scales.water.gravity = options.gravity;
   if (options.water_depth) scales.water.depth = *options.water_depth;
@@ -255,9 +272,9 @@ int convert(const HydroOptions& options) {
   } else {
     fs::path name = output;
     if (name.extension() == ".1") name.replace_extension();
-    write_wamit(name, database);
-    fmt::print("{0}.1, {0}.3, {0}.hst (ULEN 1 m)\n", name.string());
-    print_wrapped(note_on_points(database));
+    write_wamit(name, database, scales.length);
+    fmt::print("{0}.1, {0}.3, {0}.hst (ULEN {1} m)\n", name.string(), scales.length);
+    print_wrapped(note_on_points(database, scales.length));
   }
   return exit_code::done;
 }
@@ -265,6 +282,7 @@ int convert(const HydroOptions& options) {
 }  // namespace
 
 int hydro(const HydroOptions& options) {
+  require_wamit(options);
   if (options.import) return convert(options);
   if (options.vessel && !options.export_format) return compute_vessel(options);
   refuse(options.vessel.value_or("blocklift hydro"), "nothing is to be computed or converted",

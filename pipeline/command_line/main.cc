@@ -152,7 +152,9 @@ void add_hydro(CLI::App& app, int& code) {
   command
       ->add_option("--export", options->export_format, "write what is imported as bemio or wamit")
       ->check(CLI::IsMember({"bemio", "wamit"}));
-  command->add_option("--wamit-length", options->wamit_length, "WAMIT's ULEN, m")
+  command
+      ->add_option("--wamit-length", options->wamit_length,
+                   "WAMIT's ULEN, of the files that are read and of those that are written, m")
       ->check(CLI::PositiveNumber);
   command
       ->add_option(

@@ -98,6 +98,7 @@ int simulate_mechanism(const SimulateOptions& options) {
     bar->show(fraction, fmt::format("t = {:.3g} s", time));
   });
   bar.reset();
+  for (const std::string& doubt : run.doubts) say_warning(doubt);
   {
     const HeldSignals until_all_is_in_place;
     write_mechanism_results(*file, run, folder, options.csv);

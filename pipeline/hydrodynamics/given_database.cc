@@ -133,6 +133,7 @@ HydrodynamicDatabase ordered(const RadiationProblem& problem) {
   square(database.infinite_added_mass);
   square(database.hydrostatic_stiffness);
   database.change_from_coarser = {};
+  database.excitation_change_from_coarser = {};
   database.cut_off_by_end = {};
   database.body_names = in_order(problem, database.body_names);
   database.reference_points = in_order(problem, database.reference_points);

@@ -30,6 +30,8 @@ constexpr std::array<const char*, 6> mode_names = {"surge", "sway",  "heave",
 /// Largest change of a radiation force from panels of twice the size that is not warned of. The
 /// error is a third of it where panels converge at second order: some three per cent.
 constexpr double acceptable_change = 0.1;
+/// The same of the force of waves, as a share of its largest.
+constexpr double acceptable_change_in_waves = 0.1;
 /// Of a radiation force, by the end of the impulse runs.
 constexpr double acceptable_cut = 0.05;
 constexpr double degree = std::numbers::pi / 180.0;
@@ -99,6 +101,8 @@ std::string error_table(const HydrodynamicDatabase& database, Eigen::Index first
     text += table.text();
   };
   add("error of panels, %", "at most, by coarser ones", database.change_from_coarser);
+  add("error of panels in waves, %", "of the largest force",
+      database.excitation_change_from_coarser);
   add("error of the runs' end, %", "at most, by what fades", database.cut_off_by_end);
   return text;
 }
@@ -257,8 +261,8 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
         "\nerror of retardation functions: they miss added mass and damping by {:.2g} % of "
         "the waves' largest share at most\n",
         100.0 * calc_memory_error(database));
-    for (const std::string& doubt :
-         {doubt_about_panels(database), doubt_about_runs(database), doubt_about_memory(database)}) {
+    for (const std::string& doubt : {doubt_about_panels(database), doubt_about_excitation(database),
+                                     doubt_about_runs(database), doubt_about_memory(database)}) {
       if (!doubt.empty()) text += "\nwarning: " + doubt + "\n";
     }
   }
@@ -286,6 +290,20 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
     doubt += "; water that swings in a gap or moonpool without damping does that, which lids give";
   }
   return doubt;
+}
+
+std::string doubt_about_excitation(const HydrodynamicDatabase& database) {
+  if (database.excitation_change_from_coarser.size() == 0) return {};
+  Eigen::Index worst = 0;
+  const double change = database.excitation_change_from_coarser.maxCoeff(&worst);
+  // Coarser panels without a solution are doubt_about_panels' matter.
+  if (change <= acceptable_change_in_waves || !std::isfinite(change)) return {};
+  return fmt::format(
+      "the panels are coarse: the force of waves on {} in {} changes by {:.0f} % of its largest "
+      "from "
+      "panels of twice the size to these; take smaller panels until that is below {:.0f} %",
+      database.body_names[static_cast<std::size_t>(worst / modes_per_body)],
+      mode_names[worst % modes_per_body], 100.0 * change, 100.0 * acceptable_change_in_waves);
 }
 
 std::string doubt_about_runs(const HydrodynamicDatabase& database) {

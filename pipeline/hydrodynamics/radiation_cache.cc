@@ -107,7 +107,8 @@ namespace {
 using Say = std::function<void(const std::string&)>;
 
 void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
-  for (const std::string& doubt : {doubt_about_panels(database), doubt_about_runs(database)}) {
+  for (const std::string& doubt : {doubt_about_panels(database), doubt_about_excitation(database),
+                                   doubt_about_runs(database)}) {
     if (!doubt.empty()) say("warning: " + doubt);
   }
 }
@@ -247,6 +248,7 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
   dynamics::HydrodynamicSeries series;
   if (problem.given) {
     say("of the file that the case names");
+    say_doubt(*problem.given, say);
     series = {0, {0.0}, {take_given_database(problem)}};
   } else if (problem.lowered_body() >= 0) {
     series = find_series(problem, say);

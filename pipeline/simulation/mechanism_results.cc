@@ -70,6 +70,7 @@ nlohmann::ordered_json make_summary(const MechanismFile& file, const MechanismRu
   summary["timing"] = {{"dynamic_s", run.elapsed}, {"simulated_s", duration}};
   summary["warnings"] = file.notes;
   for (const std::string& doubt : file.doubts) summary["warnings"].push_back(doubt);
+  for (const std::string& doubt : run.doubts) summary["warnings"].push_back(doubt);
   add_radiation(record_radiation(run.mechanism, run.result.history), summary);
   return summary;
 }

@@ -17,6 +17,7 @@ struct MechanismRun {
   std::vector<OutputSeries> outputs;
   std::vector<NaturalModes> natural_modes;  ///< at the start, where that is an equilibrium
   std::vector<std::string> findings;        ///< on loops: what repeats, what stands in a dead point
+  std::vector<std::string> doubts;          ///< about what was computed of the vessels' water
   double elapsed = 0;                       ///< wall-clock time, s
 
   const Eigen::VectorXd& time() const { return result.history.time; }  ///< of the samples, s

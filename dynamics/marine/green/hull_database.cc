@@ -107,7 +107,9 @@ class HullComputation {
                            .threads = settings.rankine.threads,
                            .memory_limit = settings.rankine.memory_limit}),
         database_(make_empty_database(model, settings)),
-        coarser_(settings.with_coarser ? settings.frequencies.size() : 0) {
+        coarser_(settings.with_coarser ? settings.frequencies.size() : 0),
+        coarser_diffraction_(coarser_.size(),
+                             MatrixXcd::Zero(model.mode_count(), settings.headings.size())) {
     account_.panels = model.body_mesh().size();
     account_.cells = equations_.cell_count();
     account_.peak_bytes =
@@ -135,7 +137,8 @@ class HullComputation {
   double highest_;  ///< solved, rad/s
   HullEquations equations_;
   HydrodynamicDatabase database_;
-  std::vector<MatrixXcd> coarser_;  ///< B + i w A of coarser panels, for each frequency
+  std::vector<MatrixXcd> coarser_;              ///< B + i w A of coarser panels, for each frequency
+  std::vector<MatrixXcd> coarser_diffraction_;  ///< of theirs, 6N x headings
 };
 
 void HullComputation::add_infinite_frequency() {
@@ -171,7 +174,8 @@ void HullComputation::add_asked(std::size_t k, const std::vector<HullEquations::
   database_.added_mass[k] = force.imag() / w;
   if (settings_.with_coarser) coarser_[k] = equations_.calc_coarser_radiation(parts, w);
   for (const HullEquations::Part& part : parts) {
-    add_excitation(model_, part, k, database_);
+    add_excitation(model_, part, k, database_,
+                   settings_.with_coarser ? &coarser_diffraction_[k] : nullptr);
     if (settings_.with_far_field) add_far_field(model_, part, k, database_);
   }
 }
@@ -296,7 +300,11 @@ HydrodynamicDatabase HullComputation::run() {
   account_.miss = found.miss;
   add_retardation_of(found);
   check_memory(found);
-  if (settings_.with_coarser) database_.change_from_coarser = largest_change(database_, coarser_);
+  if (settings_.with_coarser) {
+    database_.change_from_coarser = largest_change(database_, coarser_);
+    database_.excitation_change_from_coarser =
+        largest_excitation_change(database_, coarser_diffraction_);
+  }
   return std::move(database_);
 }
 

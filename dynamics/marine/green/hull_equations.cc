@@ -338,7 +338,7 @@ MatrixXcd HullEquations::solve_coarser(const MatrixXcd& matrix, const MatrixXcd&
     for (int i = 0; i < matrix.rows(); ++i) coarser(place(i), place(j)) += share(i) * matrix(i, j);
   }
   solve_in_place(coarser, coarser_right, "the matrix of coarser panels of the hulls");
-  return coarser_right.topRows(clusters_.count);
+  return clusters_.spread(coarser_right.topRows(clusters_.count));
 }
 
 MatrixXcd HullEquations::calc_radiation(const std::vector<Part>& parts, double frequency) const {
@@ -354,14 +354,9 @@ MatrixXcd HullEquations::calc_radiation(const std::vector<Part>& parts, double f
 
 MatrixXcd HullEquations::calc_coarser_radiation(const std::vector<Part>& parts,
                                                 double frequency) const {
-  std::vector<Part> constant = parts;
-  for (Part& part : constant) {
-    part.potentials.resize(hull_count_, part.coarser_potentials.cols());
-    for (int j = 0; j < hull_count_; ++j) {
-      part.potentials.row(j) = part.coarser_potentials.row(clusters_.of_panel[j]);
-    }
-  }
-  return calc_radiation(constant, frequency);
+  std::vector<Part> coarser = parts;
+  for (Part& part : coarser) part.potentials = part.coarser_potentials;
+  return calc_radiation(coarser, frequency);
 }
 
 MatrixXcd HullEquations::calc_diffraction(const std::vector<Part>& parts, double frequency,

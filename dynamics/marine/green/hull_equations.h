@@ -54,11 +54,7 @@ class HullEquations {
   int size() const { return static_cast<int>(points_.size()); }
   int cell_count() const { return cells_.size(); }
 
-  /// The flow of one even or odd part.
-  struct Part : FlowOfPart {
-    /// phi of the modes on clusters of the hulls' panels, where they were asked for.
-    Eigen::MatrixXcd coarser_potentials = {};
-  };
+  using Part = FlowOfPart;
   /// What is solved besides the modes' flow.
   struct Extent {
     std::vector<double> headings = {};  ///< of waves whose scattering is sought, rad
@@ -89,6 +85,7 @@ class HullEquations {
   std::vector<Influence<std::complex<double>>> integrate_waves(double frequency) const;
   Eigen::MatrixXcd make_matrix(const Influence<std::complex<double>>& waves, double frequency,
                                int count) const;
+  /// The modes' potentials by clusters of the hulls' panels, on each panel.
   Eigen::MatrixXcd solve_coarser(const Eigen::MatrixXcd& matrix,
                                  const Eigen::MatrixXcd& right) const;
   struct WaveBlock;

@@ -118,6 +118,10 @@ Eigen::VectorXd PanelClusters::sum(const Eigen::VectorXd& values) const {
   return result;
 }
 
+Eigen::MatrixXcd PanelClusters::spread(const Eigen::MatrixXcd& values) const {
+  return values(of_panel, Eigen::all);
+}
+
 Eigen::MatrixXd PanelClusters::coarsen(const Eigen::MatrixXd& matrix, const PanelClusters& rows,
                                        const Eigen::VectorXd& row_areas,
                                        const PanelClusters& columns) {

@@ -27,6 +27,8 @@ struct PanelClusters {
   Eigen::MatrixXd average(const Eigen::VectorXd& areas, const Eigen::MatrixXd& values) const;
   /// Sum over each cluster's panels.
   Eigen::VectorXd sum(const Eigen::VectorXd& values) const;
+  /// What is constant on each cluster (rows), on each of its panels.
+  Eigen::MatrixXcd spread(const Eigen::MatrixXcd& values) const;
   /// Panels of one mesh (rows) by panels of another (columns), rows averaged and columns summed:
   /// what a matrix of influence becomes when potentials are constant on the clusters and equations
   /// hold in the mean over each.

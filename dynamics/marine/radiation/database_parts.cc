@@ -118,6 +118,28 @@ Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
   return largest_share(database, changes.cwiseAbs());
 }
 
+Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
+                                          const std::vector<MatrixXcd>& coarser) {
+  constexpr double negligible = 1e-3;
+  if (database.headings.empty()) return {};
+  Eigen::VectorXd changes = Eigen::VectorXd::Zero(database.mode_count());
+  Eigen::VectorXd forces = changes;
+  for (std::size_t k = 0; k < coarser.size(); ++k) {
+    const MatrixXcd difference = database.diffraction[k] - coarser[k];
+    changes = changes.cwiseMax(difference.cwiseAbs().rowwise().maxCoeff());
+    forces = forces.cwiseMax(database.excitation(k).cwiseAbs().rowwise().maxCoeff());
+  }
+  constexpr Eigen::Index along_axes = 3;
+  for (Eigen::Index m = 0; m < changes.size(); ++m) {
+    const double largest = forces.segment<along_axes>(m - m % along_axes).maxCoeff();
+    if (forces[m] <= negligible * largest)
+      changes[m] = 0.0;
+    else
+      changes[m] /= forces[m];
+  }
+  return changes;
+}
+
 MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity, double frequency,
                                   const std::vector<double>& headings) {
   MatrixXcd velocities(model.body_areas().size(), static_cast<Eigen::Index>(headings.size()));
@@ -132,7 +154,7 @@ MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity,
 }
 
 void add_excitation(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
-                    HydrodynamicDatabase& database) {
+                    HydrodynamicDatabase& database, MatrixXcd* coarser) {
   const double w = database.frequencies[frequency];
   const MatrixXd weighted_normals = model.body_areas().asDiagonal() * flow.normal_velocities;
   const MatrixXcd weighted_potentials = model.body_areas().asDiagonal() * flow.potentials;
@@ -150,6 +172,9 @@ void add_excitation(const PanelModel& model, const FlowOfPart& flow, std::size_t
       database.diffraction[frequency](flow.modes[m], h) += diffracted[place];
     }
   }
+  if (coarser == nullptr) return;
+  const MatrixXcd weighted = model.body_areas().asDiagonal() * flow.coarser_potentials;
+  (*coarser)(flow.modes, Eigen::all) += factor * (weighted.transpose() * opposed);
 }
 
 void add_far_field(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,

@@ -28,6 +28,14 @@ Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const Eigen:
 Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
                                const std::vector<Eigen::MatrixXcd>& coarser);
 
+/// For each mode, the largest difference of its diffraction from that of coarser panels, over
+/// frequencies and headings, as a share of the largest excitation of the mode over them. Zero for a
+/// mode on which waves exert next to nothing: less than a thousandth of the largest excitation of
+/// those that move the same body in the same way. Empty without headings.
+/// @param coarser 6N x headings for each frequency.
+Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
+                                          const std::vector<Eigen::MatrixXcd>& coarser);
+
 /// Normal velocities on the bodies that a wave of unit amplitude would have there, with the other
 /// sign: those of the waves scattered. A column for each heading (rad); 1/s.
 Eigen::MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity,
@@ -40,12 +48,15 @@ struct FlowOfPart {
   Eigen::MatrixXd normal_velocities;  ///< of these modes on the bodies' panels
   Eigen::MatrixXcd potentials;        ///< there, of unit velocities; m, m2
   Eigen::MatrixXcd scattered = {};    ///< there, of waves of unit amplitude, for each heading; m2/s
+  /// Potentials by panels of twice the size, on the panels themselves; empty: not known.
+  Eigen::MatrixXcd coarser_potentials = {};
 };
 
 /// Adds the part's share of Froude-Krylov forces and, by Haskind's relation, of diffraction.
 /// @param frequency index.
+/// @param coarser diffraction by the coarser potentials, added to; 6N x headings; null: not sought.
 void add_excitation(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
-                    HydrodynamicDatabase& database);
+                    HydrodynamicDatabase& database, Eigen::MatrixXcd* coarser = nullptr);
 
 /// Adds what the part sends out far away: by Green's theorem with the wave psi = f(z) exp(i k
 /// (x cos theta + y sin theta)), f that of the incident waves, and stationary phase,

@@ -81,7 +81,8 @@ class PartComputation {
            Progress& progress);
   void add_frequencies(HydrodynamicDatabase& database) const;
   /// To excitation, and to the far field, made for all parts together.
-  void add_waves(HydrodynamicDatabase& database) const;
+  /// @param coarser diffraction of the coarser solution, for each frequency; empty: not sought.
+  void add_waves(HydrodynamicDatabase& database, std::vector<MatrixXcd>& coarser) const;
   void add_distant_waves(HydrodynamicDatabase& database) const;
   /// To the radiation forces of the coarser solution, one 6N x 6N for each frequency.
   void add_coarser(std::vector<MatrixXcd>& forces) const;
@@ -89,7 +90,8 @@ class PartComputation {
   void add_cut(MatrixXd& cut) const;
 
  private:
-  MatrixXcd mode_potentials(std::size_t frequency) const;
+  MatrixXcd mode_potentials(const RankinePart& part, const ImpulseRun& run,
+                            std::size_t frequency) const;
   FlowOfPart flow(std::size_t frequency) const;
 
   const PanelModel& model_;
@@ -97,6 +99,7 @@ class PartComputation {
   SurfaceDamping damping_;
   RankinePart part_;
   ImpulseRun run_;
+  std::shared_ptr<const CoarserPanels> coarser_panels_;
   std::optional<ImpulseRun> coarser_run_;
 };
 
@@ -108,13 +111,15 @@ PartComputation::PartComputation(const PanelModel& model, const Parity& parity,
       damping_(DampingZone{damping_strength, settings.lids}.damping(model.surface(),
                                                                     model.water().gravity)),
       part_(model, parity, rankine),
-      run_(part_, damping_, model.water(), settings.frequencies, true) {
+      run_(part_, damping_, model.water(), settings.frequencies, true),
+      coarser_panels_(rankine.coarser) {
   if (part_.coarser() == nullptr) return;
   const PanelClusters& clusters = rankine.coarser->surface;
   const SurfaceDamping coarser{
       clusters.average(model.surface_areas(), damping_.rates),
       make_ring_differences(model.surface(), model.water().gravity, &clusters)};
-  coarser_run_.emplace(*part_.coarser(), coarser, model.water(), settings.frequencies, false);
+  coarser_run_.emplace(*part_.coarser(), coarser, model.water(), settings.frequencies,
+                       !settings.headings.empty());
 }
 
 double PartComputation::added_mass_asymmetry(MatrixXd& infinite_added_mass) const {
@@ -178,27 +183,41 @@ void PartComputation::add_cut(MatrixXd& cut) const {
 }
 
 /// Potentials on the bodies per unit velocity of the modes.
-MatrixXcd PartComputation::mode_potentials(std::size_t frequency) const {
+MatrixXcd PartComputation::mode_potentials(const RankinePart& part, const ImpulseRun& run,
+                                           std::size_t frequency) const {
   // phi on the surface per unit velocity is -g eta/(i w); then on the bodies.
   const MatrixXcd surface = -model_.water().gravity /
                             Complex(0.0, settings_.frequencies[frequency]) *
-                            run_.elevation(frequency);
-  MatrixXcd bodies(part_.body_columns().rows(), part_.body_columns().cols());
-  bodies.real() = part_.body_columns() + part_.body_from_surface() * surface.real();
-  bodies.imag() = part_.body_from_surface() * surface.imag();
+                            run.elevation(frequency);
+  MatrixXcd bodies(part.body_columns().rows(), part.body_columns().cols());
+  bodies.real() = part.body_columns() + part.body_from_surface() * surface.real();
+  bodies.imag() = part.body_from_surface() * surface.imag();
   return bodies;
 }
 
 FlowOfPart PartComputation::flow(std::size_t frequency) const {
-  return {part_.parity(), part_.modes(), part_.normal_velocities(), mode_potentials(frequency)};
+  return {part_.parity(), part_.modes(), part_.normal_velocities(),
+          mode_potentials(part_, run_, frequency)};
 }
 
-void PartComputation::add_waves(HydrodynamicDatabase& database) const {
-  parallel::for_each(static_cast<int>(database.frequencies.size()), settings_.rankine.threads,
-                     [&](int index) {
-                       const auto k = static_cast<std::size_t>(index);
-                       add_excitation(model_, flow(k), k, database);
-                     });
+void PartComputation::add_waves(HydrodynamicDatabase& database,
+                                std::vector<MatrixXcd>& coarser) const {
+  if (!coarser_run_) {
+    for (MatrixXcd& force : coarser)
+      force(part_.modes(), Eigen::all).setConstant(std::numeric_limits<double>::infinity());
+  }
+  parallel::for_each(
+      static_cast<int>(database.frequencies.size()), settings_.rankine.threads, [&](int index) {
+        const auto k = static_cast<std::size_t>(index);
+        FlowOfPart found = flow(k);
+        if (coarser.empty() || !coarser_run_) {
+          add_excitation(model_, found, k, database);
+          return;
+        }
+        found.coarser_potentials =
+            coarser_panels_->bodies.spread(mode_potentials(*part_.coarser(), *coarser_run_, k));
+        add_excitation(model_, found, k, database, &coarser[k]);
+      });
 }
 
 void PartComputation::add_distant_waves(HydrodynamicDatabase& database) const {
@@ -249,7 +268,11 @@ double database_bytes(const PanelModel& model, const DatabaseSettings& settings)
   // The coarser solution is made beside the finer one's matrices, and stays to the end.
   const RankineSettings rankine = rankine_settings(model, settings);
   if (rankine.coarser) {
-    bytes += bytes_of(rankine.coarser->bodies.count, rankine.coarser->surface.count);
+    const int coarser = rankine.coarser->surface.count;
+    bytes += bytes_of(rankine.coarser->bodies.count, coarser);
+    if (!settings.headings.empty())
+      bytes += elevation_bytes(static_cast<double>(coarser) * model.mode_count(),
+                               settings.frequencies.size());
   }
   // The factors that are kept, and a complex system with its factors.
   const double n = surface, all = bodies + n;
@@ -280,6 +303,9 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   const RankineSettings rankine = rankine_settings(model, settings);
   std::vector<MatrixXcd> coarser(settings.with_coarser ? settings.frequencies.size() : 0,
                                  MatrixXcd::Zero(model.mode_count(), model.mode_count()));
+  std::vector<MatrixXcd> coarser_diffraction(
+      settings.headings.empty() ? 0 : coarser.size(),
+      MatrixXcd::Zero(model.mode_count(), settings.headings.size()));
   MatrixXd cut =
       MatrixXd::Zero(model.mode_count(), static_cast<Eigen::Index>(settings.frequencies.size()));
   double step = settings.time_step;
@@ -309,7 +335,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     account.march_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
     progress.excite();
-    computation.add_waves(database);
+    computation.add_waves(database, coarser_diffraction);
     if (settings.with_far_field) computation.add_distant_waves(database);
     account.excitation_s += seconds_since(start);
     const RankineTiming& timing = computation.part().timing();
@@ -324,7 +350,11 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   }
   database.time_step = step;
   for (MatrixXd& mass : database.added_mass) mass += database.infinite_added_mass;
-  if (settings.with_coarser) database.change_from_coarser = largest_change(database, coarser);
+  if (settings.with_coarser) {
+    database.change_from_coarser = largest_change(database, coarser);
+    database.excitation_change_from_coarser =
+        largest_excitation_change(database, coarser_diffraction);
+  }
   database.cut_off_by_end = largest_share(database, cut);
   return database;
 }

@@ -42,6 +42,12 @@ struct HydrodynamicDatabase {
   /// frequencies from panels of twice the size to these, relative; infinite: those have no solution;
   /// empty: unknown. At first order it is the panels' error itself, at second order three times it.
   Eigen::VectorXd change_from_coarser;
+  /// For each mode, how much the force of waves on it changes from panels of twice the size to these,
+  /// with its phase: the largest change over frequencies and headings as a share of the largest force
+  /// that any of these waves exerts on the mode; infinite and order as above; empty: unknown. Where
+  /// Froude-Krylov and diffraction all but cancel, as in roll of some sections, it is a multiple of
+  /// change_from_coarser.
+  Eigen::VectorXd excitation_change_from_coarser;
   /// For each mode, how much of its radiation force on itself the end of the impulse runs cuts off at
   /// most over the frequencies, relative, by estimate (ImpulseRun::cut_off); empty: there were no
   /// runs, or it is unknown.
@@ -60,8 +66,9 @@ struct HydrodynamicDatabase {
 };
 
 /// Changes whenever compute_database, or the meshing of the water's surface, gives other figures
-/// for the same bodies: what was computed before is then not to be taken for what would be now.
-inline constexpr int panel_method_version = 8;
+/// for the same bodies, or tells more of them: what was computed before is then not to be taken for
+/// what would be now.
+inline constexpr int panel_method_version = 9;
 
 struct DatabaseSettings {
   std::vector<double> frequencies;  ///< rad/s, positive, ascending
@@ -76,8 +83,9 @@ struct DatabaseSettings {
   /// 0: of damping_zone() for the lowest frequency, rad/s.
   double damping_strength = 0.0;
   std::vector<DampingLid> lids;
-  /// Compute HydrodynamicDatabase::change_from_coarser, at up to two thirds of the cost again: of
-  /// the surface only what lies near the hulls becomes coarser.
+  /// Compute HydrodynamicDatabase::change_from_coarser, and that of the excitation if there are
+  /// headings, at up to two thirds of the cost again: of the surface only what lies near the hulls
+  /// becomes coarser.
   bool with_coarser = false;
   /// Compute HydrodynamicDatabase::far_field: a dense complex system for each frequency and part.
   bool with_far_field = false;

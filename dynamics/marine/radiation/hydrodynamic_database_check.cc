@@ -23,6 +23,8 @@ class Examination {
       matrix(database_.hydrostatic_stiffness, modes, "the hydrostatic stiffness");
     }
     errors(database_.change_from_coarser, modes, "changes from coarser panels");
+    errors(database_.excitation_change_from_coarser, modes,
+           "changes of excitation from coarser panels");
     errors(database_.cut_off_by_end, modes, "shares that the runs' end cuts off");
     series(database_.added_mass, modes, "the added mass");
     series(database_.damping, modes, "the damping");

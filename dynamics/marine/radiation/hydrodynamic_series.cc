@@ -139,6 +139,7 @@ HydrodynamicDatabase with_dry_body(const HydrodynamicDatabase& wet, int body,
   dry.hydrostatic_stiffness = {};
   dry.centres_of_buoyancy.clear();
   dry.change_from_coarser = {};
+  dry.excitation_change_from_coarser = {};
   dry.cut_off_by_end = {};
   dry.mean_drift.clear();
   dry.far_field = {};

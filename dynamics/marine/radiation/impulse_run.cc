@@ -89,8 +89,21 @@ void ImpulseRun::add_instants() {
 }
 
 void ImpulseRun::keep_whole() {
+  if (whole_elevation_.size() == elevation_.size()) return;
   add_instants();
   whole_elevation_ = elevation_;
+}
+
+void ImpulseRun::go_on(long steps) {
+  add_instants();
+  elevation_.swap(whole_elevation_);
+  whole_elevation_.resize(0, 0);
+  steps_ += steps;
+}
+
+void ImpulseRun::end() {
+  add_instants();
+  whole_elevation_.resize(0, 0);
 }
 
 void ImpulseRun::start(double step, long steps) {
@@ -114,26 +127,23 @@ long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,
   for (ImpulseRun* run : runs) run->start(step, length.steps);
   for (long k = 0;; ++k) {
     const bool may_go_on = steps_ < length.most * length.steps;
-    if (may_go_on && taper(k, steps_) < 1.0 && whole_elevation_.size() < elevation_.size())
-      keep_whole();
-    for (ImpulseRun* run : runs) run->keep_force();
-    accumulate(k);
+    for (ImpulseRun* run : runs) {
+      if (may_go_on && taper(k, steps_) < 1.0) run->keep_whole();
+      run->keep_force();
+      run->accumulate(k);
+    }
     if (progress) progress(k, steps_);
     if (k == steps_) {
       integrate_force(steps_);
       const VectorXd shares = largest_shares(cut_off_);
       if (!may_go_on || shares.size() == 0 || shares.maxCoeff() <= length.share) break;
-      add_instants();
-      elevation_.swap(whole_elevation_);
-      whole_elevation_.resize(0, 0);
-      steps_ += length.steps;
+      for (ImpulseRun* run : runs) run->go_on(length.steps);
     }
     const parallel::OneBlasThread for_marches_side_by_side;
     parallel::for_each(static_cast<int>(runs.size()), 0,
                        [&](int run) { runs[static_cast<std::size_t>(run)]->march_.advance(); });
   }
-  add_instants();
-  whole_elevation_.resize(0, 0);
+  for (ImpulseRun* run : runs) run->end();
   if (beside != nullptr) beside->integrate_force(steps_);
   return steps_;
 }

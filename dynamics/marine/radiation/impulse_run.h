@@ -38,8 +38,8 @@ class ImpulseRun {
 
   /// Marches. `progress`, if any, is called with each step's number and how many there will be as
   /// far as is known.
-  /// @param step s. @param beside another run, made without elevation, that is marched side by side with
-  ///   this one by the same steps and is as long; null: none. @returns the number of steps.
+  /// @param step s. @param beside another run that is marched side by side with this one by the same
+  ///   steps and is as long; null: none. @returns the number of steps.
   long run(double step, const RunLength& length, ImpulseRun* beside,
            const std::function<void(long step, long steps)>& progress = {});
 
@@ -70,8 +70,12 @@ class ImpulseRun {
   void accumulate(long step);
   /// Adds the instants that wait to the integrals of the elevation.
   void add_instants();
-  /// Keeps the integrals of the elevation as they are without a taper from here on.
+  /// Keeps the integrals of the elevation as they are without a taper from here on; once.
   void keep_whole();
+  /// Is longer by so many steps, from the integrals that were kept.
+  void go_on(long steps);
+  /// Nothing is kept for a longer run.
+  void end();
   /// e^{-i w t} at a step, by the march's dispersion.
   std::complex<double> wave(std::size_t frequency, long step) const;
   /// Of an instant in the integrals without a taper, by the trapezoidal rule, s.

@@ -53,6 +53,7 @@ HydrodynamicDatabase about_points(HydrodynamicDatabase database,
   }
   database.reference_points = points;
   database.change_from_coarser = {};
+  database.excitation_change_from_coarser = {};
   database.cut_off_by_end = {};
   database.far_field = {};
   return database;

@@ -193,6 +193,7 @@ HydrodynamicDatabase join(const std::vector<BodyGroup>& groups,
   all.added_mass.assign(all.frequencies.size(), all.infinite_added_mass);
   all.damping = all.added_mass;
   all.change_from_coarser = all.cut_off_by_end = Eigen::VectorXd::Zero(modes);
+  all.excitation_change_from_coarser = all.change_from_coarser;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const HydrodynamicDatabase& one = databases[g];
     const Vector3 centre(groups[g].centre.x(), groups[g].centre.y(), 0.0);
@@ -211,6 +212,7 @@ HydrodynamicDatabase join(const std::vector<BodyGroup>& groups,
       all.damping[k](rows, rows) = one.damping[k];
     }
     join_errors(rows, one.change_from_coarser, all.change_from_coarser);
+    join_errors(rows, one.excitation_change_from_coarser, all.excitation_change_from_coarser);
     join_errors(rows, one.cut_off_by_end, all.cut_off_by_end);
   }
   return all;

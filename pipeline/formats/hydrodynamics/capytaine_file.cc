@@ -297,7 +297,7 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
       throw HydrodynamicFileError(path.string() + ": " + error.what());
     }
     const std::string origin =
-        fmt::format("imported from {} ({})", path.filename().string(), program);
+        fmt::format("{}{} ({})", imported_from, path.filename().string(), program);
     return HydrodynamicFile{{}, origin, dynamics::make_series(0, {0.0}, {std::move(database)})};
   };
   if (ending == ".1" || ending == ".3" || ending == ".hst") {

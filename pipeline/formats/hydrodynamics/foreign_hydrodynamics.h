@@ -66,7 +66,9 @@ void write_bemio(const std::filesystem::path& path, const dynamics::Hydrodynamic
 /// 4.3, 4.5 and 4.13.
 dynamics::HydrodynamicDatabase read_wamit(const std::filesystem::path& name,
                                           const WamitScales& scales);
-void write_wamit(const std::filesystem::path& name, const dynamics::HydrodynamicDatabase& database);
+/// @param length L, WAMIT's ULEN, m.
+void write_wamit(const std::filesystem::path& name, const dynamics::HydrodynamicDatabase& database,
+                 double length = 1.0);
 
 /// What write_wamit writes each body's rotations and moments about, m, in W: of a single body the
 /// world's origin, which read_wamit takes; of several the points of the water line over or under

@@ -1,10 +1,12 @@
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
 #include "dynamics/errors.h"
+#include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/formats/read_apart.h"
 #include "pipeline/formats/results_store.h"
 
@@ -108,6 +110,8 @@ void write_state(ResultsWriter& file, const std::string& group,
   };
   write_errors("/change_from_coarser", database.change_from_coarser,
                "of each mode's radiation force, from panels of twice the size to these");
+  write_errors("/excitation_change_from_coarser", database.excitation_change_from_coarser,
+               "of the force of waves on each mode, of its largest, from panels of twice the size");
   write_errors("/cut_off_by_end", database.cut_off_by_end,
                "of each mode's radiation force, by the end of the impulse runs");
   file.write_matrix(group + "/infinite_added_mass", database.infinite_added_mass,
@@ -260,8 +264,10 @@ HydrodynamicDatabase read_state(const Source& source, const std::string& group,
   if (source.file().has(group + "/hydrostatic_stiffness")) {
     database.hydrostatic_stiffness = source.matrix(group + "/hydrostatic_stiffness", modes, modes);
   }
-  for (auto [name, errors] : {std::pair{"/change_from_coarser", &database.change_from_coarser},
-                              std::pair{"/cut_off_by_end", &database.cut_off_by_end}}) {
+  for (auto [name, errors] :
+       {std::pair{"/change_from_coarser", &database.change_from_coarser},
+        std::pair{"/excitation_change_from_coarser", &database.excitation_change_from_coarser},
+        std::pair{"/cut_off_by_end", &database.cut_off_by_end}}) {
     if (!source.file().has(group + name)) continue;
     const std::vector<double> found = source.read(group + name, {modes});
     *errors = Eigen::Map<const Eigen::VectorXd>(found.data(), static_cast<Eigen::Index>(modes));
@@ -310,6 +316,10 @@ HydrodynamicFile read_all(const Source& source) {
   if (!(lowered >= 0.0 && lowered < static_cast<double>(common.body_names.size()))) {
     source.fail("the attribute lowered_body is no body's number");
   }
+  // Older programs imported what is refused today. What was computed here is not held to it: where
+  // water swings between hulls, damping may come out below zero.
+  if (result.origin.starts_with(imported_from))
+    std::for_each(databases.begin(), databases.end(), require_passive);
   result.series = make_series(static_cast<int>(lowered), std::move(draughts), std::move(databases));
   return result;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "dynamics/marine/radiation/hydrodynamic_series.h"
 
@@ -18,7 +19,7 @@
 ///     reference_points      [N, 3], and where known centres_of_buoyancy, centres_of_mass
 ///     displaced_volumes     [N]
 ///     hydrostatic_stiffness [6N, 6N], where known
-///     change_from_coarser, cut_off_by_end   [6N], where known
+///     change_from_coarser, excitation_change_from_coarser, cut_off_by_end   [6N], where known
 ///     infinite_added_mass   [6N, 6N]
 ///     added_mass, damping   [F, 6N, 6N]
 ///     retardation           [T, 6N, 6N], attribute time_step
@@ -35,6 +36,9 @@ class HydrodynamicFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// How the origin begins of what another program computed.
+inline constexpr std::string_view imported_from = "imported from ";
 
 /// What a file holds.
 struct HydrodynamicFile {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fstream>
 #include <map>
 #include <numbers>
@@ -32,6 +33,25 @@ bool is_rotation(Eigen::Index mode) { return mode % modes_per_body >= 3; }
 /// 0 for displacements, 1 mixed, 2 for rotations.
 int rotations(Eigen::Index i, Eigen::Index j) {
   return (is_rotation(i) ? 1 : 0) + (is_rotation(j) ? 1 : 0);
+}
+
+// What the numbers of the files are to be multiplied by; L is ULEN, m.
+
+/// rho L^k, of added mass, and with the frequency of damping.
+double radiation_scale(const dynamics::Water& water, double L, Eigen::Index i, Eigen::Index j) {
+  return water.density * std::pow(L, 3 + rotations(i, j));
+}
+/// rho g L^m, m = 2 or 3.
+double excitation_scale(const dynamics::Water& water, double L, Eigen::Index mode) {
+  return water.density * water.gravity * std::pow(L, is_rotation(mode) ? 3 : 2);
+}
+/// Of a mean drift force: a power less.
+double drift_scale(const dynamics::Water& water, double L, Eigen::Index mode) {
+  return excitation_scale(water, L, mode) / L;
+}
+/// rho g L^(k-1).
+double stiffness_scale(const dynamics::Water& water, double L, Eigen::Index i, Eigen::Index j) {
+  return water.density * water.gravity * std::pow(L, 2 + rotations(i, j));
 }
 
 /// A line of numbers with its place.
@@ -221,7 +241,7 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
     const double period = line.values[0];
     if (period < 0.0) continue;
     const Eigen::Index i = file.mode(line, 1), j = file.mode(line, 2);
-    const double scale = scales.water.density * std::pow(scales.length, 3 + rotations(i, j));
+    const double scale = radiation_scale(scales.water, scales.length, i, j);
     if (period == 0.0) {
       if (database.infinite_added_mass.size() == 0) {
         database.infinite_added_mass = MatrixXd::Zero(modes, modes);
@@ -277,8 +297,7 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
     const Eigen::Index i = file.mode(line, 2);
     if (i >= modes || radiating.count(i) == 0)
       file.fail(line.number, "a mode that the .1 file does not have");
-    const double scale = scales.water.density * scales.water.gravity *
-                         std::pow(scales.length, is_rotation(i) ? 3 : 2);
+    const double scale = excitation_scale(scales.water, scales.length, i);
     const std::size_t h = headings.at(line.values[1]);
     database.diffraction[period->second](i, static_cast<Eigen::Index>(h)) = {
         scale * line.values[5], scale * line.values[6]};
@@ -336,8 +355,7 @@ void read_mean_drift(const fs::path& path, const WamitScales& scales, const Peri
     const Eigen::Index mode = file.mode(line, 3);
     if (mode >= modes) file.fail(line.number, "a mode that the .1 file does not have");
     const auto h = static_cast<Eigen::Index>(heading - database.headings.begin());
-    const double scale = scales.water.density * scales.water.gravity *
-                         std::pow(scales.length, is_rotation(mode) ? 2 : 1);
+    const double scale = drift_scale(scales.water, scales.length, mode);
     database.mean_drift[period->second](mode, h) = scale * line.values[6];
     found.emplace(period->second, h);
   }
@@ -347,18 +365,18 @@ void read_mean_drift(const fs::path& path, const WamitScales& scales, const Peri
       found.size(), database.frequencies.size() * database.headings.size()));
 }
 
-std::string mean_drift_text(const HydrodynamicDatabase& database) {
-  const double scale = database.water.density * database.water.gravity;
+std::string mean_drift_text(const HydrodynamicDatabase& database, double length) {
   std::string text;
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-    const MatrixXd D = database.mean_drift[k] / scale;
+    const MatrixXd& D = database.mean_drift[k];
     for (Eigen::Index h = 0; h < D.cols(); ++h) {
       const double heading = database.headings[h] / degree;
       for (Eigen::Index i = 0; i < D.rows(); ++i) {
+        const double force = D(i, h) / drift_scale(database.water, length, i);
         text += fmt::format(
             "{:23.16E} {:23.16E} {:23.16E} {:5d} {:23.16E} {:23.16E} {:23.16E} {:23.16E}\n",
-            two_pi / database.frequencies[k], heading, heading, i + 1, std::abs(D(i, h)),
-            D(i, h) < 0.0 ? 180.0 : 0.0, D(i, h), 0.0);
+            two_pi / database.frequencies[k], heading, heading, i + 1, std::abs(force),
+            force < 0.0 ? 180.0 : 0.0, force, 0.0);
       }
     }
   }
@@ -375,9 +393,8 @@ void read_stiffness(const fs::path& path, const WamitScales& scales,
     file.require_columns(line, 3, "two modes and a stiffness");
     const Eigen::Index i = file.mode(line, 0), j = file.mode(line, 1);
     if (i >= modes || j >= modes) file.fail(line.number, "a mode that the .1 file does not have");
-    database.hydrostatic_stiffness(i, j) = scales.water.density * scales.water.gravity *
-                                           std::pow(scales.length, 2 + rotations(i, j)) *
-                                           line.values[2];
+    database.hydrostatic_stiffness(i, j) =
+        stiffness_scale(scales.water, scales.length, i, j) * line.values[2];
     found.emplace(i, j);
   }
   // Between bodies there is none, and a file may leave it out.
@@ -392,53 +409,54 @@ void read_stiffness(const fs::path& path, const WamitScales& scales,
   }
 }
 
-std::string radiation_text(const HydrodynamicDatabase& database) {
-  const double rho = database.water.density;
+std::string radiation_text(const HydrodynamicDatabase& database, double length) {
+  const auto scale = [&](Eigen::Index i, Eigen::Index j) {
+    return radiation_scale(database.water, length, i, j);
+  };
   const Eigen::Index modes = database.mode_count();
   std::string text;
   for (Eigen::Index i = 0; i < modes; ++i) {
     for (Eigen::Index j = 0; j < modes; ++j) {
       text += fmt::format("{:23.16E} {:5d} {:5d} {:23.16E}\n", 0.0, i + 1, j + 1,
-                          database.infinite_added_mass(i, j) / rho);
+                          database.infinite_added_mass(i, j) / scale(i, j));
     }
   }
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
     const double w = database.frequencies[k];
     for (Eigen::Index i = 0; i < modes; ++i) {
       for (Eigen::Index j = 0; j < modes; ++j) {
-        text +=
-            fmt::format("{:23.16E} {:5d} {:5d} {:23.16E} {:23.16E}\n", two_pi / w, i + 1, j + 1,
-                        database.added_mass[k](i, j) / rho, database.damping[k](i, j) / (rho * w));
+        text += fmt::format("{:23.16E} {:5d} {:5d} {:23.16E} {:23.16E}\n", two_pi / w, i + 1, j + 1,
+                            database.added_mass[k](i, j) / scale(i, j),
+                            database.damping[k](i, j) / (scale(i, j) * w));
       }
     }
   }
   return text;
 }
 
-std::string excitation_text(const HydrodynamicDatabase& database) {
-  const double scale = database.water.density * database.water.gravity;
+std::string excitation_text(const HydrodynamicDatabase& database, double length) {
   std::string text;
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-    const Eigen::MatrixXcd X = database.excitation(k) / scale;
+    const Eigen::MatrixXcd X = database.excitation(k);
     for (Eigen::Index h = 0; h < X.cols(); ++h) {
       for (Eigen::Index i = 0; i < X.rows(); ++i) {
+        const std::complex<double> force = X(i, h) / excitation_scale(database.water, length, i);
         text += fmt::format("{:23.16E} {:23.16E} {:5d} {:23.16E} {:23.16E} {:23.16E} {:23.16E}\n",
                             two_pi / database.frequencies[k], database.headings[h] / degree, i + 1,
-                            std::abs(X(i, h)), std::arg(X(i, h)) / degree, X(i, h).real(),
-                            X(i, h).imag());
+                            std::abs(force), std::arg(force) / degree, force.real(), force.imag());
       }
     }
   }
   return text;
 }
 
-std::string stiffness_text(const HydrodynamicDatabase& database) {
-  const double scale = database.water.density * database.water.gravity;
+std::string stiffness_text(const HydrodynamicDatabase& database, double length) {
   std::string text;
   for (Eigen::Index i = 0; i < database.mode_count(); ++i) {
     for (Eigen::Index j = 0; j < database.mode_count(); ++j) {
-      text += fmt::format("{:5d} {:5d} {:23.16E}\n", i + 1, j + 1,
-                          database.hydrostatic_stiffness(i, j) / scale);
+      text += fmt::format(
+          "{:5d} {:5d} {:23.16E}\n", i + 1, j + 1,
+          database.hydrostatic_stiffness(i, j) / stiffness_scale(database.water, length, i, j));
     }
   }
   return text;
@@ -490,16 +508,17 @@ std::vector<dynamics::Vector3> wamit_points(const HydrodynamicDatabase& database
   return points;
 }
 
-void write_wamit(const fs::path& name, const HydrodynamicDatabase& given) {
+void write_wamit(const fs::path& name, const HydrodynamicDatabase& given, double length) {
   const HydrodynamicDatabase database = about_points(given, wamit_points(given));
-  write_file(with_ending(name, ".1"), radiation_text(database));
-  if (!database.headings.empty()) write_file(with_ending(name, ".3"), excitation_text(database));
+  write_file(with_ending(name, ".1"), radiation_text(database, length));
+  if (!database.headings.empty())
+    write_file(with_ending(name, ".3"), excitation_text(database, length));
   if (!database.mean_drift.empty()) {
     write_file(with_ending(name, database.body_count() == 1 ? ".8" : ".9"),
-               mean_drift_text(database));
+               mean_drift_text(database, length));
   }
   if (database.hydrostatic_stiffness.size() > 0) {
-    write_file(with_ending(name, ".hst"), stiffness_text(database));
+    write_file(with_ending(name, ".hst"), stiffness_text(database, length));
   }
 }
 

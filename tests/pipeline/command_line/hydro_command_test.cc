@@ -70,6 +70,8 @@ TEST_F(HydroCommand, ComputesOnceAndConverts) {
   EXPECT_EQ(run("--import db.h5 --export bemio -o wec.h5").exit_code, 0);
   EXPECT_THAT(run("--import db.h5 --export wamit -o wec.1").out,
               AllOf(HasSubstr("wec.1, wec.3"), HasSubstr("about the origin")));
+  EXPECT_THAT(run("--import db.h5 --export wamit --wamit-length 20 -o long.1").out,
+              AllOf(HasSubstr("(ULEN 20 m)"), HasSubstr("--wamit-length=20")));
   EXPECT_THAT(run("--import wec.h5 -o back.h5").out, HasSubstr("imported from wec.h5 (BEMIO)"));
   EXPECT_THAT(run("--import wec.1 --water-depth 20 -o back.h5").out,
               HasSubstr("imported from wec.1 (WAMIT)"));
@@ -281,8 +283,17 @@ TEST_F(HydroCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run("--import none.h5 -o x.h5").exit_code, 2);
   EXPECT_EQ(run("--import pontoon/vessel.yaml -o x.h5").exit_code, 2);
   EXPECT_THAT(run("--import none.1 --body-at 0,0 --body-at=-3,deep -o x.h5").err,
-              AllOf(HasSubstr("\"deep\" is no number"), HasSubstr("x,y[,z[,heading]] is due")));
+              AllOf(HasSubstr("\"deep\""), HasSubstr("a length is due"),
+                    HasSubstr("x,y[,z[,heading]] is due")));
+  EXPECT_THAT(run("--import none.1 --body-at 0,0,0,90rpm -o x.h5").err,
+              HasSubstr("an angle is due"));
+  EXPECT_THAT(run("--import none.1 --body-at 1,2, -o x.h5").err, HasSubstr("2 numbers"));
+  // Read with their units, and by themselves: the file is what is missing.
+  EXPECT_THAT(run("--import none.1 --body-at=-30m,1200cm,0,1.5rad -o x.h5").err,
+              HasSubstr("none.1: cannot be opened"));
   EXPECT_THAT(run("--import none.1 --body-at 3 -o x.h5").err, HasSubstr("1 numbers"));
+  EXPECT_THAT(run("--import none.nc --wamit-length 2 -o x.h5").err,
+              HasSubstr("no file of WAMIT is read or written"));
 }
 
 /// Panels of a box of 4 m, its lowest point at z, in WAMIT's format; some left out, or turned

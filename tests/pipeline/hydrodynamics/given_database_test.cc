@@ -1,10 +1,13 @@
 // Databases that a case names in place of computed ones.
 #include "pipeline/hydrodynamics/given_database.h"
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull/hull_shapes.h"
+#include "pipeline/hydrodynamics/radiation_cache.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -12,6 +15,7 @@ namespace {
 using dynamics::HydrodynamicDatabase;
 using dynamics::Pose;
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 
 constexpr double low_frequency = 0.05;
@@ -66,6 +70,21 @@ TEST(GivenDatabase, HasTheBodiesInTheOrderOfTheCase) {
   for (Eigen::Index k = 0; k < 12; ++k) {
     EXPECT_EQ(taken.infinite_added_mass(k, k), static_cast<double>((k + 6) % 12));
   }
+}
+
+// What hydro found out about its panels is said where a case names the file.
+TEST(GivenDatabase, ItsPanelsAreDoubted) {
+  HydrodynamicDatabase database = two_barges();
+  database.retardation.clear();
+  for (int n = 0; n < 100; ++n)
+    database.retardation.push_back(1e5 * std::exp(-0.2 * n) * Eigen::MatrixXd::Identity(12, 12));
+  database.change_from_coarser = Eigen::VectorXd::Constant(12, 0.01);
+  database.excitation_change_from_coarser = database.change_from_coarser;
+  database.excitation_change_from_coarser[9] = 0.43;
+  std::vector<std::string> said;
+  find_radiation(problem_with(database), [&](const std::string& what) { said.push_back(what); });
+  EXPECT_THAT(said, Contains(AllOf(HasSubstr("warning: the panels are coarse"),
+                                   HasSubstr("waves on left in roll changes by 43 %"))));
 }
 
 // In waves of 25 km the pressure of the incident wave is that of still water one metre higher:

@@ -38,6 +38,21 @@ TEST(DoubtAboutPanels, NamesTheWorstMode) {
   EXPECT_THAT(doubt_about_panels(database), HasSubstr("of ship in heave changes by 40 %"));
 }
 
+// Its size alone does not tell that of the radiation force: roll of a flat section is such a mode.
+TEST(DoubtAboutExcitation, NamesTheWorstMode) {
+  dynamics::HydrodynamicDatabase database = two_bodies();
+  EXPECT_THAT(doubt_about_excitation(database), IsEmpty());
+  database.excitation_change_from_coarser = Eigen::VectorXd::Constant(12, 0.1);
+  EXPECT_THAT(doubt_about_excitation(database), IsEmpty());
+  database.excitation_change_from_coarser[9] = 0.43;
+  EXPECT_THAT(doubt_about_panels(database), IsEmpty());
+  EXPECT_THAT(doubt_about_excitation(database),
+              HasSubstr("waves on ship in roll changes by 43 % of its largest"));
+  // Of panels without a solution another doubt speaks.
+  database.excitation_change_from_coarser[9] = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(doubt_about_excitation(database), IsEmpty());
+}
+
 TEST(DoubtAboutPanels, ThinksOfGapsWhereAForceChangesByMoreThanItself) {
   dynamics::HydrodynamicDatabase database = two_bodies();
   database.change_from_coarser[8] = 0.9;

@@ -1,4 +1,5 @@
 // Points and axes that the files of other programs are about.
+#include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -86,6 +87,36 @@ TEST(Wamit, IsWrittenAboutThePointThatItIsReadAbout) {
               1e-3);
   // And back: the same to nine digits.
   expect_coefficients(database, about_points(found, database.reference_points));
+}
+
+// ULEN scales each kind of number by its own power, and the import takes it off again.
+TEST(Wamit, LengthScalesWhatIsWritten) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = single_body();
+  database.reference_points = {Vector3::Zero()};
+  database.mean_drift.assign(database.frequencies.size(),
+                             Eigen::MatrixXd::Constant(6, database.headings.size(), -700.0));
+  constexpr double length = 12.5;
+  write_wamit("single", database, length);
+  const HydrodynamicDatabase found = read_wamit("single", {length, database.water});
+  expect_coefficients(database, found);
+  ASSERT_EQ(found.mean_drift.size(), database.mean_drift.size());
+  expect_nine_digits(database.mean_drift[0], found.mean_drift[0]);
+  // Read as if it were of 1 m: A over L^3 and L^5, X over L^2 and L^3, C over L^2 and L^4, drift over
+  // L and L^2.
+  const HydrodynamicDatabase bare = read_wamit("single", {1.0, database.water});
+  const auto expect_share = [](double whole, double part, double power) {
+    EXPECT_NEAR(part * std::pow(length, power), whole, 1e-12 * std::abs(whole)) << power;
+  };
+  expect_share(database.infinite_added_mass(2, 2), bare.infinite_added_mass(2, 2), 3);
+  expect_share(database.added_mass[0](4, 4), bare.added_mass[0](4, 4), 5);
+  expect_share(database.damping[1](0, 4), bare.damping[1](0, 4), 4);
+  expect_share(std::abs(database.excitation(1)(2, 0)), std::abs(bare.excitation(1)(2, 0)), 2);
+  expect_share(std::abs(database.excitation(1)(4, 0)), std::abs(bare.excitation(1)(4, 0)), 3);
+  expect_share(database.hydrostatic_stiffness(2, 2), bare.hydrostatic_stiffness(2, 2), 2);
+  expect_share(database.hydrostatic_stiffness(4, 4), bare.hydrostatic_stiffness(4, 4), 4);
+  expect_share(database.mean_drift[0](0, 0), bare.mean_drift[0](0, 0), 1);
+  expect_share(database.mean_drift[0](5, 0), bare.mean_drift[0](5, 0), 2);
 }
 
 std::string message_of(const WamitScales& scales) {

@@ -1,5 +1,6 @@
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
+#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -43,6 +44,7 @@ void expect_same(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b) {
   EXPECT_EQ(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
   EXPECT_EQ(a.infinite_added_mass, b.infinite_added_mass);
   EXPECT_EQ(a.change_from_coarser, b.change_from_coarser);
+  EXPECT_EQ(a.excitation_change_from_coarser, b.excitation_change_from_coarser);
   EXPECT_EQ(a.cut_off_by_end, b.cut_off_by_end);
   EXPECT_EQ(a.time_step, b.time_step);
   EXPECT_EQ(a.retardation, b.retardation);
@@ -71,10 +73,26 @@ void remove(const std::string& file, const std::string& object) {
   H5Ldelete(handle.get(), object.c_str(), H5P_DEFAULT);
 }
 
+// An older program imported it; what is computed here is not refused for it.
+TEST(HydrodynamicDatabaseFile, RefusesImportsThatWavesBringEnergy) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = make_sample_database();
+  write_hydrodynamic_database("db.h5", database, "", "imported from pair.1 (WAMIT)");
+  EXPECT_NO_THROW(read_hydrodynamic_database("db.h5"));
+  database.damping[1](8, 8) = -std::abs(database.damping[0](8, 8));
+  write_hydrodynamic_database("db.h5", database, "", "imported from pair.1 (WAMIT)");
+  EXPECT_THAT(message_of([] { read_hydrodynamic_database("db.h5"); }),
+              AllOf(HasSubstr("db.h5: the damping of"), HasSubstr("heave on itself is -"),
+                    HasSubstr("below zero")));
+  write_hydrodynamic_database("db.h5", database, "0123", "computed by blocklift");
+  EXPECT_NO_THROW(read_hydrodynamic_database("db.h5"));
+}
+
 TEST(HydrodynamicDatabaseFile, ReadsExactlyWhatWasWritten) {
   const test::TemporaryFolder folder;
   HydrodynamicDatabase database = make_sample_database();
   database.change_from_coarser = Eigen::VectorXd::LinSpaced(database.mode_count(), 0.01, 0.3);
+  database.excitation_change_from_coarser = 2.0 * database.change_from_coarser;
   database.cut_off_by_end = 0.1 * database.change_from_coarser;
   write_hydrodynamic_database("db.h5", database, "0123", "made up");
   expect_same(read_hydrodynamic_database("db.h5"), database);
