@@ -1,4 +1,5 @@
 // Weight of what decks hang on plates and bars beyond their own mass, of each kind of element.
+#include <cmath>
 #include <string>
 #include <vector>
 
