@@ -153,6 +153,7 @@ std::optional<std::string> validate(const fs::path& named, ModelLibrary& library
   if (!lift_case) return std::nullopt;
   block = lift_case->load.model;
   if (lift_case->has_structure()) {
+    check_element_degree(*lift_case->load.model, lift_case->structure, diagnostics);
     check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
   }
   std::string summary = fmt::format("lift case {}: {}", lift_case->name, summary_of(*lift_case));
