@@ -171,6 +171,7 @@ std::optional<std::string> validate(const fs::path& named, ModelLibrary& library
   block = lift_case->load.model;
   std::string table_doubts;
   if (lift_case->has_structure()) {
+    check_element_degree(*lift_case->load.model, lift_case->structure, diagnostics);
     const auto coarse =
         check_block_model(*lift_case->load.model, lift_case->load.model_name.value, diagnostics);
     if (coarse && lift_case->load_table)

@@ -87,28 +87,10 @@ bool stand_padeyes(const BlockModel& block, structure::Mesh& mesh, Diagnostics& 
   return all_stand;
 }
 
-}  // namespace
-
-bool check_stated_mass(const BlockModel& block, const structure::MassProperties& mass,
-                       Diagnostics& diagnostics) {
-  constexpr double overlap = 0.05;  // of the steel's mass
-  if (!block.mass || mass.mass >= (1 - overlap) * mass.steel_mass) return true;
-  const char* const steel = block.mesh ? "mesh" : "plates";
-  diagnostics.error(
-      block.mass->mark,
-      fmt::format("the block's mass is stated as {:.4g} t, and its {} alone weigh{} {:.4g} t",
-                  mass.mass / 1e3, steel, block.mesh ? "s" : "", mass.steel_mass / 1e3),
-      {fmt::format("give the mass in the lift, outfitting included; or mend thicknesses, openings "
-                   "and densities of the {0}; or leave mass and centre_of_mass out: then they are "
-                   "those of the {0}",
-                   steel)});
-  return false;
-}
-
-std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
-                                                          const std::string& name,
-                                                          const StructureSettings& settings,
-                                                          Diagnostics& diagnostics) {
+std::unique_ptr<structure::ElasticModel> make_model(const BlockModel& block,
+                                                    const std::string& name,
+                                                    const StructureSettings& settings,
+                                                    Diagnostics& diagnostics) {
   try {
     const auto stated = [](const auto& located) {
       return located ? std::optional(located->value) : std::nullopt;
@@ -135,6 +117,45 @@ std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& bloc
   }
 }
 
+}  // namespace
+
+bool check_element_degree(const BlockModel& block, const StructureSettings& settings,
+                          Diagnostics& diagnostics) {
+  if (settings.element_degree != 1 || !block.mesh || block.mesh->deck->mesh.curved_shells.empty())
+    return true;
+  diagnostics.error(block.mesh->file.mark,
+                    "the mesh has quadratic shells, which may be curved, and the case asks for "
+                    "elements of degree 1 (structure: element_degree: 1), which do not turn with "
+                    "them as a rigid body",
+                    {"element_degree of 2, which the mesh itself has, to 4",
+                     "or a mesh of linear shells (CQUAD4, CTRIA3, S4, S3)"});
+  return false;
+}
+
+bool check_stated_mass(const BlockModel& block, const structure::MassProperties& mass,
+                       Diagnostics& diagnostics) {
+  constexpr double overlap = 0.05;  // of the steel's mass
+  if (!block.mass || mass.mass >= (1 - overlap) * mass.steel_mass) return true;
+  const char* const steel = block.mesh ? "mesh" : "plates";
+  diagnostics.error(
+      block.mass->mark,
+      fmt::format("the block's mass is stated as {:.4g} t, and its {} alone weigh{} {:.4g} t",
+                  mass.mass / 1e3, steel, block.mesh ? "s" : "", mass.steel_mass / 1e3),
+      {fmt::format("give the mass in the lift, outfitting included; or mend thicknesses, openings "
+                   "and densities of the {0}; or leave mass and centre_of_mass out: then they are "
+                   "those of the {0}",
+                   steel)});
+  return false;
+}
+
+std::unique_ptr<structure::ElasticModel> make_block_model(const BlockModel& block,
+                                                          const std::string& name,
+                                                          const StructureSettings& settings,
+                                                          Diagnostics& diagnostics) {
+  if (!check_element_degree(block, settings, diagnostics)) return nullptr;
+  return make_model(block, name, settings, diagnostics);
+}
+
 std::unique_ptr<structure::UnitResponses> make_unit_responses(const structure::ElasticModel& model,
                                                               const BlockModel& block) {
   try {
@@ -156,7 +177,7 @@ std::unique_ptr<structure::ElasticModel> check_block_model(const BlockModel& blo
   StructureSettings settings;
   settings.element_degree = coarse_degree;
   settings.largest_element = coarse_element;
-  return make_block_model(block, name, settings, diagnostics);
+  return make_model(block, name, settings, diagnostics);
 }
 
 }  // namespace blocklift::pipeline

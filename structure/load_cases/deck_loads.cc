@@ -8,6 +8,7 @@
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
+#include "structure/mesh/files/deck/coordinate_systems.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 
@@ -16,6 +17,12 @@ namespace blocklift::structure {
 namespace {
 
 Eigen::Index row_of(int node) { return 6 * static_cast<Eigen::Index>(node); }
+
+/// Direction of a pressure at a place where it is not along the normal.
+template <typename Pressure>
+Vector3 direction_at(const Pressure& load, const Vector3& place) {
+  return load.system ? Vector3(load.system->axes_at(place) * load.direction) : load.direction;
+}
 
 /// Shares of a face's corners at a point of the unit square, and their slopes (columns) along it.
 struct FacePoint {
@@ -92,11 +99,11 @@ class LoadAdder {
       }
       const Eigen::Matrix<double, 3, 2> tangents =
           places * (shape_of(solid.shape).gradients(local) * along);
+      const Eigen::VectorXd values = shape_of(solid.shape).values(local);
       const Vector3 outward = tangents.col(0).cross(tangents.col(1));
       const Vector3 area = on_face.direction.isZero(0)
                                ? Vector3(-outward)
-                               : Vector3(outward.norm() * on_face.direction);
-      const Eigen::VectorXd values = shape_of(solid.shape).values(local);
+                               : Vector3(outward.norm() * direction_at(on_face, places * values));
       for (Eigen::Index i = 0; i < values.size(); ++i)
         load_.segment<3>(row_of(space_.solid_nodes(on_face.solid)[i])) +=
             factor * rule(2, q) * pressure * values[i] * area;
@@ -131,7 +138,10 @@ class LoadAdder {
                             xi.x() * (1 - xi.y()) * plate.pressure[1] +
                             (1 - xi.x()) * xi.y() * plate.pressure[2] +
                             xi.x() * xi.y() * plate.pressure[3];
-    const Vector3 direction = plate.direction.isZero(0) ? point.normal : plate.direction;
+    const Vector3 direction =
+        plate.direction.isZero(0)
+            ? point.normal
+            : direction_at(plate, space_.place(cell, point_of_rule.head<2>()));
     const Vector3 force = factor * pressure * point_of_rule.z() * point.area * direction;
     const Eigen::VectorXd values = space_.shell_values(point_of_rule.head<2>());
     for (Eigen::Index i = 0; i < values.size(); ++i)

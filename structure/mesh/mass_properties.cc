@@ -110,9 +110,8 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
     integrate(
         mesh, shell,
         [&](double part, const Eigen::Vector2d& xi, const Vector3& point, const Vector3& normal) {
-          const double per_area = mesh.material_of(shell).density * thickness_at(mesh, shell, xi) +
-                                  section.mass_per_area;
-          sum.add(per_area * part, point + section.offset * normal);
+          const double mass = part * mass_per_area(mesh, shell, thickness_at(mesh, shell, xi));
+          sum.add(mass, point + section.offset * normal);
         });
   }
   for (const Beam& beam : mesh.beams) {
@@ -121,9 +120,8 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
     const double half = 0.5 / std::sqrt(3.0);
     for (const double place : {0.5 - half, 0.5 + half}) {
       const BeamSection section = section_at(mesh, beam, place);
-      const double per_length =
-          mesh.materials[section.material].density * section.area + section.mass_per_length;
-      of_region(beam.region).add(per_length * line.norm() / 2, from + place * line);
+      of_region(beam.region)
+          .add(mass_per_length(mesh, section) * line.norm() / 2, from + place * line);
     }
   }
   for (const Solid& solid : mesh.solids) {
@@ -144,6 +142,14 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
 }
 
 }  // namespace
+
+double mass_per_area(const Mesh& mesh, const Shell& shell, double thickness) {
+  return mesh.material_of(shell).density * thickness + mesh.section_of(shell).mass_per_area;
+}
+
+double mass_per_length(const Mesh& mesh, const BeamSection& section) {
+  return mesh.materials[section.material].density * section.area + section.mass_per_length;
+}
 
 MeshMass mass_properties(const Mesh& mesh) {
   MassSum all;

@@ -15,6 +15,7 @@
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
+#include "structure/mesh/mass_properties.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/space/space_implementation.h"
@@ -40,8 +41,11 @@ void visit_beams(const Space& space, const VisitMatter& visit) {
       const double xi = rule.point(q)[0], share = located.origin + located.size * xi;
       const BeamSection section = section_at(mesh, beam, share);
       // I_23 is left out: the sections' own moments matter little beside those of where they stand.
-      const double reach_2 = std::sqrt(2 * section.second_moment_3 / section.area);
-      const double reach_3 = std::sqrt(2 * section.second_moment_2 / section.area);
+      // What the section bears beyond its own mass is spread over it as its own is. Without an area
+      // it hangs on the centroid.
+      const double per_area = section.area > 0 ? 2 / section.area : 0;
+      const double reach_2 = std::sqrt(per_area * section.second_moment_3);
+      const double reach_3 = std::sqrt(per_area * section.second_moment_2);
       const std::array<Vector3, 4> reaches{reach_2 * axes.row(1), -reach_2 * axes.row(1),
                                            reach_3 * axes.row(2), -reach_3 * axes.row(2)};
       const BeamPoint strained = beam_point(space, cell, xi);
@@ -51,8 +55,9 @@ void visit_beams(const Space& space, const VisitMatter& visit) {
       point.nodes = located.nodes.data();
       point.values = values.data();
       point.node_count = located.degree + 1;
-      point.volume = 0.25 * rule.weight(q) * strained.weight * section.area;
-      point.mass = point.volume * mesh.materials[section.material].density;
+      const double length = 0.25 * rule.weight(q) * strained.weight;  // of each of the four points
+      point.volume = length * section.area;
+      point.mass = length * mass_per_length(mesh, section);
       for (const Vector3& reach : reaches) {
         point.arm = arm + reach;
         point.place = strained.place + reach;
@@ -170,7 +175,8 @@ void visit_cell(const Space& space, int cell, const std::vector<Eigen::VectorXd>
   for (std::size_t q = 0; q < shapes.size(); ++q) {
     point.values = shapes[q].data();
     point.volume = points[q].volume;
-    point.mass = point.volume * space.mesh().material_of(shell).density;
+    const double area = point.volume / points[q].thickness;  // of half the thickness: half of it
+    point.mass = area * mass_per_area(space.mesh(), shell, points[q].thickness);
     for (const double side : {-1.0, 1.0}) {
       point.arm =
           (section.offset + side * points[q].thickness / std::sqrt(12.0)) * points[q].normal;

@@ -221,6 +221,38 @@ TEST(BlockMesh, SupportsOfTheDeckThatHeldWhatIsLooseAreNamed) {
               HasSubstr("the deck's own supports hold 2 nodes, such as 8002, of it (constraint "));
 }
 
+// Straight elements on curved ones are refused where a lift is computed, and taken at degree 2.
+TEST(BlockMesh, QuadraticShellsAreNotOfDegreeOne) {
+  const test::TemporaryFolder folder;
+  folder.write("plate.bdf",
+               "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\n"
+               "GRID,4,,0.,1.,0.\nGRID,5,,1.,0.,0.1\nGRID,6,,2.,.5,0.\nGRID,7,,1.,1.,0.1\n"
+               "GRID,8,,0.,.5,0.\nCQUAD8,1,1,1,2,3,4,5,6\n,7,8\nPSHELL,1,1,.01,1,,1\n"
+               "MAT1,1,2.1+11,,.3,7850.\nENDDATA\n");
+  folder.write("block.yaml",
+               "kind: block\nmesh: {file: plate.bdf, units: m-kg-N, yield_stress: 355 MPa}\n"
+               "lugs: {L1: {node: 1}}\n");
+  std::string complaints;
+  const auto block = read_block("block.yaml", complaints);
+  ASSERT_EQ(complaints, "");
+  for (const int degree : {1, 2}) {
+    Diagnostics diagnostics;
+    StructureSettings settings;
+    settings.element_degree = degree;
+    settings.largest_element = 10;
+    EXPECT_EQ(make_block_model(*block, "plate", settings, diagnostics) == nullptr, degree == 1);
+    if (degree == 1) {
+      EXPECT_THAT(diagnostics.to_text(), HasSubstr("the mesh has quadratic shells"));
+      EXPECT_THAT(diagnostics.to_text(), HasSubstr("element_degree: 1"));
+    } else {
+      EXPECT_EQ(diagnostics.to_text(), "");
+    }
+  }
+  Diagnostics diagnostics;  // the cheap check has no degree of its own
+  check_block_model(*block, "plate", diagnostics);
+  EXPECT_EQ(diagnostics.to_text(), "");
+}
+
 /// What is said of a mechanism that only the whole stiffness shows.
 std::string mechanism_of(const test::TemporaryFolder& folder, const std::string& supports) {
   // A door of one plate: two of its corners are hinged to two bars that stand out from the box.

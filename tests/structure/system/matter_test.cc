@@ -9,6 +9,7 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
+#include "structure/mesh/mass_properties.h"
 #include "structure/system/mass_distribution.h"
 
 namespace blocklift::structure {
@@ -138,6 +139,43 @@ TEST(Matter, ThreadsChangeNoDigit) {
     add_forces(p, Vector3(-p.mass * mass.density_factor(p.place) * Vector3::UnitX()), in_turn);
   });
   EXPECT_EQ(in_turn.col(0), loads.col(0));
+}
+
+// Paint and outfit of sections weigh as the steel does, of tapered plates and beams too. Plates: 6 m2
+// of 0.1 m at one side and 0.2 m at the other, and 12 kg/m2. Beams: 3 m of 0.01 m2, and each piece's
+// 20 kg/m at one end and 40 kg/m at the other.
+TEST(Matter, MassBeyondTheSectionsIsMass) {
+  Mesh mesh = everything();
+  mesh.shell_sections[0].mass_per_area = 12;
+  mesh.shell_tapers = {{0.1, 0.2, 0.1, 0.2}};
+  for (Shell& shell : mesh.shells) shell.taper = 0;
+  mesh.beam_sections[0].mass_per_length = 20;
+  mesh.beam_sections.push_back(mesh.beam_sections[0]);
+  mesh.beam_sections[1].mass_per_length = 40;
+  for (Beam& beam : mesh.beams) beam.end_section = 1;
+  const double total = 6 * (7850 * 0.15 + 12) + 3 * (7850 * 0.01 + 30) + 500;
+  const MeshMass before = mass_properties(mesh);
+  EXPECT_NEAR(before.mass, total, exact * total);
+  const Space space(mesh, {2, {}});
+  const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
+  EXPECT_NEAR(mass.mass, total, exact * total);
+  EXPECT_LT((mass.centre_of_mass_B - before.centre).norm(), exact);
+  const Eigen::MatrixXd weight = inertia_loads(space, mass).leftCols<1>();
+  EXPECT_NEAR(resultant(space, weight).force.x(), -total, exact * total);
+}
+
+// A plate of no density that bears 40 kg/m2, and a beam of no area that bears 5 kg/m.
+TEST(Matter, SectionsMayHaveNoMassOfTheirOwn) {
+  Mesh mesh = everything();
+  mesh.materials[0].density = 0;
+  mesh.masses.clear();
+  mesh.shell_sections[0].mass_per_area = 40;
+  mesh.beam_sections[0].area = 0;
+  mesh.beam_sections[0].mass_per_length = 5;
+  const Space space(mesh, {2, {}});
+  const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
+  EXPECT_NEAR(mass.mass, 6 * 40 + 3 * 5, exact * 255);
+  EXPECT_TRUE(mass.inertia_BBcm_B.allFinite());
 }
 
 TEST(MassDistribution, GivesAnyStatedMassWithoutTheElements) {

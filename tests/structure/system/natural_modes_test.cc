@@ -81,6 +81,36 @@ TEST(NaturalModes, CopiesOfARepeatedFrequencyAreFound) {
   EXPECT_NEAR(modes.frequencies[0], bernoulli, 2e-3 * bernoulli);
 }
 
+// With three times a beam's own mass hung along it each frequency is half of what it was.
+TEST(NaturalModes, MassBeyondTheSectionSlowsABeam) {
+  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  BeamSection section;
+  section.area = 1e-2;
+  section.second_moment_2 = 1e-5;
+  section.second_moment_3 = 2e-5;
+  section.torsion = 2e-5;
+  section.shear_area_2 = section.shear_area_3 = 5e-3;
+  mesh.beam_sections = {section};
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  testing::add_beams(mesh, {0, 0, 0}, {3, 0, 0}, 0, Vector3::UnitY());
+  const auto modes = [&] {
+    const Space space(mesh, {4, {}});
+    std::vector<FixedUnknown> fixed;
+    testing::hold(
+        space, [](const Vector3& x) { return x.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
+    return modes_of(space, fixed, 4);
+  };
+  const NaturalModes bare = modes();
+  mesh.beam_sections[0].mass_per_length = 3 * 7850 * 1e-2;
+  const NaturalModes heavy = modes();
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(heavy.frequencies[i], bare.frequencies[i] / 2, 1e-6 * bare.frequencies[i]) << i;
+  // Bernoulli's first with rho A + m, less shear and rotatory inertia.
+  const double bernoulli =
+      1.87510 * 1.87510 / (2 * M_PI * 9) * std::sqrt(210e9 * 1e-5 / (4 * 7850 * 1e-2));
+  EXPECT_NEAR(heavy.frequencies[0], bernoulli, 2e-3 * bernoulli);
+}
+
 // A free strip that cannot bend: f_n = n c / 2 L, c = sqrt(E / rho) without contraction.
 TEST(NaturalModes, FreeBarRingsInWholeMultiples) {
   Material bar = testing::plain_steel();

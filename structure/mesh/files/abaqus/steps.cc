@@ -321,11 +321,11 @@ class StepBlocks {
         return;
       }
       if (block.name == "DSLOAD") {
-        add_surface_pressure(fields, kind, value);
+        add_surface_pressure(block, fields, kind, value);
         return;
       }
       for (const int e : model_.elements_of(*scope_, fields[0]))
-        add_load(model_.elements[e], kind, value);
+        add_load(block, model_.elements[e], kind, value);
     });
   }
 
@@ -372,10 +372,18 @@ class StepBlocks {
     }
   }
 
-  void add_load(const AbaqusDeckElement& element, const std::string& kind, double value) {
+  /// Notes that a load is left out, and says so at its keyword, for its step lacks it.
+  void leave_out(const AbaqusBlock& block, const std::string& kind, const std::string& what) const {
+    model_.log.leave_out("*" + block.name, what);
+    model_.log.remark(block.line,
+                      fmt::format("*{}: a load {} is left out: {}", block.name, kind, what));
+  }
+
+  void add_load(const AbaqusBlock& block, const AbaqusDeckElement& element, const std::string& kind,
+                double value) {
     if (element.kind == AbaqusKind::solid) {
       if (element.solid < 0 || kind.size() != 2 || kind[0] != 'P' || kind[1] < '1' || kind[1] > '9')
-        model_.log.leave_out("*DLOAD", "loads other than P1 to P6, GRAV and CENTRIF of solids");
+        leave_out(block, kind, "loads other than P1 to P6, GRAV and CENTRIF of solids");
       else
         now_.on_elements.solids.add({kind, element.solid},
                                     face_pressure(element, std::string{'S', kind[1]}, value));
@@ -389,9 +397,7 @@ class StepBlocks {
         {"PX", Vector3::UnitX()}, {"PY", Vector3::UnitY()}, {"PZ", Vector3::UnitZ()}};
     const auto direction = directions.find(kind);
     if (direction == directions.end() || element.beams.empty()) {
-      model_.log.leave_out("*DLOAD",
-                           "loads other than P of shells, PX, PY, PZ of beams, GRAV and "
-                           "CENTRIF");
+      leave_out(block, kind, "loads other than P of shells, PX, PY, PZ of beams, GRAV and CENTRIF");
       return;
     }
     for (const int beam : element.beams)
@@ -416,7 +422,8 @@ class StepBlocks {
     return load;
   }
 
-  void add_surface_pressure(const Fields& fields, const std::string& kind, double value) {
+  void add_surface_pressure(const AbaqusBlock& block, const Fields& fields, const std::string& kind,
+                            double value) {
     const auto surface = model_.surfaces.find(upper(fields[0]));
     if (surface == model_.surfaces.end())
       throw CardError{fmt::format("surface {} does not exist", fields[0])};
@@ -425,7 +432,7 @@ class StepBlocks {
       const AbaqusDeckElement& element = model_.elements[e];
       if (element.kind == AbaqusKind::solid) {
         if (element.solid < 0 || face == "SPOS")
-          model_.log.leave_out("*DSLOAD", "pressure on solids whose faces are not named (S1 ...)");
+          leave_out(block, kind, "pressure on solids whose faces are not named (S1 ...)");
         else
           now_.on_surfaces.solids.add({surface->first + " " + face, element.solid},
                                       face_pressure(element, face, value));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -67,11 +68,16 @@ struct PointLoad {
   Vector3 moment = Vector3::Zero();  ///< N m
 };
 
+struct LocalSystem;
+
 /// Pressure on a shell, linear between its corners.
 struct PlateLoad {
   int shell = 0;
   std::array<double, 4> pressure{};     ///< at the corners, in the shell's order of vertices, Pa
   Vector3 direction = Vector3::Zero();  ///< unit vector; without length: along the normal
+  /// About a cylinder or sphere, at each place in whose directions the vector is (in m); none: it
+  /// is one vector everywhere, along the world's axes.
+  std::shared_ptr<const LocalSystem> system = nullptr;
 };
 
 /// Pressure on a face of a solid, linear between its corners.
@@ -80,6 +86,7 @@ struct SolidLoad {
   int face = 0;                         ///< place among the faces of the solid's topology
   std::array<double, 4> pressure{};     ///< at the face's corners, in their order there, Pa
   Vector3 direction = Vector3::Zero();  ///< unit vector; without length: into the solid
+  std::shared_ptr<const LocalSystem> system = nullptr;  ///< as a plate's
 };
 
 struct BeamLoad {

@@ -105,6 +105,87 @@ class Supports {
   std::map<long, int> set_of_;
 };
 
+/// SPCD: motions that loads enforce on freedoms that constraints hold.
+class EnforcedMotions {
+ public:
+  explicit EnforcedMotions(NastranModel& model) : model_(model) {
+    model.for_each({{"SPCD", [&](const CardView& card) { add_pairs(card); }}});
+  }
+
+  bool has(long set) const { return motions_.contains(set); }
+
+  /// Adds to a case the motions of its sets of loads with their factors, as supports that come
+  /// after its constraints and so take their place. Those of several sets add up.
+  void add(const std::vector<std::pair<long, double>>& loads, DeckLoadCase& load_case) {
+    std::map<int, Support> enforced;
+    for (const auto& [set, factor] : loads) {
+      const auto found = motions_.find(set);
+      if (found == motions_.end()) continue;
+      for (const Motion& motion : found->second) add(motion, factor, load_case, enforced);
+    }
+    if (enforced.empty()) return;
+    auto& sets = model_.deck.support_sets;
+    SupportSet all{1, fmt::format("enforced motions of case {}", load_case.label), {}};
+    for (const SupportSet& set : sets) all.label = std::max(all.label, set.label + 1);
+    for (const auto& [vertex, support] : enforced) all.supports.push_back(support);
+    load_case.supports.push_back(static_cast<int>(sets.size()));
+    sets.push_back(std::move(all));
+  }
+
+ private:
+  struct Motion {
+    int vertex = 0;
+    std::size_t component = 0;
+    double value = 0;  ///< m or rad
+    SourceLine line;
+  };
+
+  // SPCD SID G1 C1 D1 G2 C2 D2
+  void add_pairs(const CardView& card) {
+    std::vector<Motion>& motions = motions_[card.label(0, "load set")];
+    for (const std::size_t first : {1U, 4U}) {
+      if (!card.has(first) || model_.is_scalar_point(card.label(first, "grid"))) continue;
+      const int vertex = model_.vertex(card, first, "grid");
+      const std::array<bool, 6> held = card.components(first + 1, "components");
+      const double value = card.real(first + 2, "displacement", 0.0);
+      for (std::size_t i = 0; i < 6; ++i)
+        if (held[i])
+          motions.push_back({vertex, i, i < 3 ? value * model_.units.length : value, card.line()});
+    }
+  }
+
+  void add(const Motion& motion, double factor, const DeckLoadCase& load_case,
+           std::map<int, Support>& enforced) {
+    if (!is_held(motion, load_case)) {
+      model_.log.complain(
+          motion.line,
+          fmt::format("SPCD: the constraints (SPC) of subcase {} do not hold component {} of grid "
+                      "{}; a motion is enforced on a freedom that is held",
+                      load_case.label, motion.component + 1,
+                      model_.deck.mesh.vertex_labels[motion.vertex]));
+      return;
+    }
+    Support& support = enforced[motion.vertex];
+    support.vertex = motion.vertex;
+    support.axes = model_.output_axes(motion.vertex);
+    support.held[motion.component] = true;
+    support.value[motion.component] += factor * motion.value;
+  }
+
+  bool is_held(const Motion& motion, const DeckLoadCase& load_case) const {
+    const auto& sets = model_.deck.support_sets;
+    return std::any_of(load_case.supports.begin(), load_case.supports.end(), [&](int set) {
+      return std::any_of(sets[set].supports.begin(), sets[set].supports.end(),
+                         [&](const Support& one) {
+                           return one.vertex == motion.vertex && one.held[motion.component];
+                         });
+    });
+  }
+
+  NastranModel& model_;
+  std::map<long, std::vector<Motion>> motions_;
+};
+
 /// Equations between freedoms; one that has a single term holds it.
 class Equations {
  public:
@@ -196,7 +277,11 @@ struct Choice {
 class CaseControl {
  public:
   CaseControl(NastranModel& model, std::map<long, int> load_sets, Supports& supports)
-      : model_(model), load_sets_(std::move(load_sets)), supports_(supports), equations_(model) {
+      : model_(model),
+        load_sets_(std::move(load_sets)),
+        supports_(supports),
+        motions_(model),
+        equations_(model) {
     model_.for_each({{"LOAD", [&](const CardView& card) { read_combination(card); }}});
   }
 
@@ -368,10 +453,10 @@ class CaseControl {
       for (const int set : supports_.sets_of(choice.constraints)) load_case.supports.push_back(set);
     if (choice.load != 0) {
       const auto combined = combinations_.find(choice.load);
-      if (combined == combinations_.end())
-        add_load(load_case, choice.load, 1.0);
-      else
-        for (const auto& [set, factor] : combined->second) add_load(load_case, set, factor);
+      std::vector<std::pair<long, double>> loads{{choice.load, 1.0}};
+      if (combined != combinations_.end()) loads = combined->second;
+      for (const auto& [set, factor] : loads) add_load(load_case, set, factor);
+      motions_.add(loads, load_case);
     }
     model_.deck.load_cases.push_back(load_case);
   }
@@ -379,7 +464,7 @@ class CaseControl {
   void add_load(DeckLoadCase& load_case, long set, double factor) const {
     const auto found = load_sets_.find(set);
     if (found == load_sets_.end()) {
-      if (may_have_loads(set)) return;
+      if (motions_.has(set) || may_have_loads(set)) return;
       throw CardError{fmt::format("load set {} does not exist", set)};
     }
     load_case.loads.emplace_back(found->second, factor);
@@ -398,6 +483,7 @@ class CaseControl {
   NastranModel& model_;
   std::map<long, int> load_sets_;
   Supports& supports_;
+  EnforcedMotions motions_;
   Equations equations_;
   std::map<long, std::vector<std::pair<long, double>>> combinations_;
   Choice common_;

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "structure/mesh/files/deck/coordinate_systems.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -39,6 +41,32 @@ void write_loads_of_masses(const LoadSet& set, long label, const UnitSystem& uni
   std::vector<CardField> fields{label, 0L, 1.0};
   for (const double component : gravity) fields.emplace_back(component);
   out.card("GRAV", std::move(fields));
+}
+
+void PressureCards::write(std::vector<CardField> fields, const Vector3& direction,
+                          const std::shared_ptr<const LocalSystem>& system) {
+  if (!direction.isZero()) {
+    fields.resize(8);
+    // Without CID: along the basic axes.
+    fields.push_back(system ? CardField(number_of(system)) : CardField());
+    for (const double component : direction) fields.emplace_back(component);
+  }
+  out_.card("PLOAD4", std::move(fields));
+}
+
+long PressureCards::number_of(const std::shared_ptr<const LocalSystem>& system) {
+  constexpr long first = 10'000'000;  // beyond the numbers of straight systems
+  const auto found = std::find(systems_.begin(), systems_.end(), system);
+  const long number = first + (found - systems_.begin());
+  if (found != systems_.end()) return number;
+  systems_.push_back(system);
+  const Vector3 origin = system->origin / units_.length;
+  std::vector<CardField> fields{number, 0L};
+  for (const Vector3& point : {origin, Vector3(origin + system->axes.col(2)),
+                               Vector3(origin + system->axes.col(0) + system->axes.col(2))})
+    for (const double coordinate : point) fields.emplace_back(coordinate);
+  out_.card(system->kind == SystemKind::cylindrical ? "CORD2C" : "CORD2S", std::move(fields));
+  return number;
 }
 
 }  // namespace blocklift::structure

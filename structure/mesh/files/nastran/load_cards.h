@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "structure/mesh/files/deck/deck.h"
 #include "structure/mesh/files/nastran/card_writer.h"
 
@@ -9,5 +12,24 @@ namespace blocklift::structure {
 /// origin is one through it and the acceleration of its place.
 void write_loads_of_masses(const LoadSet& set, long label, const UnitSystem& units,
                            CardWriter& out);
+
+/// Writes pressures, with the systems about a cylinder or sphere in which their directions are.
+class PressureCards {
+ public:
+  /// Both must outlive this object.
+  PressureCards(const UnitSystem& units, CardWriter& out) : units_(units), out_(out) {}
+
+  /// @param fields of PLOAD4 before its direction.
+  /// @param direction without length: along the normal.
+  void write(std::vector<CardField> fields, const Vector3& direction,
+             const std::shared_ptr<const LocalSystem>& system);
+
+ private:
+  long number_of(const std::shared_ptr<const LocalSystem>& system);
+
+  const UnitSystem& units_;
+  CardWriter& out_;
+  std::vector<std::shared_ptr<const LocalSystem>> systems_;
+};
 
 }  // namespace blocklift::structure

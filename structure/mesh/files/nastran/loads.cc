@@ -1,5 +1,6 @@
 // Loads by their sets.
 
+#include <memory>
 #include <unordered_map>
 
 #include <Eigen/Geometry>
@@ -13,6 +14,13 @@
 namespace blocklift::structure {
 
 namespace {
+
+/// Unit vector of a pressure, without length along the normal, and the system about a cylinder or
+/// sphere in which it is given.
+struct PressureDirection {
+  Vector3 vector = Vector3::Zero();
+  std::shared_ptr<const LocalSystem> system = nullptr;
+};
 
 class Loads {
  public:
@@ -172,18 +180,19 @@ class Loads {
   }
 
   void add_plate_load(const CardView& card, long label, std::array<double, 4> pressure,
-                      const Vector3& direction) {
+                      const PressureDirection& direction) {
     PlateLoad load;
     load.shell = shell(card, label);
     if (load.shell < 0) return;
     for (double& value : pressure) value *= model_.units.stress();
     load.pressure = pressure;
-    load.direction = direction;
+    load.direction = direction.vector;
+    load.system = direction.system;
     set(card).plate_loads.push_back(load);
   }
 
   void for_range(const CardView& card, long from, long to, const std::array<double, 4>& pressure,
-                 const Vector3& direction) {
+                 const PressureDirection& direction) {
     const std::vector<long> labels = known_labels(model_.shell_of, from, to);
     for (const long label : labels) add_plate_load(card, label, pressure, direction);
     if (labels.empty()) shell(card, from);
@@ -194,18 +203,17 @@ class Loads {
     const double p = card.real(1, "pressure");
     const std::array<double, 4> pressure{p, p, p, p};
     if (card.is(3, "THRU")) {
-      for_range(card, card.label(2, "element"), card.label(4, "element"), pressure,
-                Vector3::Zero());
+      for_range(card, card.label(2, "element"), card.label(4, "element"), pressure, {});
       return;
     }
     (void)card.label(2, "element");  // one at least
     for (std::size_t i = 2; i < card.size(); ++i)
-      if (card.has(i)) add_plate_load(card, card.label(i, "element"), pressure, Vector3::Zero());
+      if (card.has(i)) add_plate_load(card, card.label(i, "element"), pressure, {});
   }
 
   // The pressures go around the face from G1 on, as seen from outside.
   void add_solid_load(const CardView& card, int number, const std::array<double, 4>& around,
-                      const Vector3& direction) {
+                      const PressureDirection& direction) {
     const Solid& solid = mesh_.solids[number];
     if (!card.has(6))
       throw CardError{
@@ -214,7 +222,7 @@ class Loads {
                       solid.label)};
     FaceGrids grids{model_.vertex(card, 6, "grid G1")};
     if (card.has(7)) grids.second = model_.vertex(card, 7, "grid G3");
-    SolidLoad load{number, face_of(solid, grids), {}, direction};
+    SolidLoad load{number, face_of(solid, grids), {}, direction.vector, direction.system};
     if (load.face < 0)
       throw CardError{fmt::format(
           "the grids {} and {} name no face of element {}; G1 is on it, and G3 opposite (four "
@@ -229,6 +237,18 @@ class Loads {
     set(card).solid_loads.push_back(load);
   }
 
+  // CID N1 N2 N3 of PLOAD4: about a cylinder or sphere the direction turns over the surface.
+  PressureDirection direction_of_pressure(const CardView& card) {
+    if (!card.has(9) && !card.has(10) && !card.has(11)) return {};
+    const Vector3 given(card.real(9, "component", 0.0), card.real(10, "component", 0.0),
+                        card.real(11, "component", 0.0));
+    if (!(given.norm() > 0)) throw CardError{"the direction of the pressure has no length"};
+    LocalSystem system = model_.systems.get(card.integer(8, "coordinate system", 0));
+    if (system.kind == SystemKind::rectangular) return {system.axes * given.normalized(), nullptr};
+    system.origin *= model_.units.length;
+    return {given.normalized(), std::make_shared<const LocalSystem>(system)};
+  }
+
   // PLOAD4 SID EID P1 P2 P3 P4 THRU EID2 / CID N1 N2 N3 SORL LDIR; of solids G1 and G3 or G4 where
   // THRU and EID2 are
   void add_corner_pressure(const CardView& card) {
@@ -240,14 +260,7 @@ class Loads {
       leave_out(card, "loads with SORL and LDIR other than SURF and NORM");
       return;
     }
-    Vector3 direction = Vector3::Zero();
-    if (card.has(9) || card.has(10) || card.has(11)) {
-      const Vector3 given(card.real(9, "component", 0.0), card.real(10, "component", 0.0),
-                          card.real(11, "component", 0.0));
-      const long system = card.integer(8, "coordinate system", 0);
-      if (!(given.norm() > 0)) throw CardError{"the direction of the pressure has no length"};
-      direction = model_.systems.get(system).axes * given.normalized();
-    }
+    const PressureDirection direction = direction_of_pressure(card);
     const long label = card.label(1, "element");
     const auto solid = solid_of_.find(label);
     if (solid != solid_of_.end() && !card.is(6, "THRU")) {

@@ -27,7 +27,7 @@ const std::set<std::string, std::less<>>& cards_read() {
       "MAT9",   "MAT11",  "CPYRAM", "BAROR",   "BEAMOR",  "SPC",     "SPC1",    "SPCADD", "MPC",
       "MPCADD", "FORCE",  "FORCE1", "FORCE2",  "MOMENT",  "MOMENT1", "MOMENT2", "LOAD",   "GRAV",
       "RFORCE", "PLOAD",  "PLOAD1", "PLOAD2",  "PLOAD4",  "INCLUDE", "CHEXA",   "CPENTA", "CTETRA",
-      "PSOLID", "CSHEAR", "PSHEAR", "RSPLINE", "CBUSH1D", "PBUSH1D"};
+      "PSOLID", "CSHEAR", "PSHEAR", "RSPLINE", "CBUSH1D", "PBUSH1D", "SPCD"};
   return names;
 }
 
@@ -77,7 +77,7 @@ const std::vector<Reason>& reasons() {
         "CONVM",  "BDYOR", "TEMPEX",  "QHBDY",  "QVECT",  "RADLST", "RADMTX"},
        true},
       {"a load that is not read",
-       {"ACCEL", "ACCEL1", "DEFORM", "SPCD", "SLOAD", "PLOADX1", "LSEQ", "PRESAX"},
+       {"ACCEL", "ACCEL1", "DEFORM", "SLOAD", "PLOADX1", "LSEQ", "PRESAX"},
        true},
       {"which freedoms the solver keeps changes no result",
        {"ASET", "ASET1", "BSET", "BSET1", "CSET", "CSET1", "OMIT", "OMIT1", "QSET", "QSET1", "USET",
@@ -199,9 +199,9 @@ void remark_on_surplus_fields(NastranModel& model, const NastranCard& card) {
 }  // namespace
 
 bool may_be_nastran_load(std::string_view name) {
-  static const std::set<std::string_view> loads{"FORCE",   "FORCE1",  "FORCE2", "MOMENT",
-                                                "MOMENT1", "MOMENT2", "GRAV",   "RFORCE",
-                                                "PLOAD",   "PLOAD1",  "PLOAD2", "PLOAD4"};
+  static const std::set<std::string_view> loads{"FORCE",   "FORCE1", "FORCE2", "MOMENT", "MOMENT1",
+                                                "MOMENT2", "GRAV",   "RFORCE", "PLOAD",  "PLOAD1",
+                                                "PLOAD2",  "PLOAD4", "SPCD"};
   if (loads.contains(name)) return true;
   if (cards_read().contains(name) || name.starts_with("TABLE")) return false;
   for (const Reason& reason : reasons())

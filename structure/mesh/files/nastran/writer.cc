@@ -540,7 +540,7 @@ class NastranText {
     Fields fields{set, shell_number_[load.shell]};
     for (const std::size_t i : {0U, 1U, 3U, 2U})
       if (i != 2 || !shell.is_triangle()) fields.emplace_back(load.pressure[i] / units_.stress());
-    write_pressure(std::move(fields), load.direction);
+    pressures_.write(std::move(fields), load.direction, load.system);
   }
 
   void write_solid_load(long set, const SolidLoad& load) {
@@ -549,15 +549,7 @@ class NastranText {
     for (const double p : load.pressure) fields.emplace_back(p / units_.stress());
     fields.emplace_back(label(grids.corner));
     if (grids.second) fields.emplace_back(label(*grids.second));
-    write_pressure(std::move(fields), load.direction);
-  }
-
-  void write_pressure(Fields fields, const Vector3& direction) {
-    if (!direction.isZero()) {
-      fields.resize(9);  // no CID: along the basic axes
-      append(fields, direction);
-    }
-    out_.card("PLOAD4", fields);
+    pressures_.write(std::move(fields), load.direction, load.system);
   }
 
   Deck deck_;  // middles of curved shells may be added
@@ -574,6 +566,7 @@ class NastranText {
   std::map<std::tuple<int, int, bool>, long> beam_property_;  ///< section, that at the end, rod
   long next_material_ = 0;
   CardWriter out_;
+  PressureCards pressures_{units_, out_};
 };
 
 }  // namespace
