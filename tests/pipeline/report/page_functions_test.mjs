@@ -29,6 +29,12 @@ try {
   for (const [low, high] of [[-0.49, 0.49], [0.1, 0.98], [12.01, 12.09], [-3e-7, 1e-7]])
     for (const count of [2, 3, 4, 5, 6, 10]) assert.ok(niceTicks(low, high, count).length >= 2, `${low} to ${high} by ${count}`);
   assert.ok(niceTicks(3, 3, 4).length <= 5);
+
+  // A pause belongs to the stage that it stands before, what comes after the last stage to the last.
+  const { stageAt } = await load("data");
+  const stages = [{ name: "up", start: 15, end: 20 }, { name: "down", start: 30, end: 40 }];
+  assert.deepEqual([0, 15, 20, 25, 35, 50].map((time) => stageAt(stages, time)), ["up", "up", "up", "down", "down", "down"]);
+  assert.equal(stageAt([], 3), "");
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }
