@@ -1,6 +1,6 @@
 // What the loads do to the block: three ways of taking maxima, lugs, balance, masses.
 import { addToAnnex, folded } from "./annex";
-import { CheckedAccuracy, known, PageData, Structure, StructureWay } from "./data";
+import { Buckling, CheckedAccuracy, known, PageData, Structure, StructureWay } from "./data";
 import { Child, Column, h, table } from "./dom";
 import type { Section } from "./section";
 import { change, fixed, kilonewtons, megapascals, millimetres, missing, point, scientific, seconds, tonnes } from "./numbers";
@@ -107,14 +107,30 @@ function lugsTable(structure: Structure): Child {
   lugs.map((lug) => [lug.name, lug.rope ?? missing, ...cells(lug.simultaneous), ...cells(lug.per_rope_maxima)]));
 }
 
+type BuckledPanel = NonNullable<Buckling["panels"]>[number];
+
+/** "1 along 1, 0 along 2": an edge along a side holds its panel up or lies free. */
+function freeEdges(panel: BuckledPanel): string {
+  const [first, second] = panel.free_edges_along_sides ?? [];
+  if (!known(first) || !known(second)) return fixed(panel.free_edges, 0);
+  return first + second === 0 ? "none" : [[first, 1], [second, 2]].filter(([count]) => count > 0).map(([count, side]) => `${count} along ${side}`).join(", ");
+}
+
+/** What compresses a panel's edges: the mean and its fall to the sides, tension positive. */
+function edgeStresses(panel: BuckledPanel): string {
+  const edge = (mean: unknown, fall: unknown): string => known(mean) && known(fall) ? megapascals(mean - Math.abs(fall)) : missing;
+  return `${edge(panel.s11_Pa, panel.s11_gradient_Pa)}, ${edge(panel.s22_Pa, panel.s22_gradient_Pa)}`;
+}
+
 function bucklingTable(structure: Structure): Child {
   const panels = structure.buckling?.panels ?? [];
   if (panels.length === 0) return null;
   return folded("Block", `Panels nearest to buckling, of ${structure.buckling?.panels_looked_at ?? panels.length}, over the whole lift`, [left("Plate"),
-    { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "thickness, mm" }, { head: "Stress 11, 22, 12, MPa" }, left("State"), { head: "at, s" },
+    { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "thickness, mm" }, { head: "Free edges", align: "left", title: "edges where no plate crosses; the others are simply supported. Side 1 is the field's first length, side 2 its second" },
+    { head: "Mean stress 11, 22, 12, MPa", title: "tension positive" }, { head: "At the most compressed edge 11, 22, MPa" }, left("State"), { head: "at, s" },
     { head: "Elastic utilisation" }, { head: "Johnson-Ostenfeld" }],
   panels.map((panel) => [panel.plate, point(panel.centre_m), panel.field_m?.map((side) => fixed(side, 2)).join(" x ") ?? missing,
-    millimetres(panel.thickness_m), [panel.s11_Pa, panel.s22_Pa, panel.s12_Pa].map(megapascals).join(", "), panel.state ?? missing,
+    millimetres(panel.thickness_m), freeEdges(panel), [panel.s11_Pa, panel.s22_Pa, panel.s12_Pa].map(megapascals).join(", "), edgeStresses(panel), panel.state ?? missing,
     seconds(panel.time_s), fixed(panel.elastic_utilisation, 2), fixed(panel.utilisation, 2)]), 4);
 }
 
