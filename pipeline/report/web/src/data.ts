@@ -134,7 +134,7 @@ export interface Structure {
   unknowns?: number; elements?: number; element_degree?: number; mesh_size_m?: number;
   material?: string; yield_Pa?: Maybe<number>;
   per_rope_maxima?: StructureWay; simultaneous?: StructureWay; history?: StructureHistory; simultaneous_by_rope?: StructureWay[];
-  padeyes?: PadeyeSummary[]; buckling?: Buckling;
+  padeyes?: PadeyeSummary[]; buckling?: Buckling; load_table?: unknown;
   estimated_error?: { relative?: Maybe<number>; worst_part?: string; worst_point_m?: number[] };
   lugs?: { name: string; rope?: string; simultaneous?: LugStress; per_rope_maxima?: LugStress }[];
   mass?: {

@@ -27,9 +27,8 @@ function waysTable(data: PageData, structure: Structure): Child {
       millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), change(way.deformation_increase_percent)]);
   };
   if (structure.history) row(h("b", {}, "The whole lift, every instant"), structure.history);
-  row("The worst of the instants of each rope's largest load", structure.simultaneous);
-  
-  row("Per-rope maxima, all at once", structure.per_rope_maxima);
+  row(structure.load_table ? "The loads of the table" : "The worst of the instants of each rope's largest load", structure.simultaneous);
+  if (!structure.load_table) row("Per-rope maxima, all at once", structure.per_rope_maxima);
   const published = data.summary.comparison;
   if (published && (known(published.stress_increase_percent) || known(published.deformation_increase_percent))) {
     rows.push([h("i", {}, "Published, per-rope maxima"), missing, missing, change(published.stress_increase_percent, 2),
@@ -76,7 +75,7 @@ function historyTables(structure: Structure): Child {
       { head: "Largest stress" }, { head: "Where it falls short most" }, left("in"), { head: "Plate area short, %",
         title: "of the patches that see at least half of the largest stress, those more than 1 % short" }], practices),
     table(`Stress in time and wear, ${history.fatigue?.source ?? ""} curve ${history.fatigue?.curve ?? missing}, ${
-      fixed(history.fatigue?.lifts, 0)} lifts`, [left("Place"), left("in"), { head: "at x, y, z" }, { head: "Static, MPa" },
+      fixed(history.fatigue?.lifts, 0)} ${history.fatigue?.lifts === 1 ? "lift" : "lifts"}`, [left("Place"), left("in"), { head: "at x, y, z" }, { head: "Static, MPa" },
       { head: "Dynamic, MPa" }, { head: "Largest range, MPa" }, { head: "Cycles a lift" }, { head: "Damage a lift" }, { head: "Damage" }], wear)];
 }
 
@@ -208,8 +207,9 @@ export function structureSection(data: PageData): Section | null {
   return {
     id: "structure", title: "Block stress and deformation", short: "Block", content: [
       h("p", { class: "lead" }, (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : "")
-        + "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
-        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
+        + (structure.load_table ? "The loads of the case's table, which has no instants: simultaneous and per-rope maxima are the same. "
+          : "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
+        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. "), modelText(structure)),
       waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), barsTable(structure), massTable(structure)],
   };
 }
