@@ -137,6 +137,8 @@ TEST(InputValues, AreListedByTheirPlaces) {
 TEST(Figures, AreRoundedAndGroupedAsThePageDoes) {
   EXPECT_EQ(figures::kilonewtons(987654.0), "988");
   EXPECT_EQ(figures::kilonewtons(2218123.0), "2\u202f218");
+  EXPECT_EQ(figures::kilonewtons(99964.0), "100");  // as many digits as 103 beside it
+  EXPECT_EQ(figures::kilonewtons(99940.0), "99.9");
   EXPECT_EQ(figures::tonnes(9806650.0), "1\u202f000.0");
   EXPECT_EQ(figures::tonnes(110.0), "0.0112");
   EXPECT_EQ(figures::fixed(-1234567.0, 1), "\u22121\u202f234\u202f567.0");

@@ -35,6 +35,10 @@ try {
   const stages = [{ name: "up", start: 15, end: 20 }, { name: "down", start: 30, end: 40 }];
   assert.deepEqual([0, 15, 20, 25, 35, 50].map((time) => stageAt(stages, time)), ["up", "up", "up", "down", "down", "down"]);
   assert.equal(stageAt([], 3), "");
+
+  const { kilonewtons, significant } = await load("numbers");
+  assert.deepEqual([99964, 99940, 103000].map(kilonewtons), ["100", "99.9", "103"]);
+  assert.equal(significant(0.09996, 3), "0.100");
 } finally {
   rmSync(folder, { recursive: true, force: true });
 }
