@@ -417,6 +417,17 @@ function legend(): HTMLElement {
 
 const palette = ["#2f6396", "#d2601a", "#3f8f5b", "#8d5aa5", "#a8842c", "#c2456b", "#4aa3b5", "#6b7682"];
 
+/** Which of the series run within a hundredth of all their span along an earlier one, which they would hide. */
+function runAlong(series: Series[]): boolean[] {
+  const all = series.map(({ values }) => values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]));
+  const span = Math.max(...all.map(([, high]) => high)) - Math.min(...all.map(([low]) => low));
+  return series.map((one, i) => series.slice(0, i).some((earlier) => {
+    let near = 0;
+    one.time.forEach((time, k) => { if (Math.abs(one.values[k] - earlier.at(time)) <= 0.01 * span) ++near; });
+    return near >= 0.5 * one.time.length;
+  }));
+}
+
 /** A plot of series in one unit with its legend; it is drawn once its place in the page has a width. */
 function tileOf(data: PageData, group: Group, clock: Clock, settings: {
   title: string; packed: PackedSeries[]; series: Series[]; label: (one: PackedSeries) => string; factor: number; unit: string; plugins?: uPlot.Plugin[];
@@ -424,12 +435,13 @@ function tileOf(data: PageData, group: Group, clock: Clock, settings: {
   const { packed, series } = settings;
   const host = h("div", { class: "plot" });
   const colour = (i: number): string => (packed.length === 1 ? "#5f7f9f" : palette[i % palette.length]);
+  const dashes = runAlong(series).map((along, i) => (along ? [5, 3 + 3 * (i % 3)] : undefined));
   requestAnimationFrame(() => makePlot({
     host, height: 200, group, clock, unit: settings.unit, small: false, plugins: [stageBands(data.stages, false), ...settings.plugins ?? []],
-    series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, spanGaps: true, points: { show: false } })),
+    series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, dash: dashes[i], spanGaps: true, points: { show: false } })),
   }, aligned(series, settings.factor)));
   const drawing = paperPlot({ label: settings.title, unit: settings.unit, start: clock.start, end: clock.end, stages: data.stages, size: "middle",
-    curves: packed.map((one, i) => ({ name: one.name, colour: colour(i), width: 0.9, time: series[i].time,
+    curves: packed.map((one, i) => ({ name: one.name, colour: colour(i), width: 0.9, dash: dashes[i], time: series[i].time,
       values: series[i].values.map((value) => value * settings.factor) })) });
   return h("div", { class: "tile" }, h("h3", { class: "tile-title" }, settings.title, svgButton(settings.title, () => drawing)), host,
     h("div", { class: "on-paper" }, drawing), packed.length > 1 && h("span", { class: "legend" },

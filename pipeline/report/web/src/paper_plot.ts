@@ -4,7 +4,7 @@ import { svg } from "./dom";
 import { niceTicks, tickTexts } from "./ticks";
 
 export interface PaperCurve {
-  name: string; colour: string; width: number; time: ArrayLike<number>; values: ArrayLike<number>; dots?: boolean;
+  name: string; colour: string; width: number; time: ArrayLike<number>; values: ArrayLike<number>; dots?: boolean; dash?: number[];
 }
 export interface PaperMark { time: number; value: number; colour: string; text?: string; below?: boolean }
 export interface PaperPlot {
@@ -80,7 +80,8 @@ export function paperPlot(plot: PaperPlot): SVGElement {
   if (plot.size === "large") write((left + width - right) / 2, height - 3, "time, s", "middle");
   for (const curve of plot.curves) {
     if (!curve.dots) {
-      parts.push(svg("path", { d: pathText(curve, x, y), fill: "none", stroke: curve.colour, "stroke-width": curve.width, "stroke-linejoin": "round" }));
+      parts.push(svg("path", { d: pathText(curve, x, y), fill: "none", stroke: curve.colour, "stroke-width": curve.width, "stroke-linejoin": "round",
+        ...(curve.dash ? { "stroke-dasharray": curve.dash.join(" ") } : {}) }));
       continue;
     }
     for (let i = 0; i < curve.time.length; ++i)
