@@ -217,9 +217,12 @@ nlohmann::ordered_json buckling_json(const BucklingAssessment& buckling) {
              {"field_m", {of.size.a / of.fields_a, of.size.b / of.fields_b}},
              {"thickness_m", of.size.thickness},
              {"free_edges", of.free.along_a + of.free.along_b},
+             {"free_edges_along_sides", {of.free.along_a, of.free.along_b}},
              {"s11_Pa", stress.s11},
              {"s22_Pa", stress.s22},
              {"s12_Pa", stress.s12},
+             {"s11_gradient_Pa", stress.s11_gradient},
+             {"s22_gradient_Pa", stress.s22_gradient},
              {"utilisation", panel.worst.utilisation.critical},
              {"elastic_utilisation", panel.worst.utilisation.elastic},
              {"state", panel.in_motion ? "dynamic" : "static"}};

@@ -31,7 +31,9 @@ std::string fixed_text(double number, int decimals) {
 
 std::string significant_text(double number, int digits) {
   if (number == 0) return "0";
-  const int magnitude = static_cast<int>(std::floor(std::log10(std::abs(number))));
+  // Of the rounded number: 99.96 to three digits is 100, not 100.0.
+  const std::string rounded = fmt::format("{:.{}e}", std::abs(number), std::max(digits - 1, 0));
+  const int magnitude = std::stoi(rounded.substr(rounded.find('e') + 1));
   if (magnitude < -3 || magnitude > 8) return fmt::format("{:.{}e}", number, digits - 1);
   return fixed_text(number, std::max(digits - 1 - magnitude, 0));
 }

@@ -82,12 +82,15 @@ std::string bar_html(const Json& check) {
       value < beyond_any_limit ? f::share(utilisation) : "beyond any limit");
 }
 
-/// "82 to 90 %" below the bar of a check that the block's mesh gave.
+/// "82 to 90 %" below the bar of a check that the block's mesh gave; one figure where both round
+/// alike.
 std::string band_html(const Json& check) {
   const Json& band = at(check, "utilisation_band");
   if (!band.is_array() || band.size() != 2) return "";
-  return fmt::format("<span class=\"note band\">{} to {} by the mesh</span>", f::share(band[0]),
-                     f::share(band[1]));
+  const std::string lower = f::share(band[0]), upper = f::share(band[1]);
+  return lower == upper
+             ? fmt::format("<span class=\"note band\">{} by the mesh</span>", lower)
+             : fmt::format("<span class=\"note band\">{} to {} by the mesh</span>", lower, upper);
 }
 
 std::string mark_html(const Json& check) {
@@ -164,23 +167,48 @@ const Json* largest(const Json& loads, const char* key) {
   return best;
 }
 
+/// Ropes from a hook or to a lug carry the load; warps, tag lines and the like do neither.
+bool carries_load(const Json& rope) { return rope.contains("lug") || rope.contains("hoist"); }
+
+/// Those that carry the load, or the others.
+Json ropes_that(const Json& ropes, bool carry) {
+  Json some = Json::array();
+  if (!ropes.is_array()) return some;
+  for (const Json& rope : ropes)
+    if (carries_load(rope) == carry) some.push_back(rope);
+  return some;
+}
+
 std::string rope_figures(const Json& ropes) {
+  const Json carrying = ropes_that(ropes, true), others = ropes_that(ropes, false);
+  const bool has_load = !carrying.empty();
+  const Json& shown = has_load ? carrying : others;
   std::string html;
+  /// "; other ropes up to 17.5 tonnes in W1" where they are not what the figure is about.
+  const auto beside = [&](const char* key, const auto& text) -> std::string {
+    const Json* rope = has_load ? largest(others, key) : nullptr;
+    return rope ? fmt::format("<br>other ropes up to {} in {}", text(at(*rope, key)),
+                              escaped_at(*rope, "name"))
+                : "";
+  };
   const auto load = [&](const char* label, const char* value, const char* time) {
-    const Json* rope = largest(ropes, value);
+    const Json* rope = largest(shown, value);
     if (!rope) return;
     const Json& when = at(*rope, time);
     html += figure_html(
         label, f::kilonewtons(at(*rope, value)), "kN",
-        fmt::format("{} tonnes in {}{}", f::tonnes(at(*rope, value)), escaped_at(*rope, "name"),
-                    when.is_number() ? " at " + f::fixed(when, 1) + " s" : ""));
+        fmt::format(
+            "{} tonnes in {}{}{}", f::tonnes(at(*rope, value)), escaped_at(*rope, "name"),
+            when.is_number() ? " at " + f::fixed(when, 1) + " s" : "",
+            beside(value, [](const Json& newtons) { return f::tonnes(newtons) + " tonnes"; })));
   };
   load("Largest rope load, static", "max_static_tension_N", "time_of_max_static_s");
   load("Largest rope load, dynamic", "max_dynamic_tension_N", "time_of_max_dynamic_s");
-  if (const Json* rope = largest(ropes, "dynamic_over_static"))
-    html +=
-        figure_html("Dynamic over static, worst rope", f::fixed((*rope)["dynamic_over_static"], 3),
-                    "", "rope " + escaped_at(*rope, "name"));
+  constexpr const char* ratio = "dynamic_over_static";
+  if (const Json* rope = largest(shown, ratio))
+    html += figure_html("Dynamic over static, worst rope", f::fixed((*rope)[ratio], 3), "",
+                        "rope " + escaped_at(*rope, "name") +
+                            beside(ratio, [](const Json& value) { return f::fixed(value, 3); }));
   return html;
 }
 
@@ -213,8 +241,10 @@ std::string beside(const Json& summary, const char* increase) {
 std::string block_figures(const Json& summary) {
   const Json& structure = at(summary, "structure");
   const char* const names[] = {"history", "simultaneous", "per_rope_maxima"};
-  const char* const of_names[] = {", the whole lift", ", worst instant of a rope's maximum",
-                                  ", per-rope maxima"};
+  const bool is_table = structure.contains("load_table");  // which has no instants
+  const char* const of_names[] = {
+      ", the whole lift", is_table ? ", loads of the table" : ", worst instant of a rope's maximum",
+      ", per-rope maxima"};
   for (std::size_t i = 0; i < 3; ++i) {
     const Json& way = at(structure, names[i]);
     if (!way.is_object()) continue;

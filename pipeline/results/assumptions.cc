@@ -374,9 +374,9 @@ void add_block_assumptions(const Assessment& assessment, std::vector<std::string
         100 * assessment.lift_case.checks.lug_side_load));
   list.push_back(fmt::format(
       "Buckling: {} panels between crossing plates (and the stiffeners that the block's file "
-      "names), simply supported, under their mean membrane stresses with linear falls; openings "
-      "within a panel do not weaken it beyond their stress, and neither initial deflection nor the "
-      "strength after buckling counts.",
+      "names), simply supported, or free where no plate crosses, under their mean membrane "
+      "stresses with linear falls; openings within a panel do not weaken it beyond their stress, "
+      "and neither initial deflection nor the strength after buckling counts.",
       block.buckling.panels.size()));
   if (!block.buckling.bars.empty())
     list.push_back(fmt::format(

@@ -161,8 +161,11 @@
 ///                      stress field in the energy norm, at the instant of the largest checked
 ///                      stress
 ///     buckling     (o) {panels_looked_at, panels: the worst of [{plate, centre_m, sides_m,
-///                      field_m, thickness_m, free_edges, s11_Pa, s22_Pa, s12_Pa, utilisation,
-///                      elastic_utilisation, state, time_s (o)}], bars_looked_at (o),
+///                      field_m, thickness_m, free_edges, free_edges_along_sides [2], s11_Pa,
+///                      s22_Pa, s12_Pa: means, tension positive, s11_gradient_Pa,
+///                      s22_gradient_Pa: at the edges s11 and s22 are that much above and below
+///                      their means, utilisation, elastic_utilisation, state, time_s (o)}],
+///                      bars_looked_at (o),
 ///                      rods_without_second_moments, bar_factor, bars: the worst of [{bar, from_m,
 ///                      to_m, buckling_length_m, compression_N, moments_Nm, buckling_resistance_N,
 ///                      utilisation (under forces times bar_factor; null: beyond Euler's load),

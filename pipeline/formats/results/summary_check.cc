@@ -229,13 +229,15 @@ Rule structure_history() {
 }
 
 Rule buckling() {
-  const Rule panel = with(table({{"plate", text(), true},
-                                 {"centre_m", point()},
-                                 {"sides_m", list(number(), 2)},
-                                 {"field_m", list(number(), 2)},
-                                 {"state", text()}}),
-                          numbers({"thickness_m", "s11_Pa", "s22_Pa", "s12_Pa", "utilisation",
-                                   "elastic_utilisation", "time_s"}));
+  const Rule panel =
+      with(table({{"plate", text(), true},
+                  {"centre_m", point()},
+                  {"sides_m", list(number(), 2)},
+                  {"field_m", list(number(), 2)},
+                  {"free_edges_along_sides", list(number(), 2)},
+                  {"state", text()}}),
+           numbers({"thickness_m", "free_edges", "s11_Pa", "s22_Pa", "s12_Pa", "s11_gradient_Pa",
+                    "s22_gradient_Pa", "utilisation", "elastic_utilisation", "time_s"}));
   const Rule bar =
       with(table({{"bar", text(), true},
                   {"from_m", point()},

@@ -70,6 +70,34 @@ TEST(Front, HasTheBandOfTheMeshBesideTheUtilisation) {
   with_band["utilisation_band"] = {0.47, 0.53};
   EXPECT_THAT(checks_html(page(Json::array({with_band}))),
               HasSubstr(figures::share(0.47) + " to " + figures::share(0.53) + " by the mesh"));
+  with_band["utilisation_band"] = {0.188, 0.192};  // both round alike
+  EXPECT_THAT(checks_html(page(Json::array({with_band}))),
+              HasSubstr(">" + figures::share(0.19) + " by the mesh"));
+}
+
+TEST(Front, TakesTheLargestRopeOfThoseThatCarryTheLoadAndNamesTheOthersBesideIt) {
+  Json data = page(checks());
+  const auto rope = [](const std::string& name, double tension, double ratio) {
+    return Json{{"name", name}, {"max_dynamic_tension_N", tension}, {"dynamic_over_static", ratio}};
+  };
+  Json sling = rope("R1", 9.80665e6, 1.02);
+  sling["lug"] = "L1";
+  data["summary"]["ropes"] = Json::array({rope("W1", 19.6133e6, 1.05), sling});
+  const std::string html = front_html(data);
+  EXPECT_THAT(html, HasSubstr(figures::tonnes(9.80665e6) + " tonnes in R1<br>other ropes up to " +
+                              figures::tonnes(19.6133e6) + " tonnes in W1"));
+  EXPECT_THAT(html, HasSubstr("rope R1<br>other ropes up to 1.050 in W1"));
+  data["summary"]["ropes"] = Json::array({rope("W1", 19.6133e6, 1.05)});
+  EXPECT_THAT(front_html(data), HasSubstr("rope W1</div>"));
+}
+
+TEST(Front, SpeaksOfInstantsOnlyWhereThereAreSome) {
+  Json data = page(checks());
+  data["summary"]["structure"]["simultaneous"] = {{"stress_increase_percent", 18.5}};
+  EXPECT_THAT(front_html(data), HasSubstr("increase, worst instant of a rope's maximum"));
+  data["summary"]["structure"]["load_table"] = {{"weight_N", 1.0}};
+  EXPECT_THAT(front_html(data), HasSubstr("increase, loads of the table"));
+  EXPECT_THAT(front_html(data), Not(HasSubstr("instant")));
 }
 
 TEST(Front, SaysThatTheVerdictIsIndicativeAndWhy) {
@@ -109,6 +137,8 @@ TEST(InputValues, AreListedByTheirPlaces) {
 TEST(Figures, AreRoundedAndGroupedAsThePageDoes) {
   EXPECT_EQ(figures::kilonewtons(987654.0), "988");
   EXPECT_EQ(figures::kilonewtons(2218123.0), "2\u202f218");
+  EXPECT_EQ(figures::kilonewtons(99964.0), "100");  // as many digits as 103 beside it
+  EXPECT_EQ(figures::kilonewtons(99940.0), "99.9");
   EXPECT_EQ(figures::tonnes(9806650.0), "1\u202f000.0");
   EXPECT_EQ(figures::tonnes(110.0), "0.0112");
   EXPECT_EQ(figures::fixed(-1234567.0, 1), "\u22121\u202f234\u202f567.0");

@@ -201,8 +201,13 @@ TEST(Summary, HoldsEverythingThatReadersCountOn) {
                            "peak_von_mises_Pa", "force_residual", "moment_residual"});
   for (const auto& formula : padeye["formulas"])
     expect_numbers(formula, {"demand", "limit", "utilisation"});
-  for (const auto& panel : summary["structure"]["buckling"]["panels"])
-    expect_numbers(panel, {"utilisation", "elastic_utilisation", "thickness_m", "time_s"});
+  for (const auto& panel : summary["structure"]["buckling"]["panels"]) {
+    expect_numbers(panel, {"utilisation", "elastic_utilisation", "thickness_m", "time_s",
+                           "free_edges", "s11_gradient_Pa", "s22_gradient_Pa"});
+    const auto& free = panel["free_edges_along_sides"];
+    ASSERT_EQ(free.size(), 2u);
+    EXPECT_EQ(free[0].get<int>() + free[1].get<int>(), panel["free_edges"].get<int>());
+  }
   ASSERT_EQ(summary["ropes"].size(), 4u);
   for (const auto& rope : summary["ropes"]) {
     expect_numbers(rope, {"max_static_tension_N", "time_of_max_static_s", "max_dynamic_tension_N",

@@ -96,7 +96,8 @@ interface LugStress {
 export interface Buckling {
   panels_looked_at?: number;
   panels?: {
-    plate: string; centre_m?: number[]; field_m?: number[]; thickness_m?: number; s11_Pa?: number; s22_Pa?: number; s12_Pa?: number;
+    plate: string; centre_m?: number[]; field_m?: number[]; thickness_m?: number; free_edges?: number; free_edges_along_sides?: number[];
+    s11_Pa?: number; s22_Pa?: number; s12_Pa?: number; s11_gradient_Pa?: number; s22_gradient_Pa?: number;
     utilisation?: Maybe<number>; elastic_utilisation?: Maybe<number>; state?: string; time_s?: Maybe<number>;
   }[];
   bars_looked_at?: number; bar_factor?: Maybe<number>;
@@ -133,7 +134,7 @@ export interface Structure {
   unknowns?: number; elements?: number; element_degree?: number; mesh_size_m?: number;
   material?: string; yield_Pa?: Maybe<number>;
   per_rope_maxima?: StructureWay; simultaneous?: StructureWay; history?: StructureHistory; simultaneous_by_rope?: StructureWay[];
-  padeyes?: PadeyeSummary[]; buckling?: Buckling;
+  padeyes?: PadeyeSummary[]; buckling?: Buckling; load_table?: unknown;
   estimated_error?: { relative?: Maybe<number>; worst_part?: string; worst_point_m?: number[] };
   lugs?: { name: string; rope?: string; simultaneous?: LugStress; per_rope_maxima?: LugStress }[];
   mass?: {
@@ -265,9 +266,7 @@ export function known(value: unknown): value is number {
   return typeof value === "number" && Number.isFinite(value);
 }
 
+/** The stage of an instant, as the tables have it: a pause belongs to the stage that it stands before, the end to the last. */
 export function stageAt(stages: Stage[], time: number): string {
-  const stage = stages.find((one) => time >= one.start && time <= one.end);
-  if (stage) return stage.name;
-  const last = stages.filter((one) => one.end < time).pop();
-  return stages.length === 0 ? "" : last ? `after ${last.name}` : `before ${stages[0].name}`;
+  return (stages.find((one) => time <= one.end) ?? stages[stages.length - 1])?.name ?? "";
 }

@@ -6,6 +6,7 @@ import { measuredColour, stateColour } from "./colours";
 import { svgButton } from "./download";
 import { onNewColours, paint } from "./paint";
 import { PaperMark, paperPlot } from "./paper_plot";
+import { tickTexts } from "./ticks";
 import { History, known, PackedSeries, PageData, Series, Stage, stageAt, State, states } from "./data";
 import { h } from "./dom";
 import type { Section } from "./section";
@@ -201,11 +202,14 @@ class Group {
   }
 }
 
-/** As many decimals as tell neighbouring ticks apart. */
-function tickText(tick: number, ticks: number[]): string {
-  const step = ticks.length > 1 ? Math.abs(ticks[1] - ticks[0]) : Math.abs(tick);
-  if (Math.max(...ticks.map(Math.abs)) >= 1e6 || (step > 0 && step < 1e-4)) return tick === 0 ? "0" : tick.toExponential(1);
-  return fixed(tick, step > 0 ? Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)) : 0);
+/** Curves that move by less than this part of their size are drawn as the level lines that they are. */
+const smallestSwing = 1e-4;
+
+function wholeRange(_: uPlot, min: number | null, max: number | null): uPlot.Range.MinMax {
+  if (!known(min) || !known(max)) return [0, 1];
+  const [low, high] = uPlot.rangeNum(min, max, 0.1, true);
+  const [middle, half] = [(min + max) / 2, smallestSwing * Math.max(Math.abs(min), Math.abs(max))];
+  return [Math.min(known(low) ? low : min, middle - half), Math.max(known(high) ? high : max, middle + half)];
 }
 
 interface PlotSettings {
@@ -222,11 +226,13 @@ function makePlot(settings: PlotSettings, data: uPlot.AlignedData): uPlot {
   const plot = new uPlot({
     width: Math.max(host.clientWidth, 120), height: settings.height, legend: { show: false }, pxAlign: 0,
     cursor: { sync: { key: "tension" }, drag: { x: true, y: false, setScale: true }, points: { size: 6 } },
-    scales: { x: { time: false, range: (_, min, max) => [min, max] }, y: { range: settings.range } },
+    scales: { x: { time: false, range: (_, min, max) => [min, max] }, y: { range: settings.range ?? wholeRange } },
     axes: [
       { ...axis, size: small ? 22 : 24, gap: 3, space: small ? 60 : 90, label: small ? undefined : "time, s", labelFont: font(12), labelSize: 20, labelGap: 0 },
-      { ...axis, size: small ? 42 : 46, gap: 3, space: small ? 24 : 44, label: small ? undefined : settings.unit, labelFont: font(12), labelSize: 18,
-        values: (_, ticks) => ticks.map((tick) => tickText(tick, ticks)) },
+      { ...axis, size: (_, values) => Math.max(small ? 42 : 46, 11 + (small ? 6 : 7) * Math.max(0, ...(values ?? []).map((one) => one.length))), gap: 3,
+        // A window of four such spaces holds two ticks at least: steps are at most twice what was asked for.
+        space: (_u, _axis, _min, _max, pixels) => Math.min(small ? 24 : 44, pixels / 4), label: small ? undefined : settings.unit, labelFont: font(12), labelSize: 18,
+        values: (_, ticks) => tickTexts(ticks) },
     ],
     series: [{}, ...settings.series], plugins: settings.plugins,
     hooks: {
@@ -411,6 +417,17 @@ function legend(): HTMLElement {
 
 const palette = ["#2f6396", "#d2601a", "#3f8f5b", "#8d5aa5", "#a8842c", "#c2456b", "#4aa3b5", "#6b7682"];
 
+/** Which of the series run within a hundredth of all their span along an earlier one, which they would hide. */
+function runAlong(series: Series[]): boolean[] {
+  const all = series.map(({ values }) => values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]));
+  const span = Math.max(...all.map(([, high]) => high)) - Math.min(...all.map(([low]) => low));
+  return series.map((one, i) => series.slice(0, i).some((earlier) => {
+    let near = 0;
+    one.time.forEach((time, k) => { if (Math.abs(one.values[k] - earlier.at(time)) <= 0.01 * span) ++near; });
+    return near >= 0.5 * one.time.length;
+  }));
+}
+
 /** A plot of series in one unit with its legend; it is drawn once its place in the page has a width. */
 function tileOf(data: PageData, group: Group, clock: Clock, settings: {
   title: string; packed: PackedSeries[]; series: Series[]; label: (one: PackedSeries) => string; factor: number; unit: string; plugins?: uPlot.Plugin[];
@@ -418,12 +435,13 @@ function tileOf(data: PageData, group: Group, clock: Clock, settings: {
   const { packed, series } = settings;
   const host = h("div", { class: "plot" });
   const colour = (i: number): string => (packed.length === 1 ? "#5f7f9f" : palette[i % palette.length]);
+  const dashes = runAlong(series).map((along, i) => (along ? [5, 3 + 3 * (i % 3)] : undefined));
   requestAnimationFrame(() => makePlot({
     host, height: 200, group, clock, unit: settings.unit, small: false, plugins: [stageBands(data.stages, false), ...settings.plugins ?? []],
-    series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, spanGaps: true, points: { show: false } })),
+    series: packed.map((one, i) => ({ label: one.name, stroke: colour(i), width: 1.3, dash: dashes[i], spanGaps: true, points: { show: false } })),
   }, aligned(series, settings.factor)));
   const drawing = paperPlot({ label: settings.title, unit: settings.unit, start: clock.start, end: clock.end, stages: data.stages, size: "middle",
-    curves: packed.map((one, i) => ({ name: one.name, colour: colour(i), width: 0.9, time: series[i].time,
+    curves: packed.map((one, i) => ({ name: one.name, colour: colour(i), width: 0.9, dash: dashes[i], time: series[i].time,
       values: series[i].values.map((value) => value * settings.factor) })) });
   return h("div", { class: "tile" }, h("h3", { class: "tile-title" }, settings.title, svgButton(settings.title, () => drawing)), host,
     h("div", { class: "on-paper" }, drawing), packed.length > 1 && h("span", { class: "legend" },

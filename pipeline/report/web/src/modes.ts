@@ -73,6 +73,7 @@ function isVibration(mode: NaturalMode, load: string): boolean {
 }
 
 function period(mode: NaturalMode): string {
+  if (mode.kind === "overdamped") return "no oscillation";
   return known(mode.period_s) ? significant(mode.period_s, 3) : missing;
 }
 
@@ -91,7 +92,7 @@ function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], pl
   ];
   return table(caption, columns, modes.map((mode) => [
     h("span", { title: kinds[mode.kind] }, mode.name, mode.kind === "oscillating" ? null : h("small", { class: "mode-kind" }, kinds[mode.kind] ?? mode.kind)),
-    period(mode), mode.kind === "neutral" ? missing : significant(mode.frequency_Hz, 3),
+    period(mode), mode.kind === "neutral" || mode.kind === "overdamped" ? missing : significant(mode.frequency_Hz, 3),
     mode.kind === "neutral" ? missing : `${fixed((mode.damping_ratio ?? 0) * 100, 2)}\u202f%`,
     share(mode.elastic_share), mover(mode),
     ...(play ? [h("button", { type: "button", class: "time show-mode", title: "Play this motion in the drawing", onclick: () => play(all.indexOf(mode)) }, "show")] : []),

@@ -21,7 +21,7 @@ export function fixed(value: unknown, decimals: number): string {
 export function significant(value: unknown, digits: number): string {
   if (!known(value)) return missing;
   if (value === 0) return "0";
-  const magnitude = Math.floor(Math.log10(Math.abs(value)));
+  const magnitude = Number(value.toExponential(Math.max(digits - 1, 0)).split("e")[1]);  // of 99.96 to three digits: of 100
   if (magnitude < -3 || magnitude > 8) return scientific(value, Math.max(digits - 1, 1));
   return fixed(value, Math.max(digits - 1 - magnitude, 0));
 }

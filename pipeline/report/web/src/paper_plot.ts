@@ -1,10 +1,10 @@
 // Plots for paper and for files: drawings of lines that scale as a whole, whatever the window was.
 import { Stage } from "./data";
 import { svg } from "./dom";
-import { fixed } from "./numbers";
+import { niceTicks, tickTexts } from "./ticks";
 
 export interface PaperCurve {
-  name: string; colour: string; width: number; time: ArrayLike<number>; values: ArrayLike<number>; dots?: boolean;
+  name: string; colour: string; width: number; time: ArrayLike<number>; values: ArrayLike<number>; dots?: boolean; dash?: number[];
 }
 export interface PaperMark { time: number; value: number; colour: string; text?: string; below?: boolean }
 export interface PaperPlot {
@@ -14,19 +14,6 @@ export interface PaperPlot {
 
 const sizes = { large: [720, 250, 9.5], middle: [350, 165, 8.5], small: [232, 104, 7.5] } as const;
 const ink = "#3c4854";
-
-/** Steps of 1, 2 or 5 times a power of ten, about `count` of them. */
-export function niceTicks(low: number, high: number, count: number): number[] {
-  const rough = Math.max(high - low, 1e-30) / count;
-  const power = 10 ** Math.floor(Math.log10(rough));
-  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= rough * 0.999) ?? 10);
-  const ticks: number[] = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) ticks.push(i * step);
-  return ticks;
-}
-
-const decimals = (ticks: number[]): number =>
-  ticks.length > 1 ? Math.min(Math.max(0, Math.ceil(-Math.log10(ticks[1] - ticks[0]) - 1e-9)), 6) : 0;
 
 /** A path through the lowest and highest value of each column, so that no peak is lost. */
 function pathText(curve: PaperCurve, x: (time: number) => number, y: (value: number) => number): string {
@@ -78,20 +65,23 @@ export function paperPlot(plot: PaperPlot): SVGElement {
       write(x(stage.start) + 3, height - bottom - 3, stage.name, "start", "#5a6875", { "font-size": font * 0.85 });
   });
   const across = niceTicks(plot.start, plot.end, plot.size === "large" ? 10 : plot.size === "middle" ? 5 : 4);
-  for (const tick of across) {
+  const acrossTexts = tickTexts(across);
+  across.forEach((tick, i) => {
     parts.push(svg("line", { x1: x(tick).toFixed(1), x2: x(tick).toFixed(1), y1: top, y2: (height - bottom).toFixed(1), stroke: "#d5dce2", "stroke-width": 0.5 }));
-    write(x(tick), height - bottom + font * 1.2, fixed(tick, decimals(across)), "middle");
-  }
+    write(x(tick), height - bottom + font * 1.2, acrossTexts[i], "middle");
+  });
   const up = niceTicks(low, high, plot.size === "large" ? 6 : 4);
-  for (const tick of up) {
+  const upTexts = tickTexts(up);
+  up.forEach((tick, i) => {
     parts.push(svg("line", { x1: left, x2: width - right, y1: y(tick).toFixed(1), y2: y(tick).toFixed(1), stroke: "#d5dce2", "stroke-width": 0.5 }));
-    write(left - 3, y(tick) + font * 0.35, Math.abs(tick) >= 1e6 ? tick.toExponential(1) : fixed(tick, decimals(up)), "end");
-  }
+    write(left - 3, y(tick) + font * 0.35, upTexts[i], "end");
+  });
   write(2, font * 0.95, plot.unit, "start");
   if (plot.size === "large") write((left + width - right) / 2, height - 3, "time, s", "middle");
   for (const curve of plot.curves) {
     if (!curve.dots) {
-      parts.push(svg("path", { d: pathText(curve, x, y), fill: "none", stroke: curve.colour, "stroke-width": curve.width, "stroke-linejoin": "round" }));
+      parts.push(svg("path", { d: pathText(curve, x, y), fill: "none", stroke: curve.colour, "stroke-width": curve.width, "stroke-linejoin": "round",
+        ...(curve.dash ? { "stroke-dasharray": curve.dash.join(" ") } : {}) }));
       continue;
     }
     for (let i = 0; i < curve.time.length; ++i)

@@ -40,9 +40,10 @@ export function slingsSection(data: PageData): Section | null {
   return {
     id: "slings", title, short: "Sling lengths", content: [
       h("p", { class: "lead" }, `What it does where one sling is ${percent} longer or shorter than meant: equilibria of the lift as it hangs at `
-        + `${seconds(slings.time_s)} s, each found anew.`),
+        + `${seconds(slings.time_s)} s in still air, each found anew.`),
       table("Tensions by errors of length", columns, rows),
-      h("p", {}, worst ? `The worst set is the one of all sets of signs, every sling being off by ${percent}; the tilt is up to ${degrees(worst.tilt_rad)} then. ` : "",
+      h("p", {}, worst ? `The worst set is the one of all sets of signs, every sling being off by ${percent}; the tilt is up to ${degrees(worst.tilt_rad)} then, `
+        + `${degrees(meant.tilt_rad)} with the lengths as meant. ` : "",
         level ? "Lengths that hang the load level are those nearest to the ones meant."
           : "No lengths near to those meant hang the load level."),
       table("Lengths", own, ownRows)],

@@ -1,6 +1,6 @@
 // What the loads do to the block: three ways of taking maxima, lugs, balance, masses.
 import { addToAnnex, folded } from "./annex";
-import { CheckedAccuracy, known, PageData, Structure, StructureWay } from "./data";
+import { Buckling, CheckedAccuracy, known, PageData, Structure, StructureWay } from "./data";
 import { Child, Column, h, table } from "./dom";
 import type { Section } from "./section";
 import { change, fixed, kilonewtons, megapascals, millimetres, missing, point, scientific, seconds, tonnes } from "./numbers";
@@ -27,9 +27,8 @@ function waysTable(data: PageData, structure: Structure): Child {
       millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), change(way.deformation_increase_percent)]);
   };
   if (structure.history) row(h("b", {}, "The whole lift, every instant"), structure.history);
-  row("The worst of the instants of each rope's largest load", structure.simultaneous);
-  
-  row("Per-rope maxima, all at once", structure.per_rope_maxima);
+  row(structure.load_table ? "The loads of the table" : "The worst of the instants of each rope's largest load", structure.simultaneous);
+  if (!structure.load_table) row("Per-rope maxima, all at once", structure.per_rope_maxima);
   const published = data.summary.comparison;
   if (published && (known(published.stress_increase_percent) || known(published.deformation_increase_percent))) {
     rows.push([h("i", {}, "Published, per-rope maxima"), missing, missing, change(published.stress_increase_percent, 2),
@@ -76,7 +75,7 @@ function historyTables(structure: Structure): Child {
       { head: "Largest stress" }, { head: "Where it falls short most" }, left("in"), { head: "Plate area short, %",
         title: "of the patches that see at least half of the largest stress, those more than 1 % short" }], practices),
     table(`Stress in time and wear, ${history.fatigue?.source ?? ""} curve ${history.fatigue?.curve ?? missing}, ${
-      fixed(history.fatigue?.lifts, 0)} lifts`, [left("Place"), left("in"), { head: "at x, y, z" }, { head: "Static, MPa" },
+      fixed(history.fatigue?.lifts, 0)} ${history.fatigue?.lifts === 1 ? "lift" : "lifts"}`, [left("Place"), left("in"), { head: "at x, y, z" }, { head: "Static, MPa" },
       { head: "Dynamic, MPa" }, { head: "Largest range, MPa" }, { head: "Cycles a lift" }, { head: "Damage a lift" }, { head: "Damage" }], wear)];
 }
 
@@ -107,14 +106,30 @@ function lugsTable(structure: Structure): Child {
   lugs.map((lug) => [lug.name, lug.rope ?? missing, ...cells(lug.simultaneous), ...cells(lug.per_rope_maxima)]));
 }
 
+type BuckledPanel = NonNullable<Buckling["panels"]>[number];
+
+/** "1 along 1, 0 along 2": an edge along a side holds its panel up or lies free. */
+function freeEdges(panel: BuckledPanel): string {
+  const [first, second] = panel.free_edges_along_sides ?? [];
+  if (!known(first) || !known(second)) return fixed(panel.free_edges, 0);
+  return first + second === 0 ? "none" : [[first, 1], [second, 2]].filter(([count]) => count > 0).map(([count, side]) => `${count} along ${side}`).join(", ");
+}
+
+/** What compresses a panel's edges: the mean and its fall to the sides, tension positive. */
+function edgeStresses(panel: BuckledPanel): string {
+  const edge = (mean: unknown, fall: unknown): string => known(mean) && known(fall) ? megapascals(mean - Math.abs(fall)) : missing;
+  return `${edge(panel.s11_Pa, panel.s11_gradient_Pa)}, ${edge(panel.s22_Pa, panel.s22_gradient_Pa)}`;
+}
+
 function bucklingTable(structure: Structure): Child {
   const panels = structure.buckling?.panels ?? [];
   if (panels.length === 0) return null;
   return folded("Block", `Panels nearest to buckling, of ${structure.buckling?.panels_looked_at ?? panels.length}, over the whole lift`, [left("Plate"),
-    { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "thickness, mm" }, { head: "Stress 11, 22, 12, MPa" }, left("State"), { head: "at, s" },
+    { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "thickness, mm" }, { head: "Free edges", align: "left", title: "edges where no plate crosses; the others are simply supported. Side 1 is the field's first length, side 2 its second" },
+    { head: "Mean stress 11, 22, 12, MPa", title: "tension positive" }, { head: "At the most compressed edge 11, 22, MPa" }, left("State"), { head: "at, s" },
     { head: "Elastic utilisation" }, { head: "Johnson-Ostenfeld" }],
   panels.map((panel) => [panel.plate, point(panel.centre_m), panel.field_m?.map((side) => fixed(side, 2)).join(" x ") ?? missing,
-    millimetres(panel.thickness_m), [panel.s11_Pa, panel.s22_Pa, panel.s12_Pa].map(megapascals).join(", "), panel.state ?? missing,
+    millimetres(panel.thickness_m), freeEdges(panel), [panel.s11_Pa, panel.s22_Pa, panel.s12_Pa].map(megapascals).join(", "), edgeStresses(panel), panel.state ?? missing,
     seconds(panel.time_s), fixed(panel.elastic_utilisation, 2), fixed(panel.utilisation, 2)]), 4);
 }
 
@@ -192,8 +207,9 @@ export function structureSection(data: PageData): Section | null {
   return {
     id: "structure", title: "Block stress and deformation", short: "Block", content: [
       h("p", { class: "lead" }, (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : "")
-        + "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
-        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. ", modelText(structure)),
+        + (structure.load_table ? "The loads of the case's table, which has no instants: simultaneous and per-rope maxima are the same. "
+          : "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
+        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. "), modelText(structure)),
       waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), barsTable(structure), massTable(structure)],
   };
 }

@@ -1,0 +1,44 @@
+// Functions of the report's page that need no browser: what stands beside a plot's lines, in which stage an instant is.
+//   node page_functions_test.mjs FOLDER_OF_SOURCES FOLDER_OF_NODE_MODULES
+import assert from "node:assert/strict";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [sources, modules] = process.argv.slice(2);
+const { build } = await import(pathToFileURL(join(modules, "esbuild", "lib", "main.js")).href);
+const folder = mkdtempSync(join(tmpdir(), "page-functions-"));
+const load = async (name) => {
+  const bundled = (await build({ entryPoints: [join(sources, `${name}.ts`)], bundle: true, write: false, format: "esm" })).outputFiles[0].text;
+  const file = join(folder, `${name}.mjs`);
+  writeFileSync(file, bundled);
+  return import(pathToFileURL(file).href);
+};
+
+try {
+  const { niceTicks, tickTexts } = await load("ticks");
+  assert.deepEqual(tickTexts([175, 177.5, 180]), ["175.0", "177.5", "180.0"]);
+  assert.deepEqual(tickTexts([0, 0.25, 0.5]), ["0.00", "0.25", "0.50"]);
+  assert.deepEqual(tickTexts([-20, 0, 20]), ["\u221220", "0", "20"]);
+  assert.deepEqual(tickTexts([5.8, 5.80001, 5.80002]), ["5.80000", "5.80001", "5.80002"]);
+  assert.deepEqual(tickTexts([0, 1250000, 2500000]), ["0", "1.25e6", "2.50e6"]);
+  assert.deepEqual(tickTexts([-2e-6, 0, 2e-6]), ["\u22122e\u22126", "0", "2e\u22126"]);
+  assert.deepEqual(tickTexts([0]), ["0"]);
+  assert.deepEqual(niceTicks(0, 10, 5), [0, 2, 4, 6, 8, 10]);
+  for (const [low, high] of [[-0.49, 0.49], [0.1, 0.98], [12.01, 12.09], [-3e-7, 1e-7]])
+    for (const count of [2, 3, 4, 5, 6, 10]) assert.ok(niceTicks(low, high, count).length >= 2, `${low} to ${high} by ${count}`);
+  assert.ok(niceTicks(3, 3, 4).length <= 5);
+
+  // A pause belongs to the stage that it stands before, what comes after the last stage to the last.
+  const { stageAt } = await load("data");
+  const stages = [{ name: "up", start: 15, end: 20 }, { name: "down", start: 30, end: 40 }];
+  assert.deepEqual([0, 15, 20, 25, 35, 50].map((time) => stageAt(stages, time)), ["up", "up", "up", "down", "down", "down"]);
+  assert.equal(stageAt([], 3), "");
+
+  const { kilonewtons, significant } = await load("numbers");
+  assert.deepEqual([99964, 99940, 103000].map(kilonewtons), ["100", "99.9", "103"]);
+  assert.equal(significant(0.09996, 3), "0.100");
+} finally {
+  rmSync(folder, { recursive: true, force: true });
+}
