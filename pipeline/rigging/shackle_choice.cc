@@ -14,8 +14,7 @@ std::vector<Check> check_shackle(const ShackleInStock& candidate, const LiftCase
                                  const std::optional<LiftFacts>& facts, const SlingDemand& demand) {
   const StockShackle& shackle = candidate.shackle;
   if (!facts || !lift_case.standard->rules.shackle)
-    return {check_at_most(fmt::format("working load at rest, {}", candidate.rule), demand.at_rest,
-                          shackle.working_load, "N")};
+    return {check_working_load(shackle.working_load, candidate.rule, demand)};
   const LoadFactors factors(*lift_case.standard, *facts);
   const auto sling = std::find_if(facts->slings.begin(), facts->slings.end(),
                                   [&](const SlingFacts& one) { return one.name == demand.rope; });

@@ -20,7 +20,8 @@ struct ChosenShackle {
   bool pass() const { return index && all_pass(checks); }
 };
 
-/// The weakest shackle that passes: its working load against the sling's largest tension at rest;
+/// The weakest shackle that passes: its working load against the sling's largest tension at rest, or
+/// what three legs or more on its hook ask (demand_with_legs);
 /// where the case's rules have shackles, their chains, at rest and in motion. Where none passes,
 /// the strongest.
 /// @param facts of the run, where the case has a standard.
