@@ -534,6 +534,9 @@ Json make_summary(const Assessment& assessment) {
   if (lift) add_motion(assessment.lift_case, *lift, all_parts, summary);
   summary["timing"] = timing_json(assessment);
   if (lift) add_doubts(assessment.lift_case, *lift, summary);
+  if (lift && assessment.sling_lengths)
+    for (std::string& doubt : list_doubts(assessment.lift_case, *lift, *assessment.sling_lengths))
+      summary["warnings"].push_back(std::move(doubt));
   if (const auto balances = find_table_balances(assessment))
     for (std::string& doubt : list_doubts(*balances))
       summary["warnings"].push_back(std::move(doubt));

@@ -17,6 +17,7 @@
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
 #include "pipeline/results/mesh_error.h"
+#include "pipeline/results/sling_summary.h"
 #include "pipeline/results/summary.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/small_lift.h"
@@ -486,6 +487,39 @@ TEST_F(DoubtsOfALift, RopesBeyondTheirStrengthAndLoadInTheGround) {
   EXPECT_THAT(doubts(), ::testing::HasSubstr("m below the ground (z = 0 m)"));
   pose = before;
   EXPECT_EQ(doubts(), "");
+}
+
+// A worst set of just more than the rope's limit over what motion makes of its tension at rest.
+TEST_F(DoubtsOfALift, SlingsOffTheirLengths) {
+  const LiftRun& lift = *assessment_.lift;
+  const LiftRope& rope = lift.model.ropes.front();
+  const double at_rest = dynamics::find_largest_tensions(lift.static_history)[rope.rope].tension;
+  const double in_motion =
+      dynamics::find_largest_tensions(lift.dynamic_history())[rope.rope].tension;
+  const double limit = rope.breaking_load / lift_case_.checks.rope_safety_factor;
+  ASSERT_LT(in_motion, limit);
+  SlingLengths lengths;
+  lengths.slings = {rope.name};
+  lengths.tolerance = 0.0025;
+  lengths.meant.tensions = Eigen::VectorXd::Constant(1, at_rest);
+  lengths.worst_tensions = Eigen::VectorXd::Constant(1, 0.999 * limit * at_rest / in_motion);
+  EXPECT_TRUE(list_doubts(lift_case_, lift, lengths).empty());
+  lengths.worst_tensions *= 1.002;
+  const std::vector<std::string> doubts = list_doubts(lift_case_, lift, lengths);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_THAT(doubts[0],
+              ::testing::HasSubstr("are off by 0.25 % may bear more than breaking load"));
+  EXPECT_THAT(doubts[0], ::testing::HasSubstr("in the worst set of lengths: " + rope.name));
+
+  // Without sets, what one sling does by itself.
+  lengths.errors = {{{lengths.worst_tensions, 0, 0, 0}, lengths.meant}};
+  lengths.worst_tensions.resize(0);
+  EXPECT_THAT(list_doubts(lift_case_, lift, lengths).at(0),
+              ::testing::HasSubstr("in the worst case of one sling that is off"));
+  // Where the check fails as it is, there is nothing to add.
+  LiftCase stricter = lift_case_;
+  stricter.checks.rope_safety_factor = rope.breaking_load / (0.9 * at_rest);
+  EXPECT_TRUE(list_doubts(stricter, lift, lengths).empty());
 }
 
 }  // namespace
