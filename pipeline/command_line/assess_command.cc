@@ -30,6 +30,7 @@
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/lift_frames.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/bounce_doubts.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/load_case_decks.h"
 #include "pipeline/results/mesh_error.h"
@@ -348,6 +349,8 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
     for (const std::string& doubt : list_doubts(*balances)) say_warning(doubt);
   if (assessment.lift) {
     for (const std::string& doubt : list_doubts(assessment.lift_case, *assessment.lift))
+      say_warning(doubt);
+    for (const std::string& doubt : list_bounce_doubts(assessment.lift_case, *assessment.lift))
       say_warning(doubt);
     if (assessment.sling_lengths)
       for (const std::string& doubt :
