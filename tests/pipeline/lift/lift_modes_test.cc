@@ -1,10 +1,10 @@
 // What is said of motions that nothing brings back.
 
-#include "pipeline/lift/natural_modes.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "pipeline/lift/natural_modes.h"
 
 namespace blocklift::pipeline {
 namespace {
