@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -349,6 +350,28 @@ PadeyesAssessment assess_padeyes(const LiftCase& lift_case, const UnitResponses&
   });
 }
 
+namespace {
+
+/// How far a rope pulls out of the padeye's plane, where formulae of the plane alone say too little;
+/// empty up to 5 degrees.
+std::string out_of_plane_note(const PadeyeAssessment& padeye) {
+  constexpr double degree = std::numbers::pi / 180, little = 5 * degree;
+  const auto angle = [](const PadeyeState& state) {
+    const double size = state.force_P.norm();
+    return size > 0 ? std::asin(std::min(1.0, std::abs(state.force_P.z()) / size)) : 0.0;
+  };
+  double most = 0;
+  for (const PadeyeState& state : padeye.states) most = std::max(most, angle(state));
+  if (!(most > little)) return {};
+  return fmt::format(
+      "; pulled up to {:.0f} degrees out of its plane, {:.0f} % of the force along the pin: ASME "
+      "BTH-1 "
+      "and DNV 2.7-3 are for pulls in the plane",
+      most / degree, 100 * std::sin(most));
+}
+
+}  // namespace
+
 std::vector<Check> check_padeyes(const LiftCase& lift_case, const PadeyesAssessment& padeyes) {
   std::vector<Check> checks;
   for (const PadeyeAssessment& padeye : padeyes.padeyes) {
@@ -360,6 +383,7 @@ std::vector<Check> check_padeyes(const LiftCase& lift_case, const PadeyesAssessm
     formula.time = worst.time;
     formula.note = fmt::format("the worst of {} hand formulae; {}", padeye.formulas.size(),
                                worst.formula.source);
+    formula.note += out_of_plane_note(padeye);
     checks.push_back(std::move(formula));
 
     const PadeyeState& state = padeye.governing_state();

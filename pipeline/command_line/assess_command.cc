@@ -30,10 +30,12 @@
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/lift_frames.h"
 #include "pipeline/report/report.h"
+#include "pipeline/results/bounce_doubts.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/load_case_decks.h"
 #include "pipeline/results/mesh_error.h"
 #include "pipeline/results/radiation_summary.h"
+#include "pipeline/results/sling_summary.h"
 #include "pipeline/results/standard_summary.h"
 #include "pipeline/results/table_summary.h"
 #include "pipeline/terminal/run_log.h"
@@ -348,6 +350,12 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   if (assessment.lift) {
     for (const std::string& doubt : list_doubts(assessment.lift_case, *assessment.lift))
       say_warning(doubt);
+    for (const std::string& doubt : list_bounce_doubts(assessment.lift_case, *assessment.lift))
+      say_warning(doubt);
+    if (assessment.sling_lengths)
+      for (const std::string& doubt :
+           list_doubts(assessment.lift_case, *assessment.lift, *assessment.sling_lengths))
+        say_warning(doubt);
   }
   print_checks(assessment);
   if (decks) print_decks(files, folder);

@@ -164,9 +164,25 @@ std::vector<NaturalModes> find_natural_modes(const BuiltLift& model,
       dynamics::linearise_sweep(model.at_rest(), times, q_start, interval, settings_at_rest(model));
   std::vector<NaturalModes> all;
   for (std::size_t i = 0; i < instants.size(); ++i)
-    all.push_back({instants[i].name, std::move(results[i])});
+    all.push_back({instants[i].name, std::move(results[i]), model.held_heading.has_value()});
   return all;
 }
+
+bool NaturalModes::is_turned_by_wind(const Mode& mode) const {
+  return heading_is_held && mode.kind == dynamics::ModeKind::unstable &&
+         mode.name.find("yaw") != std::string::npos;
+}
+
+namespace {
+
+/// Its period, or how it goes on.
+std::string words_for(const NaturalModes& modes, const Mode& mode) {
+  if (mode.kind == dynamics::ModeKind::oscillating) return fmt::format("{:.3g} s", mode.period());
+  if (modes.is_turned_by_wind(mode)) return "(turned by the wind, nothing holds it)";
+  return fmt::format("({})", dynamics::mode_kind_name(mode.kind));
+}
+
+}  // namespace
 
 std::string describe_natural_periods(const NaturalModes& modes) {
   constexpr std::size_t listed = 3;
@@ -175,10 +191,7 @@ std::string describe_natural_periods(const NaturalModes& modes) {
   if (list.empty()) text += " none, nothing is free to move";
   for (std::size_t i = 0; i < std::min(listed, list.size()); ++i) {
     const Mode& mode = list[i];
-    text += fmt::format("{} {} {}", i > 0 ? "," : "", mode.name,
-                        mode.kind == dynamics::ModeKind::oscillating
-                            ? fmt::format("{:.3g} s", mode.period())
-                            : fmt::format("({})", dynamics::mode_kind_name(mode.kind)));
+    text += fmt::format("{} {} {}", i > 0 ? "," : "", mode.name, words_for(modes, mode));
   }
   return text;
 }
@@ -188,7 +201,10 @@ Json natural_periods_json(const dynamics::Mechanism& mechanism,
   Json list = Json::array();
   for (const NaturalModes& modes : all) {
     Json rows = Json::array();
-    for (const Mode& mode : modes.linearisation.modes) rows.push_back(mode_json(mechanism, mode));
+    for (const Mode& mode : modes.linearisation.modes) {
+      rows.push_back(mode_json(mechanism, mode));
+      if (modes.is_turned_by_wind(mode)) rows.back()["turned_by_wind"] = true;
+    }
     list.push_back(
         {{"instant", modes.instant}, {"time_s", modes.linearisation.time}, {"modes", rows}});
   }

@@ -15,6 +15,10 @@ namespace blocklift::pipeline {
 struct NaturalModes {
   std::string instant;  ///< "start", "after hoist up", "largest load of rope R3"
   dynamics::Linearisation linearisation;
+  bool heading_is_held = false;  ///< as BuiltLift::held_heading says
+
+  /// Is a mode that grows the turn of a load on one hook, which the wind begins and nothing holds?
+  bool is_turned_by_wind(const dynamics::Mode& mode) const;
 };
 
 /// Natural modes at the start, at the end of each stage, and at the instant at which a rope or

@@ -220,6 +220,15 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
       drifting.empty() ? "" : " but those of " + drifting));
   if (std::string sea = describe_sea(lift_case, lift_case.gravity); !sea.empty())
     list.push_back(std::move(sea));
+  const std::string dry = names_of_vessels(lift_case, [](const VesselInCase& vessel) {
+    return vessel.radiation.value == RadiationMethod::none;
+  });
+  if (!dry.empty())
+    list.push_back(fmt::format(
+        "No water moves along with {} (radiation: none): there is no added mass, so that natural "
+        "periods of heave, roll and pitch are too short, the damping is what the case gives, and "
+        "waves are not diffracted.",
+        dry));
   if (!drifting.empty()) {
     list.push_back(fmt::format(
         "Slow drift of {} in surge, sway and yaw by Newman's approximation, from the mean forces "

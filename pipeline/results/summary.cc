@@ -16,6 +16,7 @@
 #include "pipeline/formats/json_values.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/results/assumptions.h"
+#include "pipeline/results/bounce_doubts.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
 #include "pipeline/results/measure_summary.h"
@@ -536,6 +537,12 @@ Json make_summary(const Assessment& assessment) {
   if (lift) add_motion(assessment.lift_case, *lift, all_parts, summary);
   summary["timing"] = timing_json(assessment);
   if (lift) add_doubts(assessment.lift_case, *lift, summary);
+  if (lift)
+    for (std::string& doubt : list_bounce_doubts(assessment.lift_case, *lift))
+      summary["warnings"].push_back(std::move(doubt));
+  if (lift && assessment.sling_lengths)
+    for (std::string& doubt : list_doubts(assessment.lift_case, *lift, *assessment.sling_lengths))
+      summary["warnings"].push_back(std::move(doubt));
   if (const auto balances = find_table_balances(assessment))
     for (std::string& doubt : list_doubts(*balances))
       summary["warnings"].push_back(std::move(doubt));

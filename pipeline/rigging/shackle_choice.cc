@@ -1,11 +1,13 @@
 #include "pipeline/rigging/shackle_choice.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "pipeline/checks/standard_checks.h"
 #include "pipeline/lift/sling_ends.h"
+#include "pipeline/rigging/sling_choice.h"
 #include "pipeline/standards/rigging_chains.h"
 
 namespace blocklift::pipeline {
@@ -16,8 +18,7 @@ std::vector<Check> check_shackle(const ShackleInStock& candidate, const LiftCase
                                  const ShackleDemand& demand) {
   const StockShackle& shackle = candidate.shackle;
   if (!facts || !lift_case.standard->rules.shackle)
-    return {check_at_most(fmt::format("working load at rest, {}", candidate.rule), demand.at_rest,
-                          shackle.working_load, "N")};
+    return {check_working_load(shackle.working_load, candidate.rule, demand.at_rest, demand.hook)};
   const LoadFactors factors(*lift_case.standard, *facts);
   const auto pull = std::find_if(facts->pulls.begin(), facts->pulls.end(),
                                  [&](const LugPull& one) { return one.lug == demand.lug; });
@@ -47,11 +48,17 @@ ChosenShackle choose_shackle(const Stock& stock, const LiftCase& lift_case,
 std::vector<ShackleDemand> shackle_demands(const LiftCase& lift_case, const LiftRun& lift) {
   std::vector<ShackleDemand> demands;
   for (const LugEnds& lug : find_lug_ends(lift.model)) {
-    const bool has_sling = std::any_of(lug.ends.begin(), lug.ends.end(), [&](const SlingEnd& end) {
+    ShackleDemand demand{lug.lug, lug.load(lift.static_history).maxCoeff(), {}};
+    bool has_sling = false;
+    for (const SlingEnd& end : lug.ends) {
       const RopeInCase& rope = *lift_case.find_rope(lift.model.ropes[end.sling].name);
-      return rope.is_sling() && !rope.winch;
-    });
-    if (has_sling) demands.push_back({lug.lug, lug.load(lift.static_history).maxCoeff()});
+      if (!rope.is_sling() || rope.winch) continue;
+      has_sling = true;
+      const SharedHook hook = find_shared_hook(lift_case, lift, rope.name);
+      if (hook.load / hook.leg_factor() > demand.hook.load / demand.hook.leg_factor())
+        demand.hook = hook;
+    }
+    if (has_sling) demands.push_back(std::move(demand));
   }
   return demands;
 }

@@ -74,8 +74,11 @@ std::vector<Check> SlingChecks::of(const SlingInStock& candidate, const SlingDem
                                  std::max(demand.at_rest, demand.in_motion),
                                  left * rope.breaking_load / factor, "N"));
   if (!has_rules()) {
-    checks.push_back(check_at_most(fmt::format("working load at rest, {}", candidate.rule),
-                                   demand.at_rest, candidate.sling.working_load, "N"));
+    checks.push_back(check_working_load(candidate.sling.working_load, candidate.rule,
+                                        demand.at_rest, demand.hook));
+    if (demand.hook.legs > 1 && counts_legs(candidate.rule))
+      checks.push_back(check_at_most(fmt::format("angle of the legs, {}", candidate.rule),
+                                     demand.hook.angle, largest_leg_angle(), "rad"));
     return checks;
   }
   const LoadFactors factors(*case_.standard, *facts_);
@@ -91,6 +94,14 @@ std::vector<Check> SlingChecks::of(const SlingInStock& candidate, const SlingDem
     checks.push_back(std::move(check));
   }
   return checks;
+}
+
+Check check_working_load(double working_load, const std::string& rule, double at_rest,
+                         const SharedHook& hook) {
+  const std::string legs = legs_note(at_rest, hook, rule);
+  return check_at_most(
+      fmt::format("working load at rest, {}{}", rule, legs.empty() ? legs : ", " + legs),
+      demand_with_legs(at_rest, hook, rule), working_load, "N");
 }
 
 ChosenSling choose_sling(const Stock& stock, const SlingChecks& checks, const SlingDemand& demand) {
@@ -127,7 +138,8 @@ std::vector<SlingDemand> sling_demands(const LiftCase& lift_case, const LiftRun&
     const RopeInCase& in_case = *lift_case.find_rope(rope.name);
     if (!in_case.is_sling() || in_case.winch) continue;
     const auto i = static_cast<std::size_t>(rope.rope);
-    demands.push_back({rope.name, rope.lug, at_rest[i].tension, in_motion[i].tension});
+    demands.push_back({rope.name, rope.lug, at_rest[i].tension, in_motion[i].tension,
+                       find_shared_hook(lift_case, lift, rope.name)});
   }
   return demands;
 }

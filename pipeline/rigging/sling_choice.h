@@ -7,6 +7,7 @@
 #include "pipeline/checks/checks.h"
 #include "pipeline/files/lift_case/lift_case.h"
 #include "pipeline/lift/lift_run.h"
+#include "pipeline/rigging/leg_sharing.h"
 #include "pipeline/rigging/stock.h"
 #include "pipeline/standards/lift_facts.h"
 
@@ -18,6 +19,7 @@ struct SlingDemand {
   std::string lug;       ///< that it ends at; empty for a sling to a spreader
   double at_rest = 0;    ///< largest tension of the equilibria, N
   double in_motion = 0;  ///< largest tension of the motion, N
+  SharedHook hook = {};  ///< that it hangs from beside other slings
 };
 
 /// The checks by which slings are chosen.
@@ -35,7 +37,8 @@ class SlingChecks {
   /// - breaking load, as far as the rope's own bend leaves it, over the case's factor against the
   ///   largest tension, at rest or in motion;
   /// - the standard's chain, in both columns, where its rules have a factor for slings;
-  /// - without such rules, the working load against the largest tension at rest.
+  /// - without such rules, the working load against the largest tension at rest, or what the legs
+  ///   on its hook ask (demand_with_legs); and the angle of these, by a rule that counts legs.
   std::vector<Check> of(const SlingInStock& candidate, const SlingDemand& demand) const;
 
  private:
@@ -46,6 +49,10 @@ class SlingChecks {
   const LiftCase& case_;
   std::optional<LiftFacts> facts_;
 };
+
+/// A working load by a rule against what demand_with_legs asks at rest.
+Check check_working_load(double working_load, const std::string& rule, double at_rest,
+                         const SharedHook& hook);
 
 /// A sling that was chosen for a rope.
 struct ChosenSling {

@@ -42,10 +42,12 @@ Format<DynamicsSettings> dynamics_format() {
   table
       .by_default("relative_tolerance", &DynamicsSettings::relative_tolerance,
                   number(Range::between(1e-12, 1e-3)), "1e-6", "of the time integration")
-      .by_default("sample_interval", &DynamicsSettings::sample_interval,
-                  quantity(Dimension::time, Range::between(1e-4, 0.2)), "0.05 s",
-                  "between two recorded samples of the motion, among which the largest loads are "
-                  "sought: a small part of the load's bounce on its ropes")
+      .by_default(
+          "sample_interval", &DynamicsSettings::sample_interval,
+          quantity(Dimension::time, Range::between(1e-4, 0.2)), "0.05 s",
+          "between two recorded samples of the motion, among which the largest loads are "
+          "sought: at most a sixteenth of the period of the load's bounce on its ropes, or it "
+          "is warned of")
       .by_default("static_interval", &DynamicsSettings::static_interval,
                   quantity(Dimension::time, Range::between(1e-3, 30)), "1 s",
                   "between two static equilibria")

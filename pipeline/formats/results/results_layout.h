@@ -181,7 +181,8 @@
 ///   natural_periods (o) [{instant, time_s, modes: [{name, kind, period_s, frequency_Hz,
 ///                      damping_ratio, elastic_share, energy_share_by_body: {body: share},
 ///                      energy_share_by_elastic_mode (o): {mode: share}, which the share of its
-///                      body includes}]}], modes slowest first; period_s null where nothing brings the motion back
+///                      body includes, turned_by_wind (o): true of one that grows because wind
+///                      turns a load that nothing holds}]}], modes slowest first; period_s null where nothing brings the motion back
 ///   radiation      (o) {method, vessels, memory_states (o), memory_error (o), turn_of_all:
 ///                      LARGEST, misplacement: [{vessels, both_in_water, distance (o): LARGEST, turn
 ///                      (o): LARGEST, at_hull_ends (o): LARGEST, limit_m (o), share_of_time_beyond

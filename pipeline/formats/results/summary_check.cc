@@ -315,6 +315,7 @@ Rule structure() {
 Rule natural_periods() {
   const Rule mode = with(table({{"name", text(), true},
                                 {"kind", text()},
+                                {"turned_by_wind", flag()},
                                 {"energy_share_by_body", by_name(number())},
                                 {"energy_share_by_elastic_mode", by_name(number())}}),
                          numbers({"period_s", "frequency_Hz", "damping_ratio", "elastic_share"}));

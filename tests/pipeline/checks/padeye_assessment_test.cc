@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "pipeline/checks/buckling_assessment.h"
@@ -186,6 +187,23 @@ TEST_F(SmallLiftPadeyes, FailTheLiftWhereTheyAreTooWeak) {
   PadeyesAssessment weak = found;
   weak.padeyes[0].formulas[0].formula.utilisation = 1.01;
   EXPECT_FALSE(check_padeyes(test::read_small_lift(), weak)[0].pass);
+}
+
+// The sling of 3 m leans to a hook half of the box's 3 m off, across the padeye: by 30 degrees.
+TEST_F(SmallLiftPadeyes, SayWhereTheyArePulledOutOfTheirPlane) {
+  PadeyesAssessment found = assess();
+  const LiftCase lift_case = test::read_small_lift();
+  EXPECT_THAT(check_padeyes(lift_case, found)[0].note,
+              ::testing::HasSubstr("degrees out of its plane"));
+  // 3 of 5 along the pin: 36.9 degrees; tan 4.9 degrees: nothing is said.
+  for (PadeyeState& state : found.padeyes[0].states)
+    state.force_P = structure::Vector3(0.0, 4e3, -3e3);
+  EXPECT_THAT(check_padeyes(lift_case, found)[0].note,
+              ::testing::HasSubstr("pulled up to 37 degrees out of its plane, 60 % of the force"));
+  for (PadeyeState& state : found.padeyes[0].states)
+    state.force_P = structure::Vector3(0.0, 1e3, 85.7);
+  EXPECT_THAT(check_padeyes(lift_case, found)[0].note,
+              ::testing::Not(::testing::HasSubstr("out of its plane")));
 }
 
 TEST_F(SmallLiftPadeyes, PanelsAreTheWorstOfEverySample) {

@@ -14,9 +14,11 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/checks/standard_checks.h"
+#include "pipeline/results/bounce_doubts.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/history_summary.h"
 #include "pipeline/results/mesh_error.h"
+#include "pipeline/results/sling_summary.h"
 #include "pipeline/results/summary.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/small_lift.h"
@@ -510,6 +512,51 @@ TEST_F(DoubtsOfALift, RopesBeyondTheirStrengthAndLoadInTheGround) {
   EXPECT_THAT(doubts(), ::testing::HasSubstr("m below the ground (z = 0 m)"));
   pose = before;
   EXPECT_EQ(doubts(), "");
+}
+
+// The small lift's box bounces at 0.18 s with a third of the critical damping, and is sampled every
+// 0.05 s. Gentle ropes and fine samples have nothing to say.
+TEST_F(DoubtsOfALift, BounceAndItsSamples) {
+  const LiftRun& lift = *assessment_.lift;
+  const std::vector<std::string> doubts = list_bounce_doubts(lift_case_, lift);
+  ASSERT_EQ(doubts.size(), 2U);
+  EXPECT_THAT(doubts[0], ::testing::HasSubstr("sought among samples 0.05 s apart"));
+  EXPECT_THAT(doubts[1], ::testing::HasSubstr("% of the critical damping; usual are 1 to 2 %"));
+  lift_case_.dynamics.sample_interval = 0.01;
+  EXPECT_EQ(list_bounce_doubts(lift_case_, lift).size(), 1U);
+}
+
+// A worst set of just more than the rope's limit over what motion makes of its tension at rest.
+TEST_F(DoubtsOfALift, SlingsOffTheirLengths) {
+  const LiftRun& lift = *assessment_.lift;
+  const LiftRope& rope = lift.model.ropes.front();
+  const double at_rest = dynamics::find_largest_tensions(lift.static_history)[rope.rope].tension;
+  const double in_motion =
+      dynamics::find_largest_tensions(lift.dynamic_history())[rope.rope].tension;
+  const double limit = rope.breaking_load / lift_case_.checks.rope_safety_factor;
+  ASSERT_LT(in_motion, limit);
+  SlingLengths lengths;
+  lengths.slings = {rope.name};
+  lengths.tolerance = 0.0025;
+  lengths.meant.tensions = Eigen::VectorXd::Constant(1, at_rest);
+  lengths.worst_tensions = Eigen::VectorXd::Constant(1, 0.999 * limit * at_rest / in_motion);
+  EXPECT_TRUE(list_doubts(lift_case_, lift, lengths).empty());
+  lengths.worst_tensions *= 1.002;
+  const std::vector<std::string> doubts = list_doubts(lift_case_, lift, lengths);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_THAT(doubts[0],
+              ::testing::HasSubstr("are off by 0.25 % may bear more than breaking load"));
+  EXPECT_THAT(doubts[0], ::testing::HasSubstr("in the worst set of lengths: " + rope.name));
+
+  // Without sets, what one sling does by itself.
+  lengths.errors = {{{lengths.worst_tensions, 0, 0, 0}, lengths.meant}};
+  lengths.worst_tensions.resize(0);
+  EXPECT_THAT(list_doubts(lift_case_, lift, lengths).at(0),
+              ::testing::HasSubstr("in the worst case of one sling that is off"));
+  // Where the check fails as it is, there is nothing to add.
+  LiftCase stricter = lift_case_;
+  stricter.checks.rope_safety_factor = rope.breaking_load / (0.9 * at_rest);
+  EXPECT_TRUE(list_doubts(stricter, lift, lengths).empty());
 }
 
 }  // namespace

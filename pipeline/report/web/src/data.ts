@@ -158,6 +158,8 @@ export interface NaturalMode {
   elastic_share?: Maybe<number>; energy_share_by_body?: Record<string, number>;
   /** What of those shares bodies have by vibrating, not by moving as a whole. */
   energy_share_by_elastic_mode?: Record<string, number>;
+  /** Of one that grows: the wind turns a load that nothing holds. */
+  turned_by_wind?: boolean;
 }
 export interface ModeShapes { time: number; bodies: Record<string, Packed> }
 export interface ChainStep {

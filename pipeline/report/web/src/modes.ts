@@ -51,6 +51,11 @@ const kinds: Record<string, string> = {
   overdamped: "creeps back without swinging", neutral: "neutral: nothing brings it back", unstable: "unstable: grows by itself",
 };
 
+/** What kind of mode it is: wind that turns a load is no motion that grows. */
+function kindWords(mode: NaturalMode): string {
+  return mode.kind === "unstable" && mode.turned_by_wind ? "turned by the wind, nothing holds it" : kinds[mode.kind] ?? mode.kind;
+}
+
 /** The two that have most of the kinetic energy, of those with a twentieth or more. */
 function largest(shares: Record<string, number> | undefined): [string, number][] {
   return Object.entries(shares ?? {}).sort((a, b) => b[1] - a[1]).slice(0, 2).filter(([, size]) => size >= 0.05);
@@ -91,7 +96,7 @@ function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], pl
     { head: "Kinetic energy in", align: "left" }, ...(play ? [{ head: "" }] : []),
   ];
   return table(caption, columns, modes.map((mode) => [
-    h("span", { title: kinds[mode.kind] }, mode.name, mode.kind === "oscillating" ? null : h("small", { class: "mode-kind" }, kinds[mode.kind] ?? mode.kind)),
+    h("span", { title: mode.kind === "oscillating" ? undefined : kindWords(mode) }, mode.name, mode.kind === "oscillating" ? null : h("small", { class: "mode-kind" }, kindWords(mode))),
     period(mode), mode.kind === "neutral" || mode.kind === "overdamped" ? missing : significant(mode.frequency_Hz, 3),
     mode.kind === "neutral" ? missing : `${fixed((mode.damping_ratio ?? 0) * 100, 2)}\u202f%`,
     share(mode.elastic_share), mover(mode),
@@ -113,7 +118,7 @@ function overview(data: PageData, load: string, clock: Clock): Child {
     } }, seconds(time)) : seconds(time),
     ...names.map((name) => {
       const mode = modes.find((one) => one.name === name);
-      return !mode ? missing : mode.kind === "oscillating" ? period(mode) : mode.kind;
+      return !mode ? missing : mode.kind === "oscillating" ? period(mode) : mode.turned_by_wind ? "turned by the wind" : mode.kind;
     })]));
 }
 
