@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -119,7 +120,8 @@ void find_limits(StudyResults& results) {
   const auto operability = [&](const auto& name, bool is_forecast) -> std::optional<Operability> {
     if (!name) return std::nullopt;
     return find_operability(*results.limits,
-                            read_sea_states(results.study.beside(name->value), is_forecast),
+                            read_sea_states(results.study.beside(name->value), is_forecast,
+                                            results.limits->headings.size() > 1),
                             limits.alpha, is_forecast);
   };
   results.in_scatter = operability(limits.scatter, false);
@@ -127,24 +129,32 @@ void find_limits(StudyResults& results) {
 }
 
 Json operability_json(const Operability& operability) {
-  Json windows = Json::array();
+  Json windows = Json::array(), holes = Json::array();
   for (const Operability::Window& window : operability.windows)
     windows.push_back({{"begin_h", window.begin}, {"end_h", window.end}});
+  for (const Operability::Window& hole : operability.holes)
+    holes.push_back({{"begin_h", hole.begin}, {"end_h", hole.end}});
   return {{"share", operability.share},
-          {"share_beyond_periods", operability.beyond},
-          {"windows", std::move(windows)}};
+          {"share_beyond_periods", operability.beyond_periods},
+          {"share_beyond_headings", operability.beyond_headings},
+          {"windows", std::move(windows)},
+          {"holes", std::move(holes)}};
 }
 
 Json limits_json(const StudyResults& results) {
   const LimitingSeas& seas = *results.limits;
   Json states = Json::array();
   for (std::size_t p = 0; p < seas.periods.size(); ++p)
-    for (std::size_t h = 0; h < seas.headings.size(); ++h)
-      states.push_back({{"peak_period_s", seas.periods[p]},
-                        {"heading_rad", seas.headings[h]},
-                        {"significant_height_m", seas.at(p, h).height},
-                        {"known_as", name_of(seas.at(p, h).kind)},
-                        {"governed_by", seas.governing[p * seas.headings.size() + h]}});
+    for (std::size_t h = 0; h < seas.headings.size(); ++h) {
+      const std::size_t cell = p * seas.headings.size() + h;
+      Json state{{"peak_period_s", seas.periods[p]},
+                 {"heading_rad", seas.headings[h]},
+                 {"significant_height_m", seas.heights[cell].height},
+                 {"known_as", name_of(seas.heights[cell].kind)},
+                 {"governed_by", seas.governing[cell]}};
+      if (seas.failed[cell] >= 0) state["failed_member"] = seas.failed[cell];
+      states.push_back(std::move(state));
+    }
   Json json{{"alpha", results.study.limits->alpha}, {"sea_states", std::move(states)}};
   if (results.in_scatter) json["scatter"] = operability_json(*results.in_scatter);
   if (results.in_forecast) json["forecast"] = operability_json(*results.in_forecast);
@@ -373,35 +383,25 @@ Json study_json(const StudyResults& results) {
   return json;
 }
 
-namespace {
-
-/// Limiting heights by period and heading, for a terminal.
-std::string limiting_text(const LimitingSeas& seas) {
-  constexpr double degree = std::numbers::pi / 180;
-  std::vector<TableColumn> columns{{"peak period, s", 0}};
-  for (const double heading : seas.headings)
-    columns.push_back(
-        {seas.headings.size() > 1 ? fmt::format("{:.4g}°", heading / degree) : "height, m", 3});
-  TextTable table(std::move(columns));
-  for (std::size_t p = 0; p < seas.periods.size(); ++p) {
-    std::vector<TextTable::Cell> row{fmt::format("{:.4g}", seas.periods[p])};
-    for (std::size_t h = 0; h < seas.headings.size(); ++h) {
-      const LimitingHeight& limit = seas.at(p, h);
-      const std::string height = fmt::format("{:.2f}", limit.height);
-      row.emplace_back(limit.kind == LimitKind::found        ? height
-                       : limit.kind == LimitKind::below_grid ? "below"
-                                                             : "≥ " + height);
-    }
-    table.add_row(std::move(row));
-  }
-  return "Limiting significant height, m, by heading; below: the lowest is too much\n" +
-         table.text();
+std::vector<std::string> limiting_sentences(const StudyResults& results) {
+  std::vector<std::string> sentences = sentences_of_failures(*results.limits);
+  const double alpha = results.study.limits->alpha;
+  if (results.in_scatter)
+    std::ranges::move(sentences_of_scatter(*results.in_scatter, alpha),
+                      std::back_inserter(sentences));
+  if (results.in_forecast)
+    std::ranges::move(sentences_of_forecast(*results.in_forecast, alpha),
+                      std::back_inserter(sentences));
+  return sentences;
 }
 
-}  // namespace
-
 std::string study_text(const StudyResults& results) {
-  if (results.limits) return limiting_text(*results.limits);
+  if (results.limits) {
+    std::string text = limiting_text(*results.limits);
+    for (const std::string& sentence : limiting_sentences(results))
+      text += wrapped_sentence(sentence);
+    return text;
+  }
   TextTable table({{"figure"},
                    {"", 0},
                    {"mean", 1},

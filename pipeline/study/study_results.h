@@ -62,6 +62,10 @@ StudyResults evaluate_search(StudyFile study, SearchResults search);
 /// study.json: the spreads, with units as the names of the figures have them.
 nlohmann::ordered_json study_json(const StudyResults& results);
 
+/// What a study of limiting seas says beside its table, for terminal and page: what is not known,
+/// how much of scatter table and forecast is workable.
+std::vector<std::string> limiting_sentences(const StudyResults& results);
+
 /// A table of the leading figures for a terminal.
 std::string study_text(const StudyResults& results);
 
