@@ -349,6 +349,8 @@ std::string study_page(const StudyResults& results) {
   if (results.search)
     return page + search_section(results) + what_varies(study) + all_figures(results) +
            "</body></html>\n";
+  if (const std::string warning = survivors_warning(results); !warning.empty())
+    page += "<p><strong>Warning:</strong> " + escape_html(warning) + ".</p>\n";
   page += limiting_seas(results);
   // Nor are seas that were laid out on a grid: each is run as often as the others.
   if (!results.limits) page += spreads(results);

@@ -197,6 +197,17 @@ std::string quoted(const std::string& text) {
   return '"' + inside + '"';
 }
 
+/// A failure of several lines as one, for a row is a line.
+std::string on_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == ' ' && line.ends_with("; ")) continue;
+    line += c == '\n' ? std::string("; ") : std::string(1, c);
+  }
+  while (line.ends_with("; ")) line.resize(line.size() - 2);
+  return line;
+}
+
 std::string csv_text(const StudyResults& results) {
   std::string text = "member";
   for (const StudyVariable& variable : results.study.variables) {
@@ -214,7 +225,7 @@ std::string csv_text(const StudyResults& results) {
                                       [&](const auto& one) { return one.first == spread.path; });
       text += found == member.figures.end() ? std::string(",") : fmt::format(",{}", found->second);
     }
-    text += "," + quoted(member.failure) + "\n";
+    text += "," + quoted(on_one_line(member.failure)) + "\n";
   }
   return text;
 }
@@ -377,10 +388,27 @@ Json study_json(const StudyResults& results) {
   Json json{{"study", results.study.name},           {"title", results.study.title},
             {"case", results.study.case_name.value}, {"members", results.members.size()},
             {"failures", std::move(failures)},       {"figures", std::move(figures)}};
+  if (const std::string warning = survivors_warning(results); !warning.empty())
+    json["warning"] = warning;
   if (!results.sensitivities.empty()) json["sobol_indices"] = std::move(sensitivities);
   if (results.limits) json["limits"] = limits_json(results);
   if (results.search) json["search"] = search_json(results);
   return json;
+}
+
+std::string survivors_warning(const StudyResults& results) {
+  const StudyDesign design = results.study.design;
+  const int failed = results.failed();
+  if (failed == 0 || design == StudyDesign::grid || design == StudyDesign::search) return "";
+  return fmt::format(
+      "{} of {} members failed: all statistics are of those that ran, which may be the kinder ones",
+      failed, results.members.size());
+}
+
+bool has_too_many_failures(const StudyResults& results) {
+  constexpr double largest_share = 0.05;
+  return !survivors_warning(results).empty() &&
+         results.failed() > largest_share * static_cast<double>(results.members.size());
 }
 
 std::vector<std::string> limiting_sentences(const StudyResults& results) {
