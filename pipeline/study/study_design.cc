@@ -61,10 +61,12 @@ OT::Distribution distribution_of(const StudyVariable& variable) {
   if (!variable.law) return OT::Uniform(0, static_cast<double>(variable.values.size()));
   try {
     return cut_law_of(*variable.law);
-  } catch (const OT::Exception& error) {
+  } catch (const OT::Exception&) {
     Diagnostics diagnostics;
-    diagnostics.error(variable.law->place, fmt::format("the spread of \"{}\" is impossible: {}",
-                                                       variable.name.value, error.what()));
+    diagnostics.error(variable.law->place,
+                      fmt::format("the spread of \"{}\" is impossible: the law has no such "
+                                  "moments, or nothing of it lies between its bounds",
+                                  variable.name.value));
     throw InputError(diagnostics);
   }
 }

@@ -377,8 +377,13 @@ StudyResults evaluate_search(StudyFile study, SearchResults search) {
 
 Json study_json(const StudyResults& results) {
   Json figures = Json::array(), sensitivities = Json::object(), failures = Json::array();
-  for (const Spread& spread : results.spreads)
+  for (const Spread& spread : results.spreads) {
     figures.push_back(spread_json(results.study, spread));
+    // Seas on a grid are no sample.
+    if (!results.limits) continue;
+    figures.back()["quantiles"] = Json::array();
+    figures.back()["extremes"] = Json::array();
+  }
   for (std::size_t i = 0; i < results.sensitivities.size(); ++i)
     sensitivities[results.spreads[results.leading[i]].path] =
         sensitivity_json(results.study, results.sensitivities[i]);
