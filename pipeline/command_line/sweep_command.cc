@@ -170,6 +170,8 @@ void warn_of_failures(const StudyResults& results) {
   for (const Member& member : results.members)
     if (!member.failure.empty())
       say_warning(fmt::format("member {} failed: {}", member.number, member.failure));
+  if (const std::string warning = survivors_warning(results); !warning.empty())
+    say_warning(warning);
 }
 
 void print_count(const StudyResults& results) {
@@ -341,7 +343,8 @@ int sweep_alone_or_first(const SweepOptions& options) {
   const std::optional<ShownMember> worst = shown_member(results, folder);
   const bool is_written = worst && write_whole(options, folder, worst->number);
   print_study(results, folder, is_written ? std::optional<int>(worst->number) : std::nullopt);
-  if (is_written || !worst) return exit_code::done;
+  if (is_written || !worst)
+    return has_too_many_failures(results) ? exit_code::run_failed : exit_code::done;
   throw std::runtime_error(fmt::format(
       "the report of member {}, the worst, could not be written; all else of the study is",
       worst->number));

@@ -126,6 +126,36 @@ void compare_channels(const TimeWindow& window, MeasuredLift& lift) {
   }
 }
 
+/// What makes a channel doubtful as a whole: a dead cell, another channel, another unit or sign.
+/// Empty: nothing does.
+std::string doubt_of(const HeldChannel& channel, const TimeWindow& window) {
+  constexpr double least_correlation = 0.7, least_scale = 0.5, largest_scale = 2;
+  if (!channel.agreement) return {};
+  const std::vector<double> values = samples_in(channel.measured, window).values;
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  if (lowest != values.end() && *lowest == *highest)
+    return fmt::format("is {:.6g} {} at every instant: the cell or its channel may be dead",
+                       *lowest, channel.unit);
+  // Where nothing moves in the computed lift there is nothing that a record could follow.
+  if (!channel.agreement->scale) return {};
+  const double correlation = channel.agreement->correlation, scale = *channel.agreement->scale;
+  if (correlation < least_correlation)
+    return fmt::format("does not follow the computed one, its correlation is {:.2f}{}", correlation,
+                       correlation < -least_correlation ? ": its sign may be reversed" : "");
+  if (scale < least_scale || scale > largest_scale)
+    return fmt::format("moves {:.4g} times as much as the computed one: its unit may be another",
+                       scale);
+  return {};
+}
+
+void doubt_channels(const TimeWindow& window, MeasuredLift& lift) {
+  for (HeldChannel& channel : lift.channels) {
+    const std::string doubt = doubt_of(channel, window);
+    channel.is_doubtful = !doubt.empty();
+    if (channel.is_doubtful) lift.doubts.push_back(channel.name + ' ' + doubt);
+  }
+}
+
 void share_ropes(const TimeWindow& window, MeasuredLift& lift) {
   std::vector<HeldChannel*> ropes;
   std::vector<TimeSeries> measured;
@@ -255,6 +285,14 @@ void weigh_load(const ResultsReader& results, const MeasurementSettings& setting
   if (!weighing)
     refuse(place, "the records of all ropes have less than 20 instants in common there");
   lift.weight = HeldWeight{*weighing, window, std::nullopt, std::nullopt};
+  // The balance needs every rope: a doubtful cell cannot be left out, so that its part is said.
+  std::vector<std::string> doubtful;
+  for (const HeldChannel& channel : lift.channels)
+    if (channel.is_doubtful && std::ranges::find(ropes, channel.name) != ropes.end())
+      doubtful.push_back(channel.name);
+  if (!doubtful.empty())
+    lift.doubts.push_back("the measured mass and its centre are made of doubtful channels, too: " +
+                          list_of_names(doubtful));
   take_stated_mass(lift);
   const nlohmann::ordered_json& summary = lift.result.summary;
   if (summary.contains("structure") && summary["structure"].contains("mass")) {
@@ -314,6 +352,7 @@ MeasuredLift hold_against_measurements(const std::filesystem::path& result,
   const TimeWindow window = settings.window.value_or(whole_time());
   doubt_gaps(lift);
   compare_channels(window, lift);
+  doubt_channels(window, lift);
   share_ropes(window, lift);
   if (settings.decay) identify_decays(*settings.decay, lift);
   if (settings.rest) weigh_load(results, settings, lift);

@@ -44,6 +44,7 @@ struct HeldChannel {
   std::optional<Agreement> agreement;
   std::optional<Sharing> sharing;  ///< of ropes, where more than one was measured
   std::optional<Decay> measured_decay, computed_decay;
+  bool is_doubtful = false;  ///< constant, or hardly the computed quantity: the doubts say why
 };
 
 /// What the case was computed with, and what the load cells say.

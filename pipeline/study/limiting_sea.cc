@@ -1,13 +1,16 @@
 #include "pipeline/study/limiting_sea.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -92,17 +95,61 @@ std::vector<std::vector<double>> worst_over_seeds(const SeaGrid& grid,
   return worst;
 }
 
+/// Of each sea state the member with the lowest height that has no value of a quantity; -1: none.
+std::vector<int> failed_members(const SeaGrid& grid, const Eigen::MatrixXd& design,
+                                const std::vector<Member>& members, const std::string& path) {
+  std::vector<int> failed(grid.periods.size() * grid.headings.size(), -1);
+  for (const Member& member : members) {
+    if (!std::isnan(member.figure(path))) continue;
+    int& lowest = failed[grid.cell_of(design, member.number)];
+    if (lowest < 0 || design(member.number, grid.height) < design(lowest, grid.height))
+      lowest = member.number;
+  }
+  return failed;
+}
+
 constexpr const char* height_column = "significant_height_m";
 constexpr const char* period_column = "peak_period_s";
 constexpr const char* heading_column = "heading_deg";
 
-/// A column of a table of sea states; complains if it is due and not there.
-const std::vector<double>* find_column(const SeriesFile& file, const std::string& name, bool is_due,
+/// Complains of columns that nobody knows, or that are there twice.
+void check_names(const SeriesFile& file, const std::string& measure, const Mark& mark,
+                 Diagnostics& diagnostics) {
+  std::set<std::string_view> seen;
+  for (const std::string& column : file.names) {
+    if (column != height_column && column != period_column && column != heading_column &&
+        column != measure)
+      diagnostics.error(mark, fmt::format("a column is called \"{}\"", column),
+                        {fmt::format("known are {}, {}, {} and {}", height_column, period_column,
+                                     heading_column, measure)});
+    else if (!seen.insert(column).second)
+      diagnostics.error(mark, fmt::format("the column \"{}\" is there twice", column));
+  }
+}
+
+/// A column of a table of sea states; complains if it is not there.
+const std::vector<double>* find_column(const SeriesFile& file, const std::string& name,
                                        const Mark& mark, Diagnostics& diagnostics) {
   const auto found = std::find(file.names.begin(), file.names.end(), name);
   if (found != file.names.end()) return &file.columns[found - file.names.begin()];
-  if (is_due) diagnostics.error(mark, fmt::format("there is no column {}", name));
+  diagnostics.error(mark, fmt::format("there is no column {}", name));
   return nullptr;
+}
+
+/// Steps of a forecast that are far longer than usual.
+std::vector<Operability::Window> find_holes(const std::vector<SeaState>& states) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < states.size(); ++i)
+    steps.push_back(states[i].time - states[i - 1].time);
+  if (steps.empty()) return {};
+  const auto median = steps.begin() + static_cast<std::ptrdiff_t>((steps.size() - 1) / 2);
+  std::nth_element(steps.begin(), median, steps.end());
+  const double longest = 2 * *median;
+  std::vector<Operability::Window> holes;
+  for (std::size_t i = 1; i < states.size(); ++i)
+    if (states[i].time - states[i - 1].time > longest * (1 + 1e-9))
+      holes.push_back({states[i - 1].time, states[i].time});
+  return holes;
 }
 
 /// Place of a value in ascending figures: the one below and the part of the way to the next.
@@ -157,6 +204,8 @@ const char* name_of(LimitKind kind) {
       return "above the grid";
     case LimitKind::before_failure:
       return "before a failure";
+    case LimitKind::unknown:
+      return "unknown";
   }
   return "";
 }
@@ -167,7 +216,7 @@ LimitingHeight find_limiting_height(const std::vector<double>& heights,
   const double sign = worse_when_smaller ? -1 : 1;
   for (std::size_t k = 0; k < heights.size(); ++k) {
     if (std::isnan(values[k]))
-      return k == 0 ? LimitingHeight{0, LimitKind::below_grid}
+      return k == 0 ? LimitingHeight{0, LimitKind::unknown}
                     : LimitingHeight{heights[k - 1], LimitKind::before_failure};
     if (sign * (values[k] - limit) <= 0) continue;
     if (k == 0) return {0, LimitKind::below_grid};
@@ -183,10 +232,25 @@ double LimitingSeas::height_at(double period, double heading) const {
   const auto p = find_between(periods, period);
   const auto h = find_heading(headings, heading);
   if (!p || !h) return 0;
+  const std::array<std::pair<std::size_t, double>, 2> rows{
+      {{p->below, 1 - p->part}, {p->above, p->part}}};
+  const std::array<std::pair<std::size_t, double>, 2> columns{
+      {{h->below, 1 - h->part}, {h->above, h->part}}};
+  for (const auto& [row, of_row] : rows)
+    for (const auto& [column, of_column] : columns)
+      if (of_row * of_column > 0 && at(row, column).kind == LimitKind::unknown) return 0;
   const auto across = [&](std::size_t row) {
     return (1 - h->part) * at(row, h->below).height + h->part * at(row, h->above).height;
   };
   return (1 - p->part) * across(p->below) + p->part * across(p->above);
+}
+
+bool LimitingSeas::has_period(double period) const {
+  return find_between(periods, period).has_value();
+}
+
+bool LimitingSeas::has_heading(double heading) const {
+  return find_heading(headings, heading).has_value();
 }
 
 LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& design,
@@ -204,23 +268,43 @@ LimitingSeas find_limiting_seas(const StudyFile& study, const Eigen::MatrixXd& d
              member.worse_when_smaller.end();
     });
     const auto worst = worst_over_seeds(grid, design, members, path, smaller);
-    const bool is_first = seas.quantities.empty();
+    const std::vector<int> failed = failed_members(grid, design, members, path);
+    if (seas.quantities.empty()) {
+      seas.heights.assign(worst.size(), {grid.heights.back(), LimitKind::above_grid});
+      seas.governing.resize(worst.size());
+      seas.failed.assign(worst.size(), -1);
+    }
     for (std::size_t cell = 0; cell < worst.size(); ++cell) {
       const LimitingHeight height = find_limiting_height(grid.heights, worst[cell], limit, smaller);
-      if (is_first) {
-        seas.heights.push_back(height);
-        seas.governing.push_back(height.kind == LimitKind::above_grid ? "" : path);
-      } else if (height.height < seas.heights[cell].height) {
-        seas.heights[cell] = height;
-        seas.governing[cell] = path;
-      }
+      const LimitingHeight& before = seas.heights[cell];
+      // Of two that allow nothing the one that was computed is told.
+      const bool is_less =
+          height.height < before.height || before.kind == LimitKind::above_grid ||
+          (height.kind == LimitKind::below_grid && before.kind == LimitKind::unknown);
+      if (height.kind == LimitKind::above_grid || !is_less) continue;
+      seas.heights[cell] = height;
+      const bool is_reached =
+          height.kind == LimitKind::found || height.kind == LimitKind::below_grid;
+      seas.governing[cell] = is_reached ? path : "";
+      seas.failed[cell] = is_reached ? -1 : failed[cell];
     }
     seas.quantities.push_back(path);
   }
   return seas;
 }
 
-std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is_forecast) {
+bool varies_heading(const StudyFile& study) {
+  if (!study.limits || !study.limits->heading) return false;
+  for (const StudyVariable& variable : study.variables)
+    if (variable.name.value == study.limits->heading->value)
+      return std::ranges::any_of(variable.values, [&](const Located<Measure>& value) {
+        return value.value.value != variable.values.front().value.value;
+      });
+  return false;
+}
+
+std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is_forecast,
+                                      bool needs_heading) {
   const std::string measure = is_forecast ? "time_h" : "share";
   const auto name = std::make_shared<const std::string>(path.string());
   Diagnostics diagnostics;
@@ -232,16 +316,13 @@ std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is
     throw InputError(diagnostics);
   }
   const Mark head{name, std::max(1, file.lines_before), 1};
-  for (const std::string& column : file.names)
-    if (column != height_column && column != period_column && column != heading_column &&
-        column != measure)
-      diagnostics.error(head, fmt::format("a column is called \"{}\"", column),
-                        {fmt::format("known are {}, {}, {} and {}", height_column, period_column,
-                                     heading_column, measure)});
-  const auto* heights = find_column(file, height_column, true, head, diagnostics);
-  const auto* periods = find_column(file, period_column, true, head, diagnostics);
-  const auto* headings = find_column(file, heading_column, false, head, diagnostics);
-  const auto* measures = find_column(file, measure, true, head, diagnostics);
+  check_names(file, measure, head, diagnostics);
+  const auto* heights = find_column(file, height_column, head, diagnostics);
+  const auto* periods = find_column(file, period_column, head, diagnostics);
+  const auto* measures = find_column(file, measure, head, diagnostics);
+  const bool has_heading = std::ranges::find(file.names, heading_column) != file.names.end();
+  const auto* headings =
+      needs_heading || has_heading ? find_column(file, heading_column, head, diagnostics) : nullptr;
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   std::vector<SeaState> states;
   for (std::size_t row = 0; row < file.row_count(); ++row) {
@@ -249,11 +330,10 @@ std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is
                    headings ? (*headings)[row] * std::numbers::pi / 180 : 0, (*measures)[row],
                    (*measures)[row]};
     if (state.height < 0 || !(state.period > 0) || (!is_forecast && state.share < 0))
-      diagnostics.error({name, file.lines_before + static_cast<int>(row) + 1, 1},
+      diagnostics.error({name, file.lines[row], 1},
                         "heights and shares are not negative, periods above zero");
     if (is_forecast && row > 0 && !(state.time > states.back().time))
-      diagnostics.error({name, file.lines_before + static_cast<int>(row) + 1, 1},
-                        "the times of a forecast ascend");
+      diagnostics.error({name, file.lines[row], 1}, "the times of a forecast ascend");
     states.push_back(state);
   }
   if (diagnostics.has_errors()) throw InputError(diagnostics);
@@ -263,20 +343,26 @@ std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is
 Operability find_operability(const LimitingSeas& seas, const std::vector<SeaState>& states,
                              double alpha, bool is_forecast) {
   Operability result;
-  double all = 0;
+  if (is_forecast) result.holes = find_holes(states);
   bool open = false;
-  for (const SeaState& state : states) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const SeaState& state = states[i];
     const double share = is_forecast ? 1 : state.share;
     const bool is_allowed = state.height <= alpha * seas.height_at(state.period, state.heading);
-    all += share;
+    result.sum += share;
     if (is_allowed) result.share += share;
-    if (!find_between(seas.periods, state.period)) result.beyond += share;
-    if (is_forecast && is_allowed && !open) result.windows.push_back({state.time, state.time});
-    if (is_forecast && is_allowed) result.windows.back().end = state.time;
+    if (!seas.has_period(state.period)) result.beyond_periods += share;
+    if (!seas.has_heading(state.heading)) result.beyond_headings += share;
+    if (!is_forecast) continue;
+    const bool is_behind_hole = std::ranges::any_of(
+        result.holes, [&](const Operability::Window& hole) { return hole.end == state.time; });
+    if (is_allowed && (!open || is_behind_hole)) result.windows.push_back({state.time, state.time});
+    if (is_allowed) result.windows.back().end = state.time;
     open = is_allowed;
   }
-  if (all > 0) result.share /= all;
-  if (all > 0) result.beyond /= all;
+  if (!(result.sum > 0)) return result;
+  for (double* share : {&result.share, &result.beyond_periods, &result.beyond_headings})
+    *share /= result.sum;
   return result;
 }
 

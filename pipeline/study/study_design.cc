@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -60,10 +61,12 @@ OT::Distribution distribution_of(const StudyVariable& variable) {
   if (!variable.law) return OT::Uniform(0, static_cast<double>(variable.values.size()));
   try {
     return cut_law_of(*variable.law);
-  } catch (const OT::Exception& error) {
+  } catch (const OT::Exception&) {
     Diagnostics diagnostics;
-    diagnostics.error(variable.law->place, fmt::format("the spread of \"{}\" is impossible: {}",
-                                                       variable.name.value, error.what()));
+    diagnostics.error(variable.law->place,
+                      fmt::format("the spread of \"{}\" is impossible: the law has no such "
+                                  "moments, or nothing of it lies between its bounds",
+                                  variable.name.value));
     throw InputError(diagnostics);
   }
 }
@@ -170,6 +173,11 @@ std::string value_text(const StudyVariable& variable, double value, int digits) 
 
 Sensitivity find_sensitivity(const Eigen::MatrixXd& design, const Eigen::VectorXd& figure,
                              int members) {
+  if (figure.size() > 0 && figure.minCoeff() == figure.maxCoeff()) {
+    const Eigen::VectorXd none =
+        Eigen::VectorXd::Constant(design.cols(), std::numeric_limits<double>::quiet_NaN());
+    return {none, none, none, none, none, none};
+  }
   const auto rows = static_cast<OT::UnsignedInteger>(design.rows());
   const auto columns = static_cast<OT::UnsignedInteger>(design.cols());
   OT::Sample inputs(rows, columns), outputs(rows, 1);
@@ -179,7 +187,7 @@ Sensitivity find_sensitivity(const Eigen::MatrixXd& design, const Eigen::VectorX
     outputs(i, 0) = figure[i];
   }
   OT::RandomGenerator::SetSeed(1);  // of the bootstrap
-  OT::SaltelliSensitivityAlgorithm algorithm(inputs, outputs,
+  OT::MartinezSensitivityAlgorithm algorithm(inputs, outputs,
                                              static_cast<OT::UnsignedInteger>(members));
   algorithm.setUseAsymptoticDistribution(false);
   const auto as_vector = [](const OT::Point& point) {

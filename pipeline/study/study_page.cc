@@ -257,36 +257,20 @@ std::string limiting_table(const LimitingSeas& seas) {
       const LimitingHeight& limit = seas.at(p, h);
       row.push_back(limit.kind == LimitKind::found        ? format_figure(limit.height, 3)
                     : limit.kind == LimitKind::below_grid ? "below the lowest"
-                                                          : "≥ " + format_figure(limit.height, 3));
+                    : limit.kind == LimitKind::unknown    ? "unknown"
+                                                       : "≥ " + format_figure(limit.height, 3));
     }
     text += cells(row, "td");
   }
   return text + "</table></div>\n";
 }
 
-std::string operability_text(const StudyResults& results) {
-  const double alpha = results.study.limits->alpha;
-  const auto share = [](double value) { return fmt::format("{:.1f} %", 100 * value); };
-  std::string text;
-  if (results.in_scatter)
-    text += fmt::format(
-        "<p>Of the scatter table {} is workable with alpha {:g}; {} has periods that were not run "
-        "and counts as not workable.</p>\n",
-        share(results.in_scatter->share), alpha, share(results.in_scatter->beyond));
-  if (!results.in_forecast) return text;
-  text += fmt::format("<p>Of the forecast {} is workable with alpha {:g}:</p>\n<ul>\n",
-                      share(results.in_forecast->share), alpha);
-  for (const Operability::Window& window : results.in_forecast->windows)
-    text += window.begin < window.end
-                ? fmt::format("<li>{:.6g} h to {:.6g} h</li>\n", window.begin, window.end)
-                : fmt::format("<li>at {:.6g} h alone</li>\n", window.begin);
-  return text + "</ul>\n";
-}
-
 std::string limiting_seas(const StudyResults& results) {
   if (!results.limits) return "";
   const LimitingSeas& seas = *results.limits;
-  std::string quantities;
+  std::string quantities, sentences;
+  for (const std::string& sentence : limiting_sentences(results))
+    sentences += "<p>" + escape_html(sentence) + "</p>\n";
   for (const QuantityLimit& quantity : results.study.limits->quantities) {
     const ShownFigure figure = results.shown(quantity.figure.value);
     quantities +=
@@ -297,12 +281,14 @@ std::string limiting_seas(const StudyResults& results) {
              "<h2>Limiting sea states</h2>\n<p>Significant height, m, at which the first of these "
              "reaches its limit: {}. Linear between heights that were run; of several seeds the "
              "worst counts; ≥: the next height failed or was not run (open dots); below the "
-             "lowest: that is too much already (drawn as 0).{}</p>\n",
+             "lowest: that is too much already (drawn as 0); unknown: the lowest failed (an open "
+             "dot "
+             "at 0), and nothing counts as workable there.{}</p>\n",
              quantities,
              seas.headings.size() > 1 ? " Headings are where waves travel to, from +x towards +y."
                                       : "") +
          limiting_table(seas) + "<div class=\"charts\">\n" + limiting_contours(seas) +
-         limiting_polar(seas) + "</div>\n" + operability_text(results);
+         limiting_polar(seas) + "</div>\n" + sentences;
 }
 
 /// Of a folder with a case its name, whether the study names it or the file in it.
@@ -363,6 +349,8 @@ std::string study_page(const StudyResults& results) {
   if (results.search)
     return page + search_section(results) + what_varies(study) + all_figures(results) +
            "</body></html>\n";
+  if (const std::string warning = survivors_warning(results); !warning.empty())
+    page += "<p><strong>Warning:</strong> " + escape_html(warning) + ".</p>\n";
   page += limiting_seas(results);
   // Nor are seas that were laid out on a grid: each is run as often as the others.
   if (!results.limits) page += spreads(results);

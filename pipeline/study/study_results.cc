@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -119,7 +120,8 @@ void find_limits(StudyResults& results) {
   const auto operability = [&](const auto& name, bool is_forecast) -> std::optional<Operability> {
     if (!name) return std::nullopt;
     return find_operability(*results.limits,
-                            read_sea_states(results.study.beside(name->value), is_forecast),
+                            read_sea_states(results.study.beside(name->value), is_forecast,
+                                            results.limits->headings.size() > 1),
                             limits.alpha, is_forecast);
   };
   results.in_scatter = operability(limits.scatter, false);
@@ -127,24 +129,32 @@ void find_limits(StudyResults& results) {
 }
 
 Json operability_json(const Operability& operability) {
-  Json windows = Json::array();
+  Json windows = Json::array(), holes = Json::array();
   for (const Operability::Window& window : operability.windows)
     windows.push_back({{"begin_h", window.begin}, {"end_h", window.end}});
+  for (const Operability::Window& hole : operability.holes)
+    holes.push_back({{"begin_h", hole.begin}, {"end_h", hole.end}});
   return {{"share", operability.share},
-          {"share_beyond_periods", operability.beyond},
-          {"windows", std::move(windows)}};
+          {"share_beyond_periods", operability.beyond_periods},
+          {"share_beyond_headings", operability.beyond_headings},
+          {"windows", std::move(windows)},
+          {"holes", std::move(holes)}};
 }
 
 Json limits_json(const StudyResults& results) {
   const LimitingSeas& seas = *results.limits;
   Json states = Json::array();
   for (std::size_t p = 0; p < seas.periods.size(); ++p)
-    for (std::size_t h = 0; h < seas.headings.size(); ++h)
-      states.push_back({{"peak_period_s", seas.periods[p]},
-                        {"heading_rad", seas.headings[h]},
-                        {"significant_height_m", seas.at(p, h).height},
-                        {"known_as", name_of(seas.at(p, h).kind)},
-                        {"governed_by", seas.governing[p * seas.headings.size() + h]}});
+    for (std::size_t h = 0; h < seas.headings.size(); ++h) {
+      const std::size_t cell = p * seas.headings.size() + h;
+      Json state{{"peak_period_s", seas.periods[p]},
+                 {"heading_rad", seas.headings[h]},
+                 {"significant_height_m", seas.heights[cell].height},
+                 {"known_as", name_of(seas.heights[cell].kind)},
+                 {"governed_by", seas.governing[cell]}};
+      if (seas.failed[cell] >= 0) state["failed_member"] = seas.failed[cell];
+      states.push_back(std::move(state));
+    }
   Json json{{"alpha", results.study.limits->alpha}, {"sea_states", std::move(states)}};
   if (results.in_scatter) json["scatter"] = operability_json(*results.in_scatter);
   if (results.in_forecast) json["forecast"] = operability_json(*results.in_forecast);
@@ -187,6 +197,17 @@ std::string quoted(const std::string& text) {
   return '"' + inside + '"';
 }
 
+/// A failure of several lines as one, for a row is a line.
+std::string on_one_line(const std::string& text) {
+  std::string line;
+  for (const char c : text) {
+    if (c == ' ' && line.ends_with("; ")) continue;
+    line += c == '\n' ? std::string("; ") : std::string(1, c);
+  }
+  while (line.ends_with("; ")) line.resize(line.size() - 2);
+  return line;
+}
+
 std::string csv_text(const StudyResults& results) {
   std::string text = "member";
   for (const StudyVariable& variable : results.study.variables) {
@@ -204,7 +225,7 @@ std::string csv_text(const StudyResults& results) {
                                       [&](const auto& one) { return one.first == spread.path; });
       text += found == member.figures.end() ? std::string(",") : fmt::format(",{}", found->second);
     }
-    text += "," + quoted(member.failure) + "\n";
+    text += "," + quoted(on_one_line(member.failure)) + "\n";
   }
   return text;
 }
@@ -356,8 +377,13 @@ StudyResults evaluate_search(StudyFile study, SearchResults search) {
 
 Json study_json(const StudyResults& results) {
   Json figures = Json::array(), sensitivities = Json::object(), failures = Json::array();
-  for (const Spread& spread : results.spreads)
+  for (const Spread& spread : results.spreads) {
     figures.push_back(spread_json(results.study, spread));
+    // Seas on a grid are no sample.
+    if (!results.limits) continue;
+    figures.back()["quantiles"] = Json::array();
+    figures.back()["extremes"] = Json::array();
+  }
   for (std::size_t i = 0; i < results.sensitivities.size(); ++i)
     sensitivities[results.spreads[results.leading[i]].path] =
         sensitivity_json(results.study, results.sensitivities[i]);
@@ -367,41 +393,48 @@ Json study_json(const StudyResults& results) {
   Json json{{"study", results.study.name},           {"title", results.study.title},
             {"case", results.study.case_name.value}, {"members", results.members.size()},
             {"failures", std::move(failures)},       {"figures", std::move(figures)}};
+  if (const std::string warning = survivors_warning(results); !warning.empty())
+    json["warning"] = warning;
   if (!results.sensitivities.empty()) json["sobol_indices"] = std::move(sensitivities);
   if (results.limits) json["limits"] = limits_json(results);
   if (results.search) json["search"] = search_json(results);
   return json;
 }
 
-namespace {
-
-/// Limiting heights by period and heading, for a terminal.
-std::string limiting_text(const LimitingSeas& seas) {
-  constexpr double degree = std::numbers::pi / 180;
-  std::vector<TableColumn> columns{{"peak period, s", 0}};
-  for (const double heading : seas.headings)
-    columns.push_back(
-        {seas.headings.size() > 1 ? fmt::format("{:.4g}°", heading / degree) : "height, m", 3});
-  TextTable table(std::move(columns));
-  for (std::size_t p = 0; p < seas.periods.size(); ++p) {
-    std::vector<TextTable::Cell> row{fmt::format("{:.4g}", seas.periods[p])};
-    for (std::size_t h = 0; h < seas.headings.size(); ++h) {
-      const LimitingHeight& limit = seas.at(p, h);
-      const std::string height = fmt::format("{:.2f}", limit.height);
-      row.emplace_back(limit.kind == LimitKind::found        ? height
-                       : limit.kind == LimitKind::below_grid ? "below"
-                                                             : "≥ " + height);
-    }
-    table.add_row(std::move(row));
-  }
-  return "Limiting significant height, m, by heading; below: the lowest is too much\n" +
-         table.text();
+std::string survivors_warning(const StudyResults& results) {
+  const StudyDesign design = results.study.design;
+  const int failed = results.failed();
+  if (failed == 0 || design == StudyDesign::grid || design == StudyDesign::search) return "";
+  return fmt::format(
+      "{} of {} members failed: all statistics are of those that ran, which may be the kinder ones",
+      failed, results.members.size());
 }
 
-}  // namespace
+bool has_too_many_failures(const StudyResults& results) {
+  constexpr double largest_share = 0.05;
+  return !survivors_warning(results).empty() &&
+         results.failed() > largest_share * static_cast<double>(results.members.size());
+}
+
+std::vector<std::string> limiting_sentences(const StudyResults& results) {
+  std::vector<std::string> sentences = sentences_of_failures(*results.limits);
+  const double alpha = results.study.limits->alpha;
+  if (results.in_scatter)
+    std::ranges::move(sentences_of_scatter(*results.in_scatter, alpha),
+                      std::back_inserter(sentences));
+  if (results.in_forecast)
+    std::ranges::move(sentences_of_forecast(*results.in_forecast, alpha),
+                      std::back_inserter(sentences));
+  return sentences;
+}
 
 std::string study_text(const StudyResults& results) {
-  if (results.limits) return limiting_text(*results.limits);
+  if (results.limits) {
+    std::string text = limiting_text(*results.limits);
+    for (const std::string& sentence : limiting_sentences(results))
+      text += wrapped_sentence(sentence);
+    return text;
+  }
   TextTable table({{"figure"},
                    {"", 0},
                    {"mean", 1},

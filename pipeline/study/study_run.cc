@@ -89,9 +89,9 @@ Eigen::MatrixXd plan_members(const StudyFile& study,
                              const std::function<void(double fraction)>& progress) {
   check_figure_limits(study);
   if (study.limits && study.limits->scatter)
-    read_sea_states(study.beside(study.limits->scatter->value), false);
+    read_sea_states(study.beside(study.limits->scatter->value), false, varies_heading(study));
   if (study.limits && study.limits->forecast)
-    read_sea_states(study.beside(study.limits->forecast->value), true);
+    read_sea_states(study.beside(study.limits->forecast->value), true, varies_heading(study));
   Eigen::MatrixXd design = make_design(study);
   check_members(study, design, progress);
   const LiftCase first = MemberCases(study).of(design.row(0));

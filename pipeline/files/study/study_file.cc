@@ -336,6 +336,17 @@ void check_correlations(const StudyFile& study, Reading& reading) {
                   "definite");
 }
 
+/// On a grid a value that is there twice would run its members twice; where values are drawn it is
+/// drawn twice as often.
+void check_repeated_values(const StudyVariable& variable, Reading& reading) {
+  for (std::size_t i = 0; i < variable.values.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (variable.values[i].value.value == variable.values[k].value.value) {
+        reading.error(variable.values[i].mark, "this value is on the grid already");
+        break;
+      }
+}
+
 void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   const bool is_grid = study.design == StudyDesign::grid;
   if (is_grid && study.members)
@@ -348,6 +359,7 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   check_correlations(study, reading);
   double size = 1;
   for (const StudyVariable& variable : study.variables) {
+    if (is_grid) check_repeated_values(variable, reading);
     if (is_grid && variable.law) reading.error(variable.place, "a grid takes values and no spread");
     size *= static_cast<double>(variable.values.size());
     if (study.design == StudyDesign::sensitivity && !variable.law)

@@ -154,6 +154,32 @@ TEST_F(MeasuredLifts, AreWeighed) {
   EXPECT_NEAR(weighing.centre_of_mass_B.z(), 0.25, 1e-12);
 }
 
+// A dead cell, a reversed one, one in another unit, and one that shows something else.
+TEST_F(MeasuredLifts, DoubtChannelsThatAreNotTheComputedOnes) {
+  const auto doubts_of = [&](const std::string& unit, const auto& reading) {
+    std::string cells = "time [s],ropes.R1 [kN],ropes.R2 [" + unit + "]\n";
+    for (int i = 0; i <= 500; ++i) {
+      const double t = 5 + 0.1 * i, tension = test::sample_tension(t) / 1000;
+      cells += fmt::format("{:.3f},{:.9g},{:.9g}\n", t, tension, reading(t, tension / 1.5));
+    }
+    folder_.write("cells.csv", cells);
+    MeasurementSettings settings;
+    settings.shifts = {0};
+    settings.rest = TimeWindow{5, 10};
+    return hold(settings).doubts;
+  };
+  const auto is_in = HasSubstr("made of doubtful channels, too: ropes.R2");
+  EXPECT_THAT(doubts_of("kN", [](double, double) { return 20.0; }),
+              ElementsAre(HasSubstr("ropes.R2 is 20000 N at every instant"), is_in));
+  EXPECT_THAT(doubts_of("N", [](double, double tension) { return tension; }),
+              ElementsAre(HasSubstr("ropes.R2 moves 0.001 times as much"), is_in));
+  EXPECT_THAT(doubts_of("kN", [](double, double tension) { return -tension; }),
+              ElementsAre(HasSubstr("correlation is -1.00: its sign may be reversed"), is_in));
+  EXPECT_THAT(doubts_of("kN", [](double t, double) { return 31 + std::sin(7.3 * t); }),
+              ElementsAre(HasSubstr("ropes.R2 does not follow the computed one"), is_in));
+  EXPECT_THAT(doubts_of("kN", [](double, double tension) { return 1.9 * tension; }), IsEmpty());
+}
+
 TEST_F(MeasuredLifts, AreRefusedWhereSettingsDoNotFit) {
   MeasurementSettings settings;
   settings.rest = TimeWindow{500, 600};

@@ -113,6 +113,31 @@ TEST_F(LinearLift, SaysWhereTheGridDoesNotHoldTheLimit) {
   const LimitingSeas failed = find_limiting_seas(study_, design_, members_);
   EXPECT_EQ(failed.at(0, 0).kind, LimitKind::before_failure);
   EXPECT_EQ(failed.at(0, 0).height, 2);
+  EXPECT_EQ(failed.governing.front(), "");
+  EXPECT_EQ(failed.failed.front(), 72);  // the highest of four heights of 24 members each
+}
+
+// Where the lowest sea could not be computed no quantity reached its limit.
+TEST_F(LinearLift, KnowsNothingWhereTheLowestSeaFailed) {
+  // 0.5 m, 8 s, across, of the second seed.
+  const int lost = 11;
+  ASSERT_EQ(design_.row(lost), Eigen::RowVector4d(0.5, 8, 90 * degree, 2));
+  members_[lost].figures.clear();
+  members_[lost].failure = "no equilibrium";
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  EXPECT_EQ(seas.at(1, 1).kind, LimitKind::unknown);
+  EXPECT_EQ(seas.at(1, 1).height, 0);
+  EXPECT_EQ(seas.governing[5], "");
+  EXPECT_EQ(seas.failed[5], lost);
+  EXPECT_EQ(seas.failed[4], -1);
+  EXPECT_THAT(limiting_text(seas), ::testing::HasSubstr("unknown"));
+  EXPECT_THAT(
+      sentences_of_failures(seas),
+      ::testing::ElementsAre("8 s, 90°: not known, member 11 failed; it counts as not workable"));
+  // Nor between it and its neighbours; what does not need it stays.
+  EXPECT_EQ(seas.height_at(8, 45 * degree), 0);
+  EXPECT_EQ(seas.height_at(7, 90 * degree), 0);
+  EXPECT_NEAR(seas.height_at(8, 0), 1.5, 1e-12);
 }
 
 TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
@@ -126,7 +151,7 @@ TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
       {1.0, 8, 0, 30, 0}, {1.0, 8, 90 * degree, 20, 0}, {1.2, 8, 0, 40, 0}, {0.2, 12, 0, 10, 0}};
   const Operability all = find_operability(seas, scatter, 1, false);
   EXPECT_NEAR(all.share, 0.7, 1e-12);
-  EXPECT_NEAR(all.beyond, 0.1, 1e-12);
+  EXPECT_NEAR(all.beyond_periods, 0.1, 1e-12);
   EXPECT_NEAR(find_operability(seas, scatter, 0.71, false).share, 0.3, 1e-12);  // up to 1.065 m
   const std::vector<SeaState> forecast = {{1.0, 8, 0, 0, 0},
                                           {1.2, 8, 0, 3, 3},
@@ -139,6 +164,44 @@ TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
   EXPECT_EQ(ahead.windows[0].end, 3);
   EXPECT_EQ(ahead.windows[1].begin, 9);
   EXPECT_EQ(ahead.windows[1].end, 12);
+}
+
+// Half a day without a forecast is no part of a window, whatever the sea is before and behind.
+TEST_F(LinearLift, WindowsEndWhereAForecastHasAHole) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  const auto calm_at = [](const std::vector<double>& times) {
+    std::vector<SeaState> states;
+    for (const double time : times) states.push_back({1, 8, 0, 0, time});
+    return states;
+  };
+  const Operability ahead = find_operability(seas, calm_at({0, 6, 100, 106}), 1, true);
+  ASSERT_EQ(ahead.windows.size(), 2U);
+  EXPECT_EQ(ahead.windows[0].end, 6);
+  EXPECT_EQ(ahead.windows[1].begin, 100);
+  ASSERT_EQ(ahead.holes.size(), 1U);
+  EXPECT_THAT(sentences_of_forecast(ahead, 1),
+              ::testing::ElementsAre(
+                  "forecast: 100.0 % of its instants are workable with alpha 1; windows: 0 h to 6 "
+                  "h; 100 h to 106 h",
+                  ::testing::HasSubstr("no instants in 6 h to 100 h")));
+  // A step left out is none yet.
+  EXPECT_EQ(find_operability(seas, calm_at({0, 6, 18, 24}), 1, true).windows.size(), 1U);
+  // Of two steps the shorter one is the usual one.
+  EXPECT_EQ(find_operability(seas, calm_at({0, 6, 100}), 1, true).windows.size(), 2U);
+}
+
+TEST_F(LinearLift, SaysWhichHeadingsWereNotRun) {
+  LimitingSeas half = find_limiting_seas(study_, design_, members_);
+  half.headings = {0, 60 * degree, 120 * degree, 180 * degree};
+  const std::vector<SeaState> scatter = {
+      {0.1, 8, 0, 15, 0}, {0.1, 8, 270 * degree, 30, 0}, {0.1, 12, 225 * degree, 15, 0}};
+  const Operability found = find_operability(half, scatter, 1, false);
+  EXPECT_NEAR(found.share, 0.25, 1e-12);
+  EXPECT_NEAR(found.beyond_headings, 0.75, 1e-12);
+  EXPECT_NEAR(found.beyond_periods, 0.25, 1e-12);
+  EXPECT_THAT(sentences_of_scatter(found, 1),
+              ::testing::ElementsAre(::testing::HasSubstr("75.0 % has headings that were not run"),
+                                     ::testing::HasSubstr("add up to 60")));
 }
 
 TEST_F(LinearLift, IsDrawn) {
@@ -170,14 +233,34 @@ TEST(SeaStates, AreReadWithTheirHeads) {
   const test::TemporaryFolder folder;
   folder.write("scatter.csv",
                "significant_height_m,peak_period_s,heading_deg,share\n0.5,6,90,12\n1,8,180,3\n");
-  const std::vector<SeaState> states = read_sea_states("scatter.csv", false);
+  const std::vector<SeaState> states = read_sea_states("scatter.csv", false, true);
   ASSERT_EQ(states.size(), 2U);
   EXPECT_NEAR(states[1].heading, std::numbers::pi, 1e-12);
   EXPECT_EQ(states[0].share, 12);
-  EXPECT_THROW(read_sea_states("scatter.csv", true), InputError);  // no time_h, and a share
+  EXPECT_THROW(read_sea_states("scatter.csv", true, true), InputError);  // no time_h, and a share
   folder.write("scatter.csv", "significant_height_m,peak_period_s,share\n-1,6,1\n");
-  EXPECT_THROW(read_sea_states("scatter.csv", false), InputError);
-  EXPECT_THROW(read_sea_states("none.csv", false), InputError);
+  EXPECT_THROW(read_sea_states("scatter.csv", false, false), InputError);
+  EXPECT_THROW(read_sea_states("none.csv", false, false), InputError);
+}
+
+TEST(SeaStates, NeedAHeadingWhereTheLimitsHaveSeveral) {
+  const test::TemporaryFolder folder;
+  folder.write("scatter.csv", "# a bay\nsignificant_height_m,peak_period_s,share\n1,6,1\n");
+  EXPECT_EQ(read_sea_states("scatter.csv", false, false).size(), 1U);
+  const auto refusal = [] {
+    try {
+      read_sea_states("scatter.csv", false, true);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal(),
+              ::testing::HasSubstr("scatter.csv:2:1: error: there is no column heading_deg"));
+  folder.write("scatter.csv",
+               "significant_height_m,peak_period_s,heading_deg,share,share\n1,6,0,1,9\n");
+  EXPECT_THAT(refusal(),
+              ::testing::HasSubstr("scatter.csv:1:1: error: the column \"share\" is there twice"));
 }
 
 }  // namespace

@@ -103,6 +103,13 @@ TEST(StudyFile, RefusesCorrelationsThatMakeNoSense) {
               HasSubstr("correlations go with design: random"));
 }
 
+TEST(StudyFile, RefusesAValueThatIsOnTheGridTwice) {
+  const std::string twice = "vary: {a: {keys: [x], values: [1.6 m, 2 m, 1.6 m]}}\n";
+  EXPECT_THAT(complaints("design: grid\n" + twice),
+              HasSubstr("error: this value is on the grid already"));
+  EXPECT_EQ(complaints("members: 9\n" + twice), "");
+}
+
 TEST(StudyFile, RefusesCopulasThatMakeNoSense) {
   const std::string laws =
       "members: 9\nvary:\n"
