@@ -332,9 +332,8 @@ OverShell over_square(const Mesh& mesh, int shell, const Vector3& place,
 }
 
 /// By area coordinates: xi has no meaning at the point that an edge has become, and eta leads
-/// nowhere beyond it.
-OverShell over_triangle(const Mesh& mesh, int shell, const Vector3& place,
-                        const Eigen::Vector2d& start) {
+/// nowhere beyond it. There a curved triangle goes on straight.
+OverShell over_triangle(const Mesh& mesh, int shell, const Vector3& place) {
   constexpr double last_eta = 0.999;  // of a curved one; tangents end at 1
   const Shell& triangle = mesh.shells[shell];
   const Vector3& origin = mesh.vertices[triangle.vertices[0]];
@@ -342,22 +341,26 @@ OverShell over_triangle(const Mesh& mesh, int shell, const Vector3& place,
   sides << mesh.vertices[triangle.vertices[1]] - origin,
       mesh.vertices[triangle.vertices[2]] - origin;
   // Shares of the second and the third vertex.
-  Eigen::Vector2d shares(start.x() * (1 - start.y()), start.y());
+  Eigen::Vector2d shares = least_squares(sides, place - origin);
   const auto unit_place = [&](double most_eta) {
-    const double eta = std::min(shares[1], most_eta);
-    return Eigen::Vector2d(eta < 1 ? shares[0] / (1 - eta) : 0.5, eta);
+    if (shares[1] > most_eta) return Eigen::Vector2d(0.5, most_eta);
+    return Eigen::Vector2d(shares[1] < 1 ? shares[0] / (1 - shares[1]) : 0.5, shares[1]);
   };
-  if (triangle.curvature < 0) {
-    shares = least_squares(sides, place - origin);
-  } else {
+  if (triangle.curvature >= 0) {
+    const auto within_reach = [](const Eigen::Vector2d& any) -> Eigen::Vector2d {
+      return any.cwiseMax(1 - far_outside).cwiseMin(far_outside);
+    };
+    shares = within_reach(shares);
     iterate([&]() -> Eigen::Vector2d {
       const Eigen::Vector2d xi = unit_place(last_eta);
       const Eigen::Matrix<double, 3, 2> g = tangents(mesh, shell, xi);
       Eigen::Matrix<double, 3, 2> by_shares;
       by_shares.col(0) = g.col(0) / (1 - xi.y());
       by_shares.col(1) = g.col(1) + xi.x() * by_shares.col(0);
-      Eigen::Vector2d change = least_squares(by_shares, place - position(mesh, triangle, xi));
-      shares = (shares + change).cwiseMax(1 - far_outside).cwiseMin(far_outside);
+      const Eigen::Vector2d beyond = shares - Eigen::Vector2d(xi.x() * (1 - xi.y()), xi.y());
+      Eigen::Vector2d change =
+          least_squares(by_shares, place - position(mesh, triangle, xi) - by_shares * beyond);
+      shares = within_reach(shares + change);
       return change;
     });
   }
@@ -366,7 +369,7 @@ OverShell over_triangle(const Mesh& mesh, int shell, const Vector3& place,
 
 OverShell over_shell(const Mesh& mesh, int shell, const Vector3& place,
                      const Eigen::Vector2d& start) {
-  return mesh.shells[shell].is_triangle() ? over_triangle(mesh, shell, place, start)
+  return mesh.shells[shell].is_triangle() ? over_triangle(mesh, shell, place)
                                           : over_square(mesh, shell, place, start);
 }
 
