@@ -240,6 +240,41 @@ Share share_of(double demand, double elastic, double yield) {
   return {demand / elastic, demand / johnson_ostenfeld(elastic, yield)};
 }
 
+/// Share of two compressions, c_1 along a and c_2 along b, in those of their ratio under which a
+/// panel on four simple supports buckles elastically: the largest over half waves m along a and n
+/// along b of (c_1 (m/a)^2 + c_2 (n/b)^2) / (e ((m/a)^2 + (n/b)^2)^2), e = pi^2 D / t; one of m and n is 1.
+double biaxial_share(const PanelSize& size, double e, double c_1, double c_2) {
+  const auto share = [&](int m, int n) {
+    const double along_a = std::pow(m / size.a, 2), along_b = std::pow(n / size.b, 2);
+    return (c_1 * along_a + c_2 * along_b) / (e * std::pow(along_a + along_b, 2));
+  };
+  double largest = share(1, 1);
+  const int most = static_cast<int>(std::ceil(std::max(size.a / size.b, size.b / size.a))) + 1;
+  for (int waves = 2; waves <= most; ++waves)
+    largest = std::max({largest, share(waves, 1), share(1, waves)});
+  return largest;
+}
+
+/// The larger u of u = compression + shear^2 / u: both shares in their own critical stress, which
+/// together are critical where compression + shear^2 = 1.
+double with_shear(double compression, double shear) {
+  return 0.5 * (compression + std::hypot(compression, 2 * shear));
+}
+
+/// How near compression along both sides, with shear, brings a panel on four simple supports to
+/// buckling. Beyond half of the yield stress Johnson and Ostenfeld's curve goes by von Mises
+/// stress.
+BucklingUtilisation biaxial_utilisation(const PanelSize& size, const Material& material,
+                                        const PanelStress& stress, const Share& shear) {
+  const double c_1 = -stress.s11, c_2 = -stress.s22;
+  if (!(c_1 > 0) || !(c_2 > 0)) return {};
+  const double elastic = biaxial_share(size, euler_stress(material, size.thickness, 1), c_1, c_2);
+  const double at_elastic = std::sqrt(c_1 * c_1 - c_1 * c_2 + c_2 * c_2) / elastic;
+  const double critical =
+      elastic * at_elastic / johnson_ostenfeld(at_elastic, material.yield_stress);
+  return {with_shear(elastic, shear.elastic), with_shear(critical, shear.critical)};
+}
+
 /// Does a direction run along a panel's side a rather than b?
 bool runs_along_1(const Panel& panel, const Vector3& along) {
   return std::abs(along.dot(panel.e_1)) >= std::abs(along.dot(panel.e_2));
@@ -300,7 +335,10 @@ BucklingUtilisation buckling_utilisation(const PanelSize& size, const FreeEdges&
     result.elastic += share.elastic * share.elastic;
     result.critical += share.critical * share.critical;
   }
-  return {std::sqrt(result.elastic), std::sqrt(result.critical)};
+  result = {std::sqrt(result.elastic), std::sqrt(result.critical)};
+  if (is_open) return result;
+  const BucklingUtilisation biaxial = biaxial_utilisation(size, material, stress, shares[2]);
+  return {std::max(result.elastic, biaxial.elastic), std::max(result.critical, biaxial.critical)};
 }
 
 BlockPanels::BlockPanels(const ElasticModel& model,

@@ -66,6 +66,34 @@ TEST(PanelBuckling, UtilisationIsHomogeneousAndPassesTensionOver) {
               1e-12);
 }
 
+// Under equal compression along both sides a panel on four simple supports buckles at (1 + (b/a)^2)
+// times sigma_E of its shorter side b (Timoshenko and Gere, 1961, section 9.3): one half wave each
+// way. The sum of squares alone gives 0.71 for a square.
+TEST(PanelBuckling, CompressionBothWaysIsCriticalWhereThePanelBuckles) {
+  Material tough = steel;
+  tough.yield_stress = 1e12;
+  for (const double a : {1.0, 1.5, 2.0, 3.0, 5.0}) {
+    const double critical = (1 + 1 / (a * a)) * euler_stress(steel, 0.01, 1);
+    const BucklingUtilisation found =
+        buckling_utilisation({a, 1, 0.01}, {}, tough, {-critical, -critical, 0, 0, 0});
+    EXPECT_NEAR(found.elastic, 1, 1e-12) << a;
+    EXPECT_NEAR(found.critical, 1, 1e-12) << a;
+    const BucklingUtilisation turned =
+        buckling_utilisation({1, a, 0.01}, {}, tough, {-critical, -critical, 0, 0, 0});
+    EXPECT_NEAR(turned.elastic, 1, 1e-12) << a;
+  }
+  // With shear: c + s^2 = 1, here of shares of 3/4 and 1/2.
+  const double e = euler_stress(steel, 0.01, 1);
+  EXPECT_NEAR(buckling_utilisation({1, 1, 0.01}, {}, tough,
+                                   {-0.75 * 2 * e, -0.75 * 2 * e, 0.5 * 9.34 * e, 0, 0})
+                  .elastic,
+              1, 1e-12);
+  // A little of the second compression changes little.
+  const double bryan = 4 * e;
+  EXPECT_NEAR(buckling_utilisation({3, 1, 0.01}, {}, tough, {-0.9 * bryan, -1, 0, 0, 0}).elastic,
+              0.9, 1e-6);
+}
+
 // A box of 4 x 2 x 1 m with one frame and a web that hangs free below its deck.
 BlockDescription box() {
   BlockDescription block;
