@@ -28,7 +28,7 @@ TEST(LiftModesTest, SayWhatTheWindTurns) {
             "natural periods at the start: load: yaw (turned by the wind, nothing holds it)");
   for (const NaturalModes& other : {growing("load: yaw", false), growing("load: roll", true)})
     EXPECT_THAT(describe_natural_periods(other), HasSubstr("(unstable)"));
-  const dynamics::Mechanism mechanism;
+  const dynamics::Mechanism mechanism = dynamics::MechanismBuilder().build();
   const auto json = natural_periods_json(mechanism, {turned, growing("load: yaw", false)});
   EXPECT_TRUE(json[0]["modes"][0]["turned_by_wind"].get<bool>());
   EXPECT_FALSE(json[1]["modes"][0].contains("turned_by_wind"));
