@@ -8,6 +8,7 @@
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/format_once.h"
 #include "pipeline/declaration/reading.h"
+#include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case/lift_case_check.h"
 #include "pipeline/files/lift_case/load_table_keys.h"
 #include "pipeline/files/lift_case/rope_points.h"
@@ -85,6 +86,31 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
     rope.rope = library.resolve(rope.rope_choice, folder, diagnostics);
   }
   if (lift_case.standard) load_rules(*lift_case.standard, folder, library, diagnostics);
+}
+
+/// A file of another kind is named by that, once, rather than held against the keys of a case.
+void refuse_other_kinds(const fs::path& path) {
+  std::error_code error;
+  if (path.empty() || fs::is_directory(path, error)) return;
+  const auto refuse = [&](const char* what, const char* advice) {
+    Diagnostics diagnostics;
+    diagnostics.error({std::make_shared<const std::string>(shown_path(path)), 0, 0},
+                      std::string("this file describes ") + what + ", not a lift case", {advice});
+    throw InputError(diagnostics);
+  };
+  switch (kind_of_file(path)) {
+    case FileKind::lift_case:
+      return;
+    case FileKind::study:
+      return refuse("a study of many lifts", "blocklift sweep runs it");
+    case FileKind::mechanism:
+    case FileKind::robot:
+      return refuse("a mechanism", "blocklift simulate runs it");
+    case FileKind::part:
+      return refuse("a part", "blocklift stress works out its stress");
+    default:
+      return refuse("a model", "a lift case names it; blocklift validate looks at it by itself");
+  }
 }
 
 }  // namespace
@@ -240,6 +266,7 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
 }
 
 LiftCase read_lift_case(const fs::path& path, std::vector<KeyChange> changes) {
+  refuse_other_kinds(path);
   Diagnostics diagnostics;
   ModelLibrary library = ModelLibrary::of_installation();
   library.set_changes(std::move(changes));

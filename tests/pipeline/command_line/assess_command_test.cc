@@ -170,6 +170,16 @@ TEST_F(AssessCommand, WritesNothingOnBadInput) {
 }
 
 // Slings from lug to a point of the block itself: each name exists, and nothing holds the block.
+TEST_F(AssessCommand, NamesTheKindOfAFileThatIsNoCase) {
+  folder_.write("many.yaml", "study: many\ncase: lift\n");
+  const Outcome outcome = run_blocklift("assess many.yaml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("this file describes a study of many lifts, not a lift case"));
+  EXPECT_THAT(outcome.err, HasSubstr("blocklift sweep runs it"));
+  EXPECT_THAT(outcome.err, HasSubstr("1 error"));
+  EXPECT_FALSE(fs::exists("results"));
+}
+
 TEST_F(AssessCommand, SaysWhatDoesNotHang) {
   change("case.yaml", "from: C1.left, to: L1",
          "from: {body: load, point: [0 m, 0 m, 5 m]}, to: L1");
