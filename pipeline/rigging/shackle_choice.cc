@@ -54,7 +54,7 @@ std::vector<ShackleDemand> shackle_demands(const LiftCase& lift_case, const Lift
       const RopeInCase& rope = *lift_case.find_rope(lift.model.ropes[end.sling].name);
       if (!rope.is_sling() || rope.winch) continue;
       has_sling = true;
-      const SharedHook hook = find_shared_hook(lift_case, lift, rope.name);
+      const SharedHook hook = find_shared_hook(lift_case, lift, rope.name.value);
       if (hook.load / hook.leg_factor() > demand.hook.load / demand.hook.leg_factor())
         demand.hook = hook;
     }
