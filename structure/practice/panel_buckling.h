@@ -59,7 +59,9 @@ double johnson_ostenfeld(double elastic, double yield);
 /// How near a panel is to buckling: the factor by which its load would have to be divided,
 ///   eta^2 = (max(0, -s11) / s1C)^2 + (max(0, -s22) / s2C)^2 + (s12 / s12C)^2,
 /// compression being that of the more compressed edge. Source: ABS, Guide for buckling and ultimate
-/// strength assessment for offshore structures (2004), section 3.
+/// strength assessment for offshore structures (2004), section 3. Under mean compression both ways
+/// on four supports at least the share of it, with shear, in that of the panel's own modes
+/// (Timoshenko and Gere, 1961, section 9.3): the sum of squares alone allows more than these.
 struct BucklingUtilisation {
   double elastic = 0;   ///< with elastic critical stresses
   double critical = 0;  ///< with those of Johnson and Ostenfeld: the one to be checked
