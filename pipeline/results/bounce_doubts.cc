@@ -1,6 +1,8 @@
 #include "pipeline/results/bounce_doubts.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -22,10 +24,21 @@ bool is_bounce(const BuiltLift& model, const dynamics::Mode& mode) {
   return rigid - vibrating >= 0.5;
 }
 
+/// Largest share of a rope's largest load that motion has added to what it bears at rest.
+double largest_rise(const LiftRun& lift) {
+  const auto at_rest = dynamics::find_largest_tensions(lift.static_history),
+             in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
+  double rise = 0;
+  for (std::size_t rope = 0; rope < in_motion.size(); ++rope)
+    if (in_motion[rope].tension > 0)
+      rise = std::max(rise, 1 - at_rest[rope].tension / in_motion[rope].tension);
+  return rise;
+}
+
 }  // namespace
 
 std::vector<std::string> list_bounce_doubts(const LiftCase& lift_case, const LiftRun& lift) {
-  constexpr double samples = 16;  // a peak between two of them is missed by 2 % of the swing
+  constexpr double worth_saying = 0.005;  // of a rope's largest load
   constexpr double most_damping = 0.1;
   const dynamics::Mode* quickest = nullptr;
   const dynamics::Mode* most_damped = nullptr;
@@ -38,15 +51,14 @@ std::vector<std::string> list_bounce_doubts(const LiftCase& lift_case, const Lif
   std::vector<std::string> doubts;
   if (!quickest) return doubts;
   const double interval = lift_case.dynamics.sample_interval, period = quickest->period();
-  if (interval > period / samples)
+  const double missed =
+      interval < period ? 1 - std::cos(std::numbers::pi * interval / period) : 1.0;
+  if (missed * largest_rise(lift) > worth_saying)
     doubts.push_back(fmt::format(
         "The largest loads are sought among samples {:g} s apart, and the motion \"{}\" has a "
-        "period "
-        "of {:.3g} s: a peak may be missed by up to {:.0f} % of its swing. Ask for a "
-        "sample_interval "
-        "of at most {:.2g} s.",
-        interval, quickest->name, period,
-        interval < period ? 100 * (1 - std::cos(std::numbers::pi * interval / period)) : 100.0,
+        "period of {:.3g} s: a peak may be missed by up to {:.0f} % of what motion adds, {:.1f} % "
+        "of a rope's largest load. Ask for a sample_interval of at most {:.2g} s.",
+        interval, quickest->name, period, 100 * missed, 100 * missed * largest_rise(lift),
         period / 20));
   if (most_damped->damping_ratio() > most_damping)
     doubts.push_back(fmt::format(
