@@ -64,7 +64,7 @@ std::vector<HeavyDeck> heavy_decks() {
 }
 
 /// A model of the deck; a yield stress comes with the block that names it.
-ElasticModel model_of(const Deck& deck, std::optional<double> stated_mass = {}) {
+ElasticModel heavy_model(const Deck& deck, std::optional<double> stated_mass = {}) {
   Mesh mesh = deck.mesh;
   for (Material& material : mesh.materials) material.yield_stress = 235e6;
   return ElasticModel(std::move(mesh), {2, {}}, stated_mass);
@@ -74,7 +74,7 @@ TEST(NonstructuralMass, WeighsInEachKindOfElement) {
   for (const auto& [name, deck, mass] : heavy_decks()) {
     SCOPED_TRACE(name);
     EXPECT_NEAR(mass_properties(deck.mesh).mass, mass, 1e-9 * mass);
-    const ElasticModel model = model_of(deck);
+    const ElasticModel model = heavy_model(deck);
     EXPECT_NEAR(model.mass_properties().mass, mass, 1e-9 * mass);
     ASSERT_EQ(deck.load_cases.size(), 1U);
     const Wrench weight = resultant(model.space(), load_of(model, deck, deck.load_cases[0]));
@@ -85,7 +85,7 @@ TEST(NonstructuralMass, WeighsInEachKindOfElement) {
 // A block's stated mass spreads what both lack of it over plates and their paint alike.
 TEST(NonstructuralMass, CountsInAStatedMass) {
   const Deck deck = nastran_of("PSHELL,1,1,0.01,1,,1,,10.\nCQUAD4,1,1,1,2,3,4\n");
-  const ElasticModel model = model_of(deck, 4 * 88.5);
+  const ElasticModel model = heavy_model(deck, 4 * 88.5);
   EXPECT_NEAR(model.mass_properties().steel_mass, 2 * 88.5, 1e-9);
   EXPECT_NEAR(model.mass_properties().factor_alpha, 2, 1e-12);
   EXPECT_NEAR(model.mass_properties().mass, 4 * 88.5, 1e-9);
