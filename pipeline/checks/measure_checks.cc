@@ -17,7 +17,8 @@ namespace blocklift::pipeline {
 
 namespace {
 
-/// Of the falls of a block that turns, where the case gives none, rad: there they turn it back most.
+/// Of the falls of a block that turns, where the case gives none, rad: there they turn it back
+/// most.
 constexpr double usual_falls_twist = std::numbers::pi / 2;
 
 std::optional<double> value_of(const std::optional<Located<double>>& limit) {

@@ -352,8 +352,8 @@ PadeyesAssessment assess_padeyes(const LiftCase& lift_case, const UnitResponses&
 
 namespace {
 
-/// How far a rope pulls out of the padeye's plane, where formulae of the plane alone say too little;
-/// empty up to 5 degrees.
+/// How far a rope pulls out of the padeye's plane, where formulae of the plane alone say too
+/// little; empty up to 5 degrees.
 std::string out_of_plane_note(const PadeyeAssessment& padeye) {
   constexpr double degree = std::numbers::pi / 180, little = 5 * degree;
   const auto angle = [](const PadeyeState& state) {

@@ -20,8 +20,8 @@ std::string hydrodynamic_table(const HydrodynamicFile& file,
 std::string doubt_about_panels(const dynamics::HydrodynamicDatabase& database);
 
 /// The same of the mode on which the force of waves changes most, as a share of its largest, where
-/// that is more than a tenth. A force that is the small rest of two, as roll's may be, is coarse where
-/// that of radiation is not.
+/// that is more than a tenth. A force that is the small rest of two, as roll's may be, is coarse
+/// where that of radiation is not.
 std::string doubt_about_excitation(const dynamics::HydrodynamicDatabase& database);
 
 /// A sentence for a database whose impulse runs end before the water is at rest: the mode of whose

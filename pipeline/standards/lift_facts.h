@@ -129,8 +129,9 @@ struct StressFacts {
   double at_rest = 0, in_motion = 0;               ///< Pa
   double yield = 0;                                ///< Pa
   std::optional<structure::SquareSite> site = {};  ///< none: all places together
-  /// Growth when the slings of a hook with four share unevenly on either diagonal, by the rules' skew
-  /// factor and by the slings' tolerances of length; none where no hook has four slings that meet.
+  /// Growth when the slings of a hook with four share unevenly on either diagonal, by the rules'
+  /// skew factor and by the slings' tolerances of length; none where no hook has four slings that
+  /// meet.
   std::optional<double> skew_by_rules = {}, skew_computed = {};
 };
 

@@ -22,10 +22,10 @@ std::string value_text(const StudyVariable& variable, double value, int digits =
 std::string unit_text(const StudyVariable& variable);
 
 /// Sobol' indices of a figure: how much of its variance each variable has by itself, and with all
-/// others together, with intervals of 95 % by the bootstrap. With y of sample A, of B, and of A with
-/// the variable's column of B (E): first = corr(yB, yE), total = 1 - corr(yA, yE) (Martinez 2011,
-/// "Analyse de sensibilite globale par decomposition de la variance"). A variable that does nothing
-/// has the total 0. Of a figure that does not vary they are not numbers.
+/// others together, with intervals of 95 % by the bootstrap. With y of sample A, of B, and of A
+/// with the variable's column of B (E): first = corr(yB, yE), total = 1 - corr(yA, yE) (Martinez
+/// 2011, "Analyse de sensibilite globale par decomposition de la variance"). A variable that does
+/// nothing has the total 0. Of a figure that does not vary they are not numbers.
 struct Sensitivity {
   Eigen::VectorXd first, first_low, first_high;
   Eigen::VectorXd total, total_low, total_high;

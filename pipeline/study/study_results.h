@@ -62,8 +62,8 @@ StudyResults evaluate_search(StudyFile study, SearchResults search);
 /// study.json: the spreads, with units as the names of the figures have them.
 nlohmann::ordered_json study_json(const StudyResults& results);
 
-/// Where members of a sample failed: that its statistics are of the others. Empty where none did, and
-/// of a grid and a search, which are no samples.
+/// Where members of a sample failed: that its statistics are of the others. Empty where none did,
+/// and of a grid and a search, which are no samples.
 std::string survivors_warning(const StudyResults& results);
 /// Did more than 5 % of a sample's members fail? Their run is taken as failed then.
 bool has_too_many_failures(const StudyResults& results);

@@ -51,15 +51,15 @@ struct ShellPoint {
 /// (Bucalem and Bathe 1993 for p = 2). What that takes from the mean membrane strain of a cell
 /// which is no parallelogram is given back evenly, so that constant stress does the same work on
 /// tied strains as on those of the displacements: without it distorted cells fail the patch test
-/// (for the mean of assumed strains see Simo and Hughes 1986). A triangle is a cell with an edge that
-/// is a point, towards which xi loses its meaning: from degree 2 on its membrane strains are those of
-/// the displacements, for tied ones lock. Source of the drilling term: Hughes
-/// and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121, with a hundredth of their
-/// stiffness G t: where plates meet, the slope of one is the drilling of another. Facets that stand
-/// for curved plating (find_facets) have all of it, of degree 1 a tenth. Where they meet, a
-/// twisting moment leaves its part across the kink to their drilling; what gives way there adds to
-/// the twist a share that goes with (thickness / radius)^2 over that of G t, however fine the
-/// facets are: with a hundredth a slit pipe, thickness over radius 0.1, is a quarter too soft.
+/// (for the mean of assumed strains see Simo and Hughes 1986). A triangle is a cell with an edge
+/// that is a point, towards which xi loses its meaning: from degree 2 on its membrane strains are
+/// those of the displacements, for tied ones lock. Source of the drilling term: Hughes and Brezzi
+/// (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121, with a hundredth of their stiffness G t:
+/// where plates meet, the slope of one is the drilling of another. Facets that stand for curved
+/// plating (find_facets) have all of it, of degree 1 a tenth. Where they meet, a twisting moment
+/// leaves its part across the kink to their drilling; what gives way there adds to the twist a
+/// share that goes with (thickness / radius)^2 over that of G t, however fine the facets are: with
+/// a hundredth a slit pipe, thickness over radius 0.1, is a quarter too soft.
 ///
 /// One object serves one thread.
 class ShellOperator {

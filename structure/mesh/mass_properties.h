@@ -15,8 +15,8 @@ struct MeshMass {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, kg m^2
 };
 
-/// Mass of a shell per area where it is so thick, kg/m^2: the plate's own and what its section bears
-/// besides (paint, outfit, non-structural mass of decks).
+/// Mass of a shell per area where it is so thick, kg/m^2: the plate's own and what its section
+/// bears besides (paint, outfit, non-structural mass of decks).
 double mass_per_area(const Mesh& mesh, const Shell& shell, double thickness);
 
 /// Mass of a beam per length, kg/m: its own and what its section bears besides.

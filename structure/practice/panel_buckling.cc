@@ -242,7 +242,8 @@ Share share_of(double demand, double elastic, double yield) {
 
 /// Share of two compressions, c_1 along a and c_2 along b, in those of their ratio under which a
 /// panel on four simple supports buckles elastically: the largest over half waves m along a and n
-/// along b of (c_1 (m/a)^2 + c_2 (n/b)^2) / (e ((m/a)^2 + (n/b)^2)^2), e = pi^2 D / t; one of m and n is 1.
+/// along b of (c_1 (m/a)^2 + c_2 (n/b)^2) / (e ((m/a)^2 + (n/b)^2)^2), e = pi^2 D / t; one of m and
+/// n is 1.
 double biaxial_share(const PanelSize& size, double e, double c_1, double c_2) {
   const auto share = [&](int m, int n) {
     const double along_a = std::pow(m / size.a, 2), along_b = std::pow(n / size.b, 2);

@@ -14,9 +14,9 @@ void check_frequencies(const DatabaseSettings& settings);
 HydrodynamicDatabase make_empty_database(const PanelModel& model, const DatabaseSettings& settings);
 
 /// Largest share over the frequencies that amounts are of each mode's force on itself, B + i w A;
-/// all modes x frequencies. Zero for a mode with next to no force, such as the turns of a round body
-/// about its axis: less than a thousandth of the largest w A of those that move the same body in the
-/// same way, along axes or about them.
+/// all modes x frequencies. Zero for a mode with next to no force, such as the turns of a round
+/// body about its axis: less than a thousandth of the largest w A of those that move the same body
+/// in the same way, along axes or about them.
 /// @param modes their numbers, a row each.
 Eigen::VectorXd largest_share(const std::vector<int>& modes, const Eigen::MatrixXcd& forces,
                               const Eigen::MatrixXd& amounts);

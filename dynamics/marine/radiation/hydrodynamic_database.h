@@ -39,18 +39,19 @@ struct HydrodynamicDatabase {
   std::vector<Eigen::MatrixXcd> froude_krylov;  ///< for each frequency, 6N x headings; N/m, N
   std::vector<Eigen::MatrixXcd> diffraction;    ///< of the same shape and units
   /// For each mode, how much its radiation force on itself, B + i w A, changes at most over the
-  /// frequencies from panels of twice the size to these, relative; infinite: those have no solution;
-  /// empty: unknown. At first order it is the panels' error itself, at second order three times it.
+  /// frequencies from panels of twice the size to these, relative; infinite: those have no
+  /// solution; empty: unknown. At first order it is the panels' error itself, at second order three
+  /// times it.
   Eigen::VectorXd change_from_coarser;
-  /// For each mode, how much the force of waves on it changes from panels of twice the size to these,
-  /// with its phase: the largest change over frequencies and headings as a share of the largest force
-  /// that any of these waves exerts on the mode; infinite and order as above; empty: unknown. Where
-  /// Froude-Krylov and diffraction all but cancel, as in roll of some sections, it is a multiple of
-  /// change_from_coarser.
+  /// For each mode, how much the force of waves on it changes from panels of twice the size to
+  /// these, with its phase: the largest change over frequencies and headings as a share of the
+  /// largest force that any of these waves exerts on the mode; infinite and order as above; empty:
+  /// unknown. Where Froude-Krylov and diffraction all but cancel, as in roll of some sections, it
+  /// is a multiple of change_from_coarser.
   Eigen::VectorXd excitation_change_from_coarser;
-  /// For each mode, how much of its radiation force on itself the end of the impulse runs cuts off at
-  /// most over the frequencies, relative, by estimate (ImpulseRun::cut_off); empty: there were no
-  /// runs, or it is unknown.
+  /// For each mode, how much of its radiation force on itself the end of the impulse runs cuts off
+  /// at most over the frequencies, relative, by estimate (ImpulseRun::cut_off); empty: there were
+  /// no runs, or it is unknown.
   Eigen::VectorXd cut_off_by_end;
   /// Mean forces of second order on each body as it floats, in regular waves of unit amplitude
   /// (calc_mean_drift): 6N x headings for each frequency; N/m2, N m/m2; empty: unknown.

@@ -130,7 +130,8 @@ class Interaction {
   MatrixXcd forces_of_motion() const {
     return force_ * (carried_ * factors_.solve_columns(radiated_));
   }
-  /// Of a wave of unit amplitude, the phase being that at the origin: its own pressure, and the rest.
+  /// Of a wave of unit amplitude, the phase being that at the origin: its own pressure, and the
+  /// rest.
   Eigen::VectorXcd undisturbed_forces(double heading) const {
     return undisturbed_ * incident(heading);
   }
@@ -236,7 +237,8 @@ double longest_way(const std::vector<BodyGroup>& groups) {
 /// @param at the Interaction of a frequency, rad/s.
 template <class At>
 void add_coupled_retardation(HydrodynamicDatabase& all, double top, const At& at) {
-  // K = (2/pi) int B cos(w t) dw, by the trapezoidal rule: its integrand ends smoothly on both sides.
+  // K = (2/pi) int B cos(w t) dw, by the trapezoidal rule: its integrand ends smoothly on both
+  // sides.
   const double run = all.time_step * static_cast<double>(all.retardation.size() - 1);
   const auto count = static_cast<int>(std::ceil(top * run * 4.0 / std::numbers::pi));
   const double spacing = top / count;

@@ -37,9 +37,9 @@ struct SeaBand {
 /// at the high one, or the ends that the file gives under radiation or of a record. Cut off is what
 /// a database that is named does not have, and waves shorter than three panels of a hull, unless
 /// the file gives the highest frequency. Where radiation is computed and nothing is given,
-/// usual_radiation is left if it keeps 98 % of the significant height; if not, the ends that fall short
-/// go on as far as the sea asks for, down to 0.1 rad/s, and the frequencies between them keep their
-/// distance.
+/// usual_radiation is left if it keeps 98 % of the significant height; if not, the ends that fall
+/// short go on as far as the sea asks for, down to 0.1 rad/s, and the frequencies between them keep
+/// their distance.
 /// @throws dynamics::ModelError if the spectrum or record cannot be.
 SeaBand find_sea_band(const MarineParts& parts, double gravity);
 /// make_sea with its waves, where the band is known: to find it vessels may have to be floated.

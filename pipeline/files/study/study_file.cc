@@ -176,7 +176,8 @@ Format<SeaLimits> sea_limits_format() {
   return table.format();
 }
 
-/// A key that two variables gave a value would have that of the last, and the other would do nothing.
+/// A key that two variables gave a value would have that of the last, and the other would do
+/// nothing.
 void check_keys(const StudyFile& study, Reading& reading) {
   std::map<std::string_view, std::string_view> varied_with;
   for (const StudyVariable& variable : study.variables)

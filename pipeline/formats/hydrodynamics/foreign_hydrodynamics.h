@@ -54,16 +54,15 @@ void write_bemio(const std::filesystem::path& path, const dynamics::Hydrodynamic
 /// Mean drift forces come from the first of these endings that is there, .8 for a single body only.
 /// A .1 file has the same pairs of modes at all periods, and those above the diagonal below it,
 /// too, unless it has none there: then it is mirrored. A .3 file has all its periods and headings
-/// for the modes that the .1 file has on its diagonal, and for no others; a .hst file all 36 entries
-/// of each body.
-/// k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the period, s; 0: infinite
-/// frequency, negative: zero frequency (passed over). BETA in degrees, force Re X e^{+i w t} of the
-/// wave cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies' own origins, which the
-/// files do not tell: those of `scales`, or of a single body the world's. They are turned to the
-/// world's axes; headings and phases count from there in WAMIT, too. Several bodies without their
-/// axes are refused, and so is the mean drift of turned ones, whose axes depend on the method.
-/// Written with 17 digits, about wamit_points(). Source: WAMIT User Manual v7, sections 3.8, 4.2,
-/// 4.3, 4.5 and 4.13.
+/// for the modes that the .1 file has on its diagonal, and for no others; a .hst file all 36
+/// entries of each body. k = 3 for displacements, 4 mixed, 5 rotations; m = 2, 3. PER is the
+/// period, s; 0: infinite frequency, negative: zero frequency (passed over). BETA in degrees, force
+/// Re X e^{+i w t} of the wave cos(w t - k.x). Modes 6 (n - 1) + 1 ... of body n, about the bodies'
+/// own origins, which the files do not tell: those of `scales`, or of a single body the world's.
+/// They are turned to the world's axes; headings and phases count from there in WAMIT, too. Several
+/// bodies without their axes are refused, and so is the mean drift of turned ones, whose axes
+/// depend on the method. Written with 17 digits, about wamit_points(). Source: WAMIT User Manual
+/// v7, sections 3.8, 4.2, 4.3, 4.5 and 4.13.
 dynamics::HydrodynamicDatabase read_wamit(const std::filesystem::path& name,
                                           const WamitScales& scales);
 /// @param length L, WAMIT's ULEN, m.

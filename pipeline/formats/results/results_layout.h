@@ -182,13 +182,14 @@
 ///                      damping_ratio, elastic_share, energy_share_by_body: {body: share},
 ///                      energy_share_by_elastic_mode (o): {mode: share}, which the share of its
 ///                      body includes, turned_by_wind (o): true of one that grows because wind
-///                      turns a load that nothing holds}]}], modes slowest first; period_s null where nothing brings the motion back
+///                      turns a load that nothing holds}]}], modes slowest first; period_s null
+///                      where nothing brings the motion back
 ///   radiation      (o) {method, vessels, memory_states (o), memory_error (o), turn_of_all:
-///                      LARGEST, misplacement: [{vessels, both_in_water, distance (o): LARGEST, turn
-///                      (o): LARGEST, at_hull_ends (o): LARGEST, limit_m (o), share_of_time_beyond
-///                      (o)}]} of pairs of vessels: from the places against each other that their
-///                      water was computed for (misplacement.h); LARGEST = {size_m or angle_rad,
-///                      time_s}
+///                      LARGEST, misplacement: [{vessels, both_in_water, distance (o): LARGEST,
+///                      turn (o): LARGEST, at_hull_ends (o): LARGEST, limit_m (o),
+///                      share_of_time_beyond (o)}]} of pairs of vessels: from the places against
+///                      each other that their water was computed for (misplacement.h); LARGEST =
+///                      {size_m or angle_rad, time_s}
 ///   energy         (o) {largest_energy_J, largest_imbalance_J, relative_imbalance}
 ///   solver         (o) {any name: number or text}, shown as it stands, underscores as spaces
 ///   timing         (o) {static_s, dynamic_s, simulated_s, assembly_s, factorisation_s, solve_s,

@@ -99,8 +99,9 @@ TEST(DeckSolution, ClampedPlateIsTimoshenkos) {
   EXPECT_LT(one.estimated_error, 0.05);
 }
 
-// Held along its edges, which do not turn along themselves, a plate sinks by w = 0.00406235 q a^4 / D
-// (the same book, table 8) and, by its shear, 0.0736713 q a^2 / (5/6 G t); finer meshes come nearer.
+// Held along its edges, which do not turn along themselves, a plate sinks by w = 0.00406235 q a^4 /
+// D (the same book, table 8) and, by its shear, 0.0736713 q a^2 / (5/6 G t); finer meshes come
+// nearer.
 TEST(DeckSolution, SimplySupportedPlateConverges) {
   constexpr double t = 0.01, pressure = 1000;
   const double bending = youngs_modulus * t * t * t / (12 * (1 - 0.09));

@@ -81,8 +81,8 @@ TEST(SquaresOnTriangles, PlacesAreFoundFromAnywhere) {
   }
 }
 
-/// A quarter of a ring of radii 0.2 and 0.3 m, cut into flat triangles with curved edges, 4 mm by 13
-/// to 20 mm.
+/// A quarter of a ring of radii 0.2 and 0.3 m, cut into flat triangles with curved edges, 4 mm by
+/// 13 to 20 mm.
 Mesh triangulated_ring() {
   constexpr int cuts = 24;
   const auto on_ring = [](double i, double j) -> Vector3 {

@@ -141,9 +141,9 @@ TEST(Matter, ThreadsChangeNoDigit) {
   EXPECT_EQ(in_turn.col(0), loads.col(0));
 }
 
-// Paint and outfit of sections weigh as the steel does, of tapered plates and beams too. Plates: 6 m2
-// of 0.1 m at one side and 0.2 m at the other, and 12 kg/m2. Beams: 3 m of 0.01 m2, and each piece's
-// 20 kg/m at one end and 40 kg/m at the other.
+// Paint and outfit of sections weigh as the steel does, of tapered plates and beams too. Plates: 6
+// m2 of 0.1 m at one side and 0.2 m at the other, and 12 kg/m2. Beams: 3 m of 0.01 m2, and each
+// piece's 20 kg/m at one end and 40 kg/m at the other.
 TEST(Matter, MassBeyondTheSectionsIsMass) {
   Mesh mesh = everything();
   mesh.shell_sections[0].mass_per_area = 12;

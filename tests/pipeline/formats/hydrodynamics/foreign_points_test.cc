@@ -102,8 +102,8 @@ TEST(Wamit, LengthScalesWhatIsWritten) {
   expect_coefficients(database, found);
   ASSERT_EQ(found.mean_drift.size(), database.mean_drift.size());
   expect_nine_digits(database.mean_drift[0], found.mean_drift[0]);
-  // Read as if it were of 1 m: A over L^3 and L^5, X over L^2 and L^3, C over L^2 and L^4, drift over
-  // L and L^2.
+  // Read as if it were of 1 m: A over L^3 and L^5, X over L^2 and L^3, C over L^2 and L^4, drift
+  // over L and L^2.
   const HydrodynamicDatabase bare = read_wamit("single", {1.0, database.water});
   const auto expect_share = [](double whole, double part, double power) {
     EXPECT_NEAR(part * std::pow(length, power), whole, 1e-12 * std::abs(whole)) << power;

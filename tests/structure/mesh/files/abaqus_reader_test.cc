@@ -377,7 +377,8 @@ TEST(AbaqusReader, PerturbationsOfWhatIsStrainedAreNoLoadCases) {
 }
 
 // What is given again in a later step takes the place of what was there; within a step loads add
-// up, forces on a node's freedom too. OP = NEW, which preprocessors write at each block of a step, drops the steps before alone.
+// up, forces on a node's freedom too. OP = NEW, which preprocessors write at each block of a step,
+// drops the steps before alone.
 TEST(AbaqusReader, LaterStepsChangeLoads) {
   const Deck deck = abaqus(square_plate + R"(*SURFACE, NAME=TOP
 PLATE, SPOS
