@@ -31,6 +31,7 @@ std::string fixed_text(double number, int decimals) {
 
 std::string significant_text(double number, int digits) {
   if (number == 0) return "0";
+  if (!std::isfinite(number)) return fmt::format("{}", number);
   // Of the rounded number: 99.96 to three digits is 100, not 100.0.
   const std::string rounded = fmt::format("{:.{}e}", std::abs(number), std::max(digits - 1, 0));
   const int magnitude = std::stoi(rounded.substr(rounded.find('e') + 1));

@@ -500,7 +500,9 @@ BAR, ROTA, 100., 0., 0., 0., 0., 0., 1.
 )");
   ASSERT_EQ(later.load_cases.size(), 1U);
   EXPECT_TRUE(later.load_cases[0].loads.empty());
-  EXPECT_THAT(later.remarks.at(0).text, HasSubstr("step 2 is no load case: *BOUNDARY, FIXED"));
+  ASSERT_EQ(later.remarks.size(), 2U);
+  EXPECT_THAT(later.remarks[0].text, HasSubstr("a load ROTA is left out"));
+  EXPECT_THAT(later.remarks[1].text, HasSubstr("step 2 is no load case: *BOUNDARY, FIXED"));
   EXPECT_TRUE(entry(deck, "*EL PRINT").is_wish);
   EXPECT_TRUE(entry(deck, "*STATIC").is_wish);
   EXPECT_FALSE(entry(deck, "*TEMPERATURE").is_wish);
