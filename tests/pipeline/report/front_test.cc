@@ -1,7 +1,6 @@
 #include "pipeline/report/front.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
