@@ -404,7 +404,7 @@ std::optional<ShellPlace> FieldWalker::march(const Vector3& place, const ShellPl
     gone += height_of(mesh_, here.shell);
     const bool is_last = !(gone < length);
     if (is_last && step == 0) return std::nullopt;  // the way that was gone already
-    const auto found = walk(is_last ? place : begin + gone / length * (place - begin), here);
+    auto found = walk(is_last ? place : begin + gone / length * (place - begin), here);
     if (!found || is_last) return found;
     here = *found;
   }
