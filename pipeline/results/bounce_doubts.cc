@@ -49,7 +49,8 @@ std::vector<std::string> list_bounce_doubts(const LiftCase& lift_case, const Lif
       if (!most_damped || mode.damping_ratio() > most_damped->damping_ratio()) most_damped = &mode;
     }
   std::vector<std::string> doubts;
-  if (!quickest) return doubts;
+  // On pads the load bounces on these, which its ropes hardly feel.
+  if (!quickest || !lift_case.supports.empty()) return doubts;
   const double interval = lift_case.dynamics.sample_interval, period = quickest->period();
   const double missed =
       interval < period ? 1 - std::cos(std::numbers::pi * interval / period) : 1.0;
