@@ -365,8 +365,7 @@ std::string out_of_plane_note(const PadeyeAssessment& padeye) {
   if (!(most > little)) return {};
   return fmt::format(
       "; pulled up to {:.0f} degrees out of its plane, {:.0f} % of the force along the pin: ASME "
-      "BTH-1 "
-      "and DNV 2.7-3 are for pulls in the plane",
+      "BTH-1 and DNV 2.7-3 are for pulls in the plane",
       most / degree, 100 * std::sin(most));
 }
 

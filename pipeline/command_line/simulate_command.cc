@@ -163,17 +163,13 @@ int simulate_lift_case(const SimulateOptions& options) {
 int simulate_file(const SimulateOptions& options) {
   const FileKind kind = kind_of_file(options.path);
   if (kind == FileKind::mechanism || kind == FileKind::robot) return simulate_mechanism(options);
-  if (kind == FileKind::lift_case) return simulate_lift_case(options);
+  // The reader of cases says what a study is.
+  if (kind == FileKind::lift_case || kind == FileKind::study) return simulate_lift_case(options);
   Diagnostics diagnostics;
-  if (kind == FileKind::study)
-    diagnostics.error({std::make_shared<const std::string>(options.path), 0, 0},
-                      "this file describes a study of many lifts", {"blocklift sweep runs it"});
-  else
-    diagnostics.error(
-        {std::make_shared<const std::string>(options.path), 0, 0},
-        "this file describes a part, which does nothing by itself",
-        {"simulate takes a mechanism file, a robot description (URDF) or a lift case; a "
-         "crane moves in a lift case that names it"});
+  diagnostics.error({std::make_shared<const std::string>(options.path), 0, 0},
+                    "this file describes a part, which does nothing by itself",
+                    {"simulate takes a mechanism file, a robot description (URDF) or a lift case; "
+                     "a crane moves in a lift case that names it"});
   throw InputError(diagnostics);
 }
 

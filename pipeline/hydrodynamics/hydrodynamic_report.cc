@@ -300,8 +300,7 @@ std::string doubt_about_excitation(const HydrodynamicDatabase& database) {
   if (change <= acceptable_change_in_waves || !std::isfinite(change)) return {};
   return fmt::format(
       "the panels are coarse: the force of waves on {} in {} changes by {:.0f} % of its largest "
-      "from "
-      "panels of twice the size to these; take smaller panels until that is below {:.0f} %",
+      "from panels of twice the size to these; take smaller panels until that is below {:.0f} %",
       database.body_names[static_cast<std::size_t>(worst / modes_per_body)],
       mode_names[worst % modes_per_body], 100.0 * change, 100.0 * acceptable_change_in_waves);
 }

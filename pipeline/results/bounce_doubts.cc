@@ -54,13 +54,13 @@ std::vector<std::string> list_bounce_doubts(const LiftCase& lift_case, const Lif
   const double interval = lift_case.dynamics.sample_interval, period = quickest->period();
   const double missed =
       interval < period ? 1 - std::cos(std::numbers::pi * interval / period) : 1.0;
-  if (missed * largest_rise(lift) > worth_saying)
+  const double missed_share = missed * largest_rise(lift);
+  if (missed_share > worth_saying)
     doubts.push_back(fmt::format(
         "The largest loads are sought among samples {:g} s apart, and the motion \"{}\" has a "
         "period of {:.3g} s: a peak may be missed by up to {:.0f} % of what motion adds, {:.1f} % "
         "of a rope's largest load. Ask for a sample_interval of at most {:.2g} s.",
-        interval, quickest->name, period, 100 * missed, 100 * missed * largest_rise(lift),
-        period / 20));
+        interval, quickest->name, period, 100 * missed, 100 * missed_share, period / 20));
   if (most_damped->damping_ratio() > most_damping)
     doubts.push_back(fmt::format(
         "The motion \"{}\" has {:.1f} % of the critical damping; usual are 1 to 2 %. So much takes "
