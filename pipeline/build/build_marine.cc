@@ -116,15 +116,17 @@ MarchedWater make_marched_water(const RadiationProblem& problem) {
   return water;
 }
 
-dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
-                                                 const dynamics::PanelModel& model,
-                                                 const std::vector<dynamics::BodyGroup>& groups) {
+dynamics::HydrodynamicDatabase compute_radiation(
+    const RadiationProblem& problem, const dynamics::PanelModel& model,
+    const std::vector<dynamics::BodyGroup>& groups,
+    const std::function<void(double, const char*)>& progress) {
   dynamics::DatabaseSettings settings;
   settings.frequencies = problem.frequencies;
   settings.headings = problem.headings;
   settings.lids = problem.lids;
   settings.with_coarser = true;
   settings.with_far_field = problem.drifting.has_value();
+  settings.progress = progress;
   return compute_by_method(problem.method, model, groups, settings);
 }
 

@@ -91,10 +91,12 @@ dynamics::PanelModel make_panel_model(const RadiationProblem& problem);
 
 /// Computes the database of a problem by its method, with the model of its panels and the groups of
 /// bodies far from each other in it (dynamics::find_distant_groups).
+/// @param progress told the fraction that is done and what is being done; may be empty.
 /// @throws dynamics::ModelError, dynamics::SimulationError as compute_by_method.
-dynamics::HydrodynamicDatabase compute_radiation(const RadiationProblem& problem,
-                                                 const dynamics::PanelModel& model,
-                                                 const std::vector<dynamics::BodyGroup>& groups);
+dynamics::HydrodynamicDatabase compute_radiation(
+    const RadiationProblem& problem, const dynamics::PanelModel& model,
+    const std::vector<dynamics::BodyGroup>& groups,
+    const std::function<void(double, const char*)>& progress = {});
 
 /// How closely the memory of vessels' water is fitted: to 0.5 % of its peak, or to 2 or 10 % where
 /// water that swings between hulls would take too many states.

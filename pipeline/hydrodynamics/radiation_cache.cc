@@ -105,6 +105,7 @@ std::string identity_of(const std::vector<dynamics::HydrodynamicDatabase>& datab
 namespace {
 
 using Say = std::function<void(const std::string&)>;
+using Tell = std::function<void(double, const std::string&)>;
 
 void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
   for (const std::string& doubt : {doubt_about_panels(database), doubt_about_excitation(database),
@@ -149,18 +150,22 @@ std::optional<dynamics::HydrodynamicDatabase> read_entry(const fs::path& file,
 /// Computes the database of bodies that stay.
 /// @param of_what the bodies, and their draught.
 dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
-                                                const std::string& of_what, const Say& say) {
+                                                const std::string& of_what, const Say& say,
+                                                const Tell& tell) {
   say("computing that of " + of_what);
+  const auto progress = [&](double fraction, const char* what) {
+    tell(fraction, of_what + ": " + what);
+  };
   dynamics::HydrodynamicDatabase database =
       compute_or_refuse(problem, [&](const RadiationProblem& p) {
         const dynamics::PanelModel model = make_panel_model(p);
         if (p.method == dynamics::PanelMethod::green_function)
-          return compute_radiation(p, model, {});
+          return compute_radiation(p, model, {}, progress);
         const auto groups = find_distant_groups(model, p.frequencies.back());
         if (const std::string note = note_on_groups(model, groups); !note.empty()) say(note);
         const std::string doubt = doubt_about_coupling(model, groups, p.frequencies.back());
         if (!doubt.empty()) say("warning: " + doubt);
-        return compute_radiation(p, model, groups);
+        return compute_radiation(p, model, groups, progress);
       });
   say_doubt(database, say);
   return database;
@@ -168,10 +173,11 @@ dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
 
 /// The database of bodies that stay.
 dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
-                                             const std::string& where, const Say& say) {
+                                             const std::string& where, const Say& say,
+                                             const Tell& tell) {
   const std::string of_what = names_of_bodies(problem) + where;
   const fs::path folder = cache_folder();
-  if (folder.empty()) return compute_database(problem, of_what, say);
+  if (folder.empty()) return compute_database(problem, of_what, say, tell);
   const std::string identity = identity_of(problem);
   const fs::path file = folder / (identity + ".h5");
   const auto read = [&] {
@@ -184,26 +190,37 @@ dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
   };
   return take_or_make(
       file, read, [&] { say("waiting for another run that computes that of " + of_what); },
-      [&] { return compute_database(problem, of_what, say); },
+      [&] { return compute_database(problem, of_what, say, tell); },
       [&](const dynamics::HydrodynamicDatabase& made) {
         write_hydrodynamic_database(file, made, identity, "computed for a case with " + of_what);
       });
 }
 
 /// The databases of a problem with a body that is lowered.
-dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const Say& say) {
+dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const Say& say,
+                                         const Tell& tell) {
   const int body = problem.lowered_body();
   const RadiationProblem others = without_lowered(problem);
-  std::optional<dynamics::HydrodynamicDatabase> alone;
-  if (!others.bodies.empty()) alone = find_database(others, "", say);
   const RadiationProblem::Body& lowered = problem.bodies[body];
+  double done = 0.0;
+  const double all =
+      static_cast<double>(lowered.draughts.size()) + (others.bodies.empty() ? 0.0 : 1.0);
+  const Tell tell_of_all = [&](double fraction, const std::string& what) {
+    tell((done + fraction) / all, what);
+  };
+  std::optional<dynamics::HydrodynamicDatabase> alone;
+  if (!others.bodies.empty()) {
+    alone = find_database(others, "", say, tell_of_all);
+    done += 1.0;
+  }
   std::vector<double> draughts = {0.0};
   std::vector<dynamics::HydrodynamicDatabase> databases(1);
   for (const double draught : lowered.draughts) {
     draughts.push_back(draught);
-    databases.push_back(
-        find_database(at_draught(problem, draught),
-                      fmt::format(", {} at a draught of {:.4g} m", lowered.name, draught), say));
+    databases.push_back(find_database(
+        at_draught(problem, draught),
+        fmt::format(", {} at a draught of {:.4g} m", lowered.name, draught), say, tell_of_all));
+    done += 1.0;
   }
   databases[0] = with_dry_body(databases[1], body, alone ? &*alone : nullptr);
   return dynamics::make_series(body, std::move(draughts), std::move(databases));
@@ -240,10 +257,14 @@ std::vector<dynamics::MemoryStateSpace> find_memories(
 }
 
 std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
-    const RadiationProblem& problem, const std::function<void(const std::string&)>& report) {
+    const RadiationProblem& problem, const std::function<void(const std::string&)>& report,
+    const std::function<void(double, const std::string&)>& progress) {
   if (problem.bodies.empty() || problem.direct) return nullptr;
   const Say say = [&](const std::string& text) {
     if (report) report(text);
+  };
+  const Tell tell = [&](double fraction, const std::string& what) {
+    if (progress) progress(fraction, what);
   };
   dynamics::HydrodynamicSeries series;
   if (problem.given) {
@@ -251,9 +272,9 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
     say_doubt(*problem.given, say);
     series = {0, {0.0}, {take_given_database(problem)}};
   } else if (problem.lowered_body() >= 0) {
-    series = find_series(problem, say);
+    series = find_series(problem, say, tell);
   } else {
-    series = {0, {0.0}, {find_database(problem, "", say)}};
+    series = {0, {0.0}, {find_database(problem, "", say, tell)}};
   }
   if (problem.drifting) {
     dynamics::HydrodynamicDatabase& database = series.databases.front();

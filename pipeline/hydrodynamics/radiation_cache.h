@@ -37,12 +37,15 @@ std::vector<dynamics::MemoryStateSpace> find_memories(
 /// cache that cannot be written is no error: databases are computed again next time. Their memories
 /// are found with them (find_memories, memory_fit_of_vessels).
 /// @param report called with a sentence about what is done; may be empty.
+/// @param progress told the fraction that is done and of which bodies, while databases are computed;
+///   may be empty.
 /// @returns null for a problem without bodies, or one whose surface is marched directly.
 /// @throws InputError if the panel method refuses the problem (a wave too short for the panels,
 ///   hulls in each other's way, a surface that cannot be meshed), dynamics::SimulationError as
 ///   compute_radiation, dynamics::ModelError as find_memories.
 std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
-    const RadiationProblem& problem, const std::function<void(const std::string&)>& report);
+    const RadiationProblem& problem, const std::function<void(const std::string&)>& report,
+    const std::function<void(double, const std::string&)>& progress = {});
 
 /// make_marched_water, what is wrong with the problem being wrong input.
 /// @throws InputError for a wrong problem, dynamics::SimulationError.

@@ -131,8 +131,14 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
                        const LoadFlexibility* flexibility) {
   const RadiationProblem problem = radiation_problem(lift_case);
-  const auto radiation = find_radiation(
-      problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
+  double radiation_share = 0;
+  const auto tell = [&](const std::string& what) {
+    progress("radiation of vessels", radiation_share, what);
+  };
+  const auto radiation = find_radiation(problem, tell, [&](double share, const std::string& what) {
+    radiation_share = share;
+    tell(what);
+  });
   FoundMotion found;
   const auto build = [&](std::optional<double> fault) {
     found.fault = fault;
