@@ -41,15 +41,9 @@ Eigen::VectorXd largest_of(const CheckedStress& checked, const Eigen::MatrixXd& 
   constexpr double least_share = 0.99 * looked_at_in_corners;
   const Eigen::VectorXd weights = response_weights(checked);
   const LoadHistory history(factors, weights);
-  return find_leading_von_mises(
-      history, static_cast<int>(checked.squares().size()),
-      [&](int first, int count) {
-        Eigen::MatrixXd stress(6 * count, factors.rows());
-        for (int i = 0; i < count; ++i)
-          stress.middleRows<6>(6 * i) = unit_stress_of_square(checked, first + i);
-        return stress;
-      },
-      least_share, stress_at_largest_loads(checked, factors, weights));
+  return find_leading_von_mises(history, static_cast<int>(checked.squares().size()),
+                                stress_of_squares(checked, history), least_share,
+                                stress_at_largest_loads(checked, factors, weights));
 }
 
 /// Looks at squares of a model anew.

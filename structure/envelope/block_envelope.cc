@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "algebra/products.h"
 #include "parallel/threads.h"
-#include "structure/large_pages.h"
+#include "structure/envelope/coordinate_motions.h"
 #include "structure/mesh/solid_lugs.h"
 
 namespace blocklift::structure {
@@ -89,21 +91,21 @@ TimedExtreme of_point(const UnitResponses& responses, const StressPoints& points
   return result;
 }
 
+/// @param motions of the history's coordinates; they lose their rigid motion.
 TimedExtreme largest_displacement(const UnitResponses& responses, const LoadHistory& history,
-                                  int threads) {
+                                  Eigen::MatrixXd& motions, int threads) {
   const ElasticModel& model = responses.model();
-  const Eigen::Index nodes = model.space().node_count();
-  Eigen::MatrixXd displacements = make_large(3 * nodes, responses.count());
-  parallel::in_batches(responses.count(), 1, threads, [&](int k, int) {
-    const Eigen::VectorXd relative =
-        responses.without_rigid_motion(responses.displacements().col(k));
-    displacements.col(k).reshaped(3, nodes) = relative.reshaped(6, nodes).topRows<3>();
+  parallel::in_batches(static_cast<int>(motions.cols()), 1, threads, [&](int k, int) {
+    motions.col(k) = responses.without_rigid_motion(motions.col(k));
   });
   const LargestValue moved = find_largest_displacement(
       history, model.space().node_count(),
-      [&](int first, int count) -> Eigen::MatrixXd {
-        return displacements.middleRows(3L * first, 3L * count);
-      },
+      PointResponses::of_coordinates([&](int first, int count) {
+        Eigen::MatrixXd displacements(3L * count, motions.cols());
+        for (int i = 0; i < count; ++i)
+          displacements.middleRows<3>(3L * i) = motions.middleRows<3>(6L * (first + i));
+        return displacements;
+      }),
       threads);
   TimedExtreme extreme;
   extreme.value = moved.value;
@@ -140,6 +142,21 @@ Eigen::MatrixXd unit_stress_of_square(const CheckedStress& checked, int square) 
   return stress;
 }
 
+PointResponses stress_of_squares(const CheckedStress& checked, const LoadHistory& history) {
+  const auto of_coordinates =
+      std::make_shared<Eigen::MatrixXd>(checked.components().rows(), history.rank());
+  algebra::multiply(checked.components(), history.modes(), *of_coordinates);
+  return PointResponses::of_coordinates([of_coordinates](int first, int count) {
+    Eigen::MatrixXd stress = Eigen::MatrixXd::Zero(6L * count, of_coordinates->cols());
+    for (int i = 0; i < count; ++i) {
+      const auto components = of_coordinates->middleRows<3>(3L * (first + i));
+      stress.middleRows<2>(6L * i) = components.topRows<2>();
+      stress.row(6L * i + 3) = components.row(2);
+    }
+    return stress;
+  });
+}
+
 Eigen::VectorXd stress_shares(const Eigen::MatrixXd& unit_stress, const Eigen::MatrixXd& parts,
                               const Eigen::VectorXd& whole) {
   // Shear stands twice in a product of tensors.
@@ -164,15 +181,8 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
 
   BlockEnvelope envelope;
   envelope.instants = history.instants();
-  envelope.squares = find_von_mises_envelope(
-      history, squares,
-      [&](int first, int count) {
-        Eigen::MatrixXd stress(6 * count, responses.count());
-        for (int i = 0; i < count; ++i)
-          stress.middleRows<6>(6 * i) = unit_stress_of_square(checked, first + i);
-        return stress;
-      },
-      threads);
+  envelope.squares =
+      find_von_mises_envelope(history, squares, stress_of_squares(checked, history), threads);
   const SquareMaxima maxima = square_maxima(mesh, recovery, envelope.squares);
   const auto named = [&](const Running& found) {
     return of_square(mesh, checked, envelope.squares, found);
@@ -189,11 +199,11 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
                              named_by_site(maxima.lugs[lug])});
 
   const int groups = static_cast<int>(mesh.groups.size());
+  Eigen::MatrixXd motions = motions_in_coordinates(responses, history);
   const LargestStresses peaks = find_largest_stresses(
-      history, points.count(),
-      [&](int first, int count) {
-        return points.stresses(first, count, responses.displacements());
-      },
+      history, points.count(), PointResponses::of_coordinates([&](int first, int count) {
+        return points.stresses(first, count, motions);
+      }),
       groups, [&](int point) { return mesh.regions[points.region(point)].group; }, threads);
   envelope.places = squares + points.count();
   LargestValue peak;
@@ -223,7 +233,7 @@ BlockEnvelope find_block_envelope(const UnitResponses& responses, const StressRe
     }
     envelope.groups.push_back(std::move(group));
   }
-  envelope.displacement = largest_displacement(responses, history, threads);
+  envelope.displacement = largest_displacement(responses, history, motions, threads);
   return envelope;
 }
 

@@ -67,6 +67,9 @@ Eigen::VectorXd response_weights(const UnitResponses& responses, const StressRec
 /// stand, the rest zero), 6 x unit loads, Pa.
 Eigen::MatrixXd unit_stress_of_square(const CheckedStress& checked, int square);
 
+/// The same of all squares for unit coordinates of a history of the loads.
+PointResponses stress_of_squares(const CheckedStress& checked, const LoadHistory& history);
+
 /// How much each part of a load has in a stress: with s_i the deviator of part i's stress and s
 /// that of the whole, (s_i : s) / (s : s), which sum to 1 over parts that make up the whole.
 /// @param unit_stress 6 x unit loads; @param parts factors of the unit loads, a column a part;

@@ -23,15 +23,18 @@ constexpr int batch_size = 64;  // points: their unit responses stay in the cach
 using Rows = SearchTables::Rows;
 
 // Responses of a batch to the history's coordinates, `rows` rows a point.
-Rows responses_of(const SearchTables& tables, const UnitResponsesAt& responses, int first,
-                  int count, int rows) {
+Rows responses_of(const SearchTables& tables, const PointResponses& responses, int first, int count,
+                  int rows) {
   const LoadHistory& history = tables.history();
-  const Eigen::MatrixXd units = responses(first, count);
-  if (units.rows() != rows * count || units.cols() != history.modes().rows())
-    throw ModelError("unit responses do not fit the history: " + std::to_string(units.rows()) +
-                     " x " + std::to_string(units.cols()) + " for " + std::to_string(count) +
-                     " points and " + std::to_string(history.modes().rows()) + " unit loads");
-  Rows result = tables.in_coordinates(units);
+  const bool in_coordinates = responses.are_of_coordinates();
+  const Eigen::MatrixXd given = responses(first, count);
+  const Eigen::Index columns = in_coordinates ? history.rank() : history.modes().rows();
+  if (given.rows() != rows * count || given.cols() != columns)
+    throw ModelError("responses do not fit the history: " + std::to_string(given.rows()) + " x " +
+                     std::to_string(given.cols()) + " for " + std::to_string(count) +
+                     " points and " + std::to_string(columns) +
+                     (in_coordinates ? " coordinates" : " unit loads"));
+  Rows result = in_coordinates ? Rows(given) : tables.in_coordinates(given);
   if (!result.allFinite())
     throw ModelError("a unit response is not a number, near point " + std::to_string(first));
   return result;
@@ -49,7 +52,7 @@ void keep(PointExtremes& extremes, int point, const Found& found, double sign = 
 }  // namespace
 
 StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
-                                    const UnitResponsesAt& stress, int threads) {
+                                    const PointResponses& stress, int threads) {
   StressEnvelope envelope{sized(points), sized(points), sized(points)};
   const SearchTables tables(history);
   parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
@@ -66,7 +69,7 @@ StressEnvelope find_stress_envelope(const LoadHistory& history, int points,
 }
 
 PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
-                                      const UnitResponsesAt& stress, int threads) {
+                                      const PointResponses& stress, int threads) {
   PointExtremes extremes = sized(points);
   const SearchTables tables(history);
   parallel::in_batches(points, batch_size, threads, [&](int first, int count) {
@@ -79,7 +82,7 @@ PointExtremes find_von_mises_envelope(const LoadHistory& history, int points,
 }
 
 Eigen::VectorXd find_leading_von_mises(const LoadHistory& history, int points,
-                                       const UnitResponsesAt& stress, double share, double known,
+                                       const PointResponses& stress, double share, double known,
                                        int threads) {
   constexpr double just_below = 0.999;  // what may yet come to the share is found
   Eigen::VectorXd values = Eigen::VectorXd::Zero(points);
@@ -111,7 +114,7 @@ Eigen::VectorXd find_leading_von_mises(const LoadHistory& history, int points,
 }
 
 void raise_von_mises(const LoadHistory& history, const std::vector<int>& begin,
-                     const UnitResponsesAt& stress, Eigen::VectorXd& largest, int threads) {
+                     const PointResponses& stress, Eigen::VectorXd& largest, int threads) {
   const int runs = static_cast<int>(begin.size()) - 1;
   const SearchTables tables(history);
   parallel::in_batches(runs, 16, threads, [&](int first, int count) {
@@ -152,7 +155,7 @@ Found as_floor(const LargestValue& largest) {
 }  // namespace
 
 LargestStresses find_largest_stresses(const LoadHistory& history, int points,
-                                      const UnitResponsesAt& stress, int sets,
+                                      const PointResponses& stress, int sets,
                                       const std::function<int(int)>& set_of, int threads) {
   // Within, the smallest principal stress stands with the opposite sign.
   LargestStresses all;
@@ -216,7 +219,7 @@ LargestValue find_largest(int points, int threads, const Search& search) {
 }  // namespace
 
 LargestValue find_largest_in_plane(const LoadHistory& history, int points,
-                                   const UnitResponsesAt& stress, int threads) {
+                                   const PointResponses& stress, int threads) {
   const SearchTables tables(history);
   return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
     const Rows in_plane = responses_of(tables, stress, first, count, 3);
@@ -232,7 +235,7 @@ LargestValue find_largest_in_plane(const LoadHistory& history, int points,
 }
 
 LargestValue find_largest_displacement(const LoadHistory& history, int points,
-                                       const UnitResponsesAt& displacement, int threads) {
+                                       const PointResponses& displacement, int threads) {
   const SearchTables tables(history);
   return find_largest(points, threads, [&](int first, int count, LargestValue& known) {
     const Rows rows = responses_of(tables, displacement, first, count, 3);

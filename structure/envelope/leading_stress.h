@@ -12,7 +12,7 @@ namespace blocklift::structure {
 /// @param known a stress that is known to occur (zero: nothing is known), Pa: the nearer it is to
 ///   the largest, the less is searched.
 Eigen::VectorXd find_leading_von_mises(const LoadHistory& history, int points,
-                                       const UnitResponsesAt& stress, double share, double known,
+                                       const PointResponses& stress, double share, double known,
                                        int threads = 0);
 
 }  // namespace blocklift::structure

@@ -14,6 +14,7 @@
 #include <Eigen/Dense>
 
 #include "parallel/threads.h"
+#include "structure/envelope/coordinate_motions.h"
 #include "structure/envelope/envelope.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/solid.h"
@@ -40,6 +41,13 @@ std::array<Vector3, 2> strip_of(const Mesh& mesh, const Beam& beam) {
   (upper - lower).maxCoeff(&axis);
   const Vector3 along = beam_axes(mesh, beam).row(1 + axis).transpose();
   return {lower[axis] * along, upper[axis] * along};
+}
+
+/// Stresses for unit coordinates of a history, six rows a point. They must outlive the result.
+PointResponses rows_of_points(const Eigen::MatrixXd& stress) {
+  return PointResponses::of_coordinates([&stress](int first, int count) -> Eigen::MatrixXd {
+    return stress.middleRows(6L * first, 6L * count);
+  });
 }
 
 /// Samples of cells by the surface's points on which they lie: those of one point stand together,
@@ -171,18 +179,22 @@ Surface::Surface(const ElasticModel& model, int largest_point_count) {
 
 std::vector<std::vector<double>> Surface::envelopes(
     const UnitResponses& responses, const std::vector<LoadHistory>& histories) const {
-  Envelopes largest(histories.size(), std::vector<double>(points_.size(), 0));
-  take_envelopes_of_shells(responses, histories, largest);
-  take_envelopes_of_beams(responses, histories, largest);
-  take_envelopes_of_solids(responses, histories, largest);
+  const Space& space = responses.model().space();
+  std::vector<std::vector<double>> largest;
+  for (const LoadHistory& history : histories) {
+    const Eigen::MatrixXd motions = motions_in_coordinates(responses, history);
+    std::vector<double>& of_points = largest.emplace_back(points_.size(), 0);
+    take_envelope_of_shells(space, motions, history, of_points);
+    take_envelope_of_beams(space, motions, history, of_points);
+    take_envelope_of_solids(space, motions, history, of_points);
+  }
   return largest;
 }
 
-void Surface::take_envelopes_of_shells(const UnitResponses& responses,
-                                       const std::vector<LoadHistory>& histories,
-                                       Envelopes& largest) const {
-  constexpr int chunk = 256;  // cells whose unit stresses are held at a time
-  const Space& space = responses.model().space();
+void Surface::take_envelope_of_shells(const Space& space, const Eigen::MatrixXd& motions,
+                                      const LoadHistory& history,
+                                      std::vector<double>& largest) const {
+  constexpr int chunk = 256;  // cells whose stresses are held at a time
   const Eigen::Matrix2Xd unit = divided_square(division_);
   const int per_cell = static_cast<int>(unit.cols());
   const int cells = static_cast<int>(space.shells().size());
@@ -190,11 +202,11 @@ void Surface::take_envelopes_of_shells(const UnitResponses& responses,
     const int count = std::min(chunk, cells - begin);
     const SharedPoints shared(cell_points_, begin * per_cell, count * per_cell);
     // Both surfaces of each sample.
-    Eigen::MatrixXd stress(12L * per_cell * count, responses.count());
+    Eigen::MatrixXd stress(12L * per_cell * count, motions.cols());
     parallel::in_batches(count, 16, 0, [&](int first, int taken) {
       ShellStress recovery(space, unit);
       for (int i = first; i < first + taken; ++i) {
-        const Eigen::MatrixXd rows = recovery.of_all(begin + i, responses.displacements());
+        const Eigen::MatrixXd rows = recovery.of_all(begin + i, motions);
         const Eigen::MatrixXd upper = stresses_at_side(rows, 1), lower = stresses_at_side(rows, -1);
         for (int q = 0; q < per_cell; ++q) {
           const int place = shared.place_of[i * per_cell + q];
@@ -203,89 +215,69 @@ void Surface::take_envelopes_of_shells(const UnitResponses& responses,
         }
       }
     });
-    for (std::size_t h = 0; h < histories.size(); ++h) {
-      Eigen::VectorXd of_points(static_cast<Eigen::Index>(shared.points.size()));
-      for (std::size_t p = 0; p < shared.points.size(); ++p)
-        of_points[p] = largest[h][shared.points[p]];
-      raise_von_mises(
-          histories[h], shared.begin,
-          [&](int first, int taken) -> Eigen::MatrixXd {
-            return stress.middleRows(6L * first, 6L * taken);
-          },
-          of_points);
-      for (std::size_t p = 0; p < shared.points.size(); ++p)
-        largest[h][shared.points[p]] = of_points[p];
-    }
+    Eigen::VectorXd of_points(static_cast<Eigen::Index>(shared.points.size()));
+    for (std::size_t p = 0; p < shared.points.size(); ++p) of_points[p] = largest[shared.points[p]];
+    raise_von_mises(history, shared.begin, rows_of_points(stress), of_points);
+    for (std::size_t p = 0; p < shared.points.size(); ++p) largest[shared.points[p]] = of_points[p];
   }
 }
 
-void Surface::take_envelopes_of_beams(const UnitResponses& responses,
-                                      const std::vector<LoadHistory>& histories,
-                                      Envelopes& largest) const {
-  const Space& space = responses.model().space();
+void Surface::take_envelope_of_beams(const Space& space, const Eigen::MatrixXd& motions,
+                                     const LoadHistory& history,
+                                     std::vector<double>& largest) const {
   const auto stations = static_cast<int>(stations_.size());
-  Eigen::MatrixXd of_stations(static_cast<Eigen::Index>(histories.size()), stations);
+  Eigen::VectorXd of_stations = Eigen::VectorXd::Zero(stations);
   parallel::in_batches(stations, 64, 0, [&](int first, int count) {
     // The points of these sections, one below the other, and where those of each begin.
-    Eigen::MatrixXd stress(0, responses.count());
+    Eigen::MatrixXd stress(0, motions.cols());
     std::vector<int> begin{0};
     for (int s = first; s < first + count; ++s) {
       const BeamStation& station = stations_[s];
       const Eigen::MatrixXd here =
-          as_uniaxial(beam_stresses(space, station.cell, station.xi, responses.displacements()));
+          as_uniaxial(beam_stresses(space, station.cell, station.xi, motions));
       stress.conservativeResize(stress.rows() + here.rows(), Eigen::NoChange);
       stress.bottomRows(here.rows()) = here;
       begin.push_back(static_cast<int>(stress.rows() / 6));
     }
-    for (std::size_t h = 0; h < histories.size(); ++h) {
-      Eigen::VectorXd of_sections = Eigen::VectorXd::Zero(count);
-      raise_von_mises(
-          histories[h], begin,
-          [&](int point, int taken) -> Eigen::MatrixXd {
-            return stress.middleRows(6L * point, 6L * taken);
-          },
-          of_sections, 1);
-      of_stations.row(h).segment(first, count) = of_sections.transpose();
-    }
+    Eigen::VectorXd of_sections = Eigen::VectorXd::Zero(count);
+    raise_von_mises(history, begin, rows_of_points(stress), of_sections, 1);
+    of_stations.segment(first, count) = of_sections;
   });
-  for (std::size_t h = 0; h < histories.size(); ++h)
-    for (int s = 0; s < stations; ++s)
-      for (const int point : stations_[s].points)
-        largest[h][point] =
-            std::max(largest[h][point], of_stations(static_cast<Eigen::Index>(h), s));
+  for (int s = 0; s < stations; ++s)
+    for (const int point : stations_[s].points)
+      largest[point] = std::max(largest[point], of_stations[s]);
 }
 
-void Surface::take_envelopes_of_solids(const UnitResponses& responses,
-                                       const std::vector<LoadHistory>& histories,
-                                       Envelopes& largest) const {
-  const Space& space = responses.model().space();
+void Surface::take_envelope_of_solids(const Space& space, const Eigen::MatrixXd& motions,
+                                      const LoadHistory& history,
+                                      std::vector<double>& largest) const {
   const int count = static_cast<int>(solid_stations_.size());
-  for (std::size_t h = 0; h < histories.size(); ++h) {
-    const PointExtremes extremes =
-        find_von_mises_envelope(histories[h], count, [&](int first, int taken) -> Eigen::MatrixXd {
-          Eigen::MatrixXd stress(6L * taken, responses.count()), of_solid;
-          for (int i = 0; i < taken; ++i) {
-            const SolidStation& station = solid_stations_[first + i];
-            if (i == 0 || station.solid != solid_stations_[first + i - 1].solid)
-              of_solid = solid_corner_stresses(space, station.solid, responses.displacements());
-            stress.middleRows<6>(6L * i) = of_solid.middleRows<6>(6L * station.corner);
-          }
-          return stress;
-        });
-    for (int i = 0; i < count; ++i) {
-      double& of_point = largest[h][solid_stations_[i].point];
-      of_point = std::max(of_point, extremes.value[i]);
+  const auto stress_of = [&](int first, int taken) {
+    Eigen::MatrixXd stress(6L * taken, motions.cols()), of_solid;
+    for (int i = 0; i < taken; ++i) {
+      const SolidStation& station = solid_stations_[first + i];
+      if (i == 0 || station.solid != solid_stations_[first + i - 1].solid)
+        of_solid = solid_corner_stresses(space, station.solid, motions);
+      stress.middleRows<6>(6L * i) = of_solid.middleRows<6>(6L * station.corner);
     }
+    return stress;
+  };
+  const PointExtremes extremes =
+      find_von_mises_envelope(history, count, PointResponses::of_coordinates(stress_of));
+  for (int i = 0; i < count; ++i) {
+    double& of_point = largest[solid_stations_[i].point];
+    of_point = std::max(of_point, extremes.value[i]);
   }
 }
 
 std::vector<SurfaceField> Surface::evaluate(const UnitResponses& responses,
                                             const std::vector<LoadCase>& load_cases) const {
   const Space& space = responses.model().space();
-  Eigen::MatrixXd motions(space.freedoms(), static_cast<Eigen::Index>(load_cases.size()));
+  Eigen::MatrixXd motions = responses.displacements_of(load_cases);
   std::vector<SurfaceField> fields(load_cases.size());
   for (std::size_t k = 0; k < load_cases.size(); ++k) {
-    motions.col(k) = responses.without_rigid_motion(responses.displacement(load_cases[k]));
+    const auto motion = motions.col(static_cast<Eigen::Index>(k));
+    motions.col(static_cast<Eigen::Index>(k)) = responses.without_rigid_motion(motion);
     fields[k].displacement.assign(points_.size(), Vector3::Zero());
     fields[k].von_mises.assign(points_.size(), 0);
   }

@@ -57,17 +57,16 @@ class Surface {
     int point = 0;
   };
   class Builder;
-  using Envelopes = std::vector<std::vector<double>>;
-  void take_envelopes_of_shells(const UnitResponses& responses,
-                                const std::vector<LoadHistory>& histories,
-                                Envelopes& largest) const;
-  void take_envelopes_of_beams(const UnitResponses& responses,
-                               const std::vector<LoadHistory>& histories, Envelopes& largest) const;
+  /// Raise what is known of each point by the stresses of cells, sections and corners.
+  /// @param motions of the history's coordinates (motions_in_coordinates).
+  void take_envelope_of_shells(const Space& space, const Eigen::MatrixXd& motions,
+                               const LoadHistory& history, std::vector<double>& largest) const;
+  void take_envelope_of_beams(const Space& space, const Eigen::MatrixXd& motions,
+                              const LoadHistory& history, std::vector<double>& largest) const;
+  void take_envelope_of_solids(const Space& space, const Eigen::MatrixXd& motions,
+                               const LoadHistory& history, std::vector<double>& largest) const;
   void add_shells(const Space& space, const Eigen::MatrixXd& motions,
                   std::vector<SurfaceField>& fields, std::vector<int>& shares) const;
-  void take_envelopes_of_solids(const UnitResponses& responses,
-                                const std::vector<LoadHistory>& histories,
-                                Envelopes& largest) const;
   void add_solids(const Space& space, const Eigen::MatrixXd& motions,
                   std::vector<SurfaceField>& fields, std::vector<int>& shares) const;
   void add_beams(const Space& space, const Eigen::MatrixXd& motions,

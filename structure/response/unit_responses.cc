@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "algebra/decompositions.h"
+#include "algebra/products.h"
 #include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/large_pages.h"
@@ -32,6 +33,16 @@ struct UnitResponses::System {
 namespace {
 
 constexpr double standard_gravity = 9.80665;  // m/s^2
+
+/// Force and moment about Bo of loads, a column each.
+Eigen::MatrixXd resultants_of(const Space& space, const Eigen::MatrixXd& loads) {
+  Eigen::MatrixXd resultants(6, loads.cols());
+  parallel::in_batches(static_cast<int>(loads.cols()), 1, 0, [&](int k, int) {
+    const Wrench wrench = resultant(space, loads.col(k));
+    resultants.col(k) << wrench.force, wrench.moment;
+  });
+  return resultants;
+}
 
 }  // namespace
 
@@ -95,6 +106,9 @@ void UnitResponses::solve_basis() {
   balance_loads(loads, balancing_);  // the plain accelerations stay as they are
   displacements_ = solve(loads, reactions_);
   check_stiffness();
+  resultants_.resize(6, lug_forces + 12);
+  resultants_ << resultants_of(model_.space(), model_.lug_loads()),
+      resultants_of(model_.space(), model_.inertia_loads());
 }
 
 // Rounding may leave a mechanism some stiffness. Held at three points it moves then by some 1e8
@@ -122,27 +136,34 @@ Eigen::MatrixXd UnitResponses::solve(const Eigen::MatrixXd& loads,
 }
 
 void UnitResponses::add_loads(const Eigen::MatrixXd& added) {
+  // So many that reading the factor for each few costs little, and so few that what is needed on the
+  // way stays small beside the basis.
+  constexpr Eigen::Index at_once = 32;
   if (added.cols() == 0) return;
   Stopwatch watch;
-  Eigen::MatrixXd loads = added, accelerations(6, added.cols());
-  balance_loads(loads, accelerations);
-  Eigen::MatrixXd reactions;
-  const Eigen::MatrixXd displacements = solve(loads, reactions);
+  const auto append = [](Eigen::MatrixXd& all, Eigen::Index more) {
+    all.conservativeResize(Eigen::NoChange, all.cols() + more);
+    return all.rightCols(more);
+  };
   // The plain accelerations stay at the end.
-  const auto insert = [](Eigen::MatrixXd& all, const Eigen::MatrixXd& more) {
+  const Eigen::Index begin = displacements_.cols() - 6;
+  const auto make_room = [&](Eigen::MatrixXd& all) {
     const Eigen::MatrixXd plain = all.rightCols<6>();
-    all.conservativeResize(Eigen::NoChange, all.cols() + more.cols());
-    all.middleCols(all.cols() - 6 - more.cols(), more.cols()) = more;
+    append(all, added.cols());
     all.rightCols<6>() = plain;
   };
-  insert(displacements_, displacements);
-  insert(reactions_, reactions);
-  const auto append = [](Eigen::MatrixXd& all, const Eigen::MatrixXd& more) {
-    all.conservativeResize(Eigen::NoChange, all.cols() + more.cols());
-    all.rightCols(more.cols()) = more;
-  };
-  append(balancing_, accelerations);
-  append(added_loads_, added);
+  make_room(displacements_);
+  make_room(reactions_);
+  auto accelerations = append(balancing_, added.cols());
+  for (Eigen::Index first = 0; first < added.cols(); first += at_once) {
+    const Eigen::Index count = std::min(at_once, added.cols() - first);
+    Eigen::MatrixXd loads = added.middleCols(first, count), reactions;
+    balance_loads(loads, accelerations.middleCols(first, count));
+    displacements_.middleCols(begin + first, count) = solve(loads, reactions);
+    reactions_.middleCols(begin + first, count) = reactions;
+  }
+  append(resultants_, added.cols()) = resultants_of(model_.space(), added);
+  append(added_loads_, added.cols()) = added;
   timing_.solve_s += watch.lap();
 }
 
@@ -178,6 +199,15 @@ Eigen::VectorXd UnitResponses::displacement(const LoadCase& load_case) const {
   return displacements_ * coefficients(load_case);
 }
 
+Eigen::MatrixXd UnitResponses::displacements_of(const std::vector<LoadCase>& load_cases) const {
+  Eigen::MatrixXd factors(count(), static_cast<Eigen::Index>(load_cases.size()));
+  for (std::size_t c = 0; c < load_cases.size(); ++c)
+    factors.col(static_cast<Eigen::Index>(c)) = coefficients(load_cases[c]);
+  Eigen::MatrixXd motions = make_large(displacements_.rows(), factors.cols());
+  algebra::multiply(displacements_, factors, motions);
+  return motions;
+}
+
 Eigen::VectorXd UnitResponses::solve_directly(const LoadCase& load_case) const {
   return solve(load_vector(load_case));
 }
@@ -208,8 +238,14 @@ Eigen::Matrix3Xd UnitResponses::elastic_displacement(const LoadCase& load_case) 
 
 LoadBalance UnitResponses::balance(const LoadCase& load_case) const {
   const MassProperties& mass = model_.mass_properties();
+  const Eigen::VectorXd factors = coefficients(load_case);
+  const Eigen::Index lug_forces = 3 * model_.lug_count(), added = load_case.added.size();
+  const Eigen::Matrix<double, 6, 1> sum =
+      resultants_.leftCols(lug_forces) * factors.head(lug_forces) +
+      resultants_.middleCols<12>(lug_forces) * load_case.field.coefficients() +
+      resultants_.rightCols(added) * load_case.added;
   LoadBalance result;
-  result.resultant = resultant(model_.space(), load_vector(load_case));
+  result.resultant = {sum.head<3>(), sum.tail<3>()};
   result.resultant.moment -= mass.centre_of_mass_B.cross(result.resultant.force);
   // A block that stands still on the ground has neither lug forces nor a field: its weight, which
   // is what cancels there, is the least that residuals are compared with.
@@ -221,8 +257,7 @@ LoadBalance UnitResponses::balance(const LoadCase& load_case) const {
   const double gyration = std::sqrt(mass.inertia_BBcm_B.trace() / (2 * mass.mass));
   result.force_residual = result.resultant.force.norm() / load;
   result.moment_residual = result.resultant.moment.norm() / (load * gyration);
-  result.reaction_over_weight =
-      (reactions_ * coefficients(load_case)).cwiseAbs().maxCoeff() / weight;
+  result.reaction_over_weight = (reactions_ * factors).cwiseAbs().maxCoeff() / weight;
   return result;
 }
 

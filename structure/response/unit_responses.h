@@ -78,6 +78,8 @@ class UnitResponses {
   Eigen::VectorXd load_vector(const LoadCase& load_case) const;
   /// Motion of a load case against the 3-2-1 support, six rows a node.
   Eigen::VectorXd displacement(const LoadCase& load_case) const;
+  /// The same of several, a column each, in one pass through the basis.
+  Eigen::MatrixXd displacements_of(const std::vector<LoadCase>& load_cases) const;
   /// Displacement relative to the block's mean rigid motion (mass-weighted least squares), m, one
   /// column a node.
   Eigen::Matrix3Xd elastic_displacement(const LoadCase& load_case) const;
@@ -103,7 +105,9 @@ class UnitResponses {
   const ElasticModel& model_;
   SolutionTiming timing_;
   std::shared_ptr<const System> system_;
-  Eigen::MatrixXd added_loads_;    ///< as they came, freedoms x added
+  Eigen::MatrixXd added_loads_;  ///< as they came, freedoms x added
+  /// Forces and moments about Bo of lug forces, fields of inertia and added loads, 6 x their number.
+  Eigen::MatrixXd resultants_;
   Eigen::MatrixXd balancing_;      ///< 6 x (lug forces + products + added): rigid accelerations
   Eigen::MatrixXd displacements_;  ///< of the basis
   Eigen::MatrixXd reactions_;      ///< 6 x count, N

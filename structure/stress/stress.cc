@@ -199,11 +199,11 @@ std::vector<LoadCaseResult> StressRecovery::evaluate(
     const std::vector<LoadCase>& load_cases) const {
   const auto cases = static_cast<Eigen::Index>(load_cases.size());
   Eigen::MatrixXd factors(responses_.count(), cases);
-  Eigen::MatrixXd relative(responses_.displacements().rows(), cases);
-  for (Eigen::Index c = 0; c < cases; ++c) {
-    factors.col(c) = responses_.coefficients(load_cases[c]);
-    relative.col(c) = responses_.without_rigid_motion(responses_.displacement(load_cases[c]));
-  }
+  for (Eigen::Index c = 0; c < cases; ++c) factors.col(c) = responses_.coefficients(load_cases[c]);
+  Eigen::MatrixXd relative = responses_.displacements_of(load_cases);
+  parallel::in_batches(static_cast<int>(cases), 1, 0, [&](int c, int) {
+    relative.col(c) = responses_.without_rigid_motion(relative.col(c));
+  });
   std::vector<LoadCaseResult> results = of_motions_.evaluate(factors, relative);
   for (std::size_t c = 0; c < load_cases.size(); ++c) {
     results[c].name = load_cases[c].name;
