@@ -355,7 +355,7 @@ class MeshReader {
   /// when its cases are solved.
   bool concerns_use(const structure::Finding& finding) const {
     return use_ == MeshUse::lift || finding.kind.starts_with("shells without") ||
-           finding.kind == "folded solids";
+           finding.kind.starts_with("folded");
   }
 
   BlockModel& block_;
@@ -455,6 +455,20 @@ std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh) {
     if (entry.used != entry.read || !entry.left_out.empty()) cards.push_back(std::move(entry));
   }
   return cards;
+}
+
+std::vector<std::string> warnings_of_own_cases(const MeshModel& mesh) {
+  std::vector<std::string> sentences;
+  if (!mesh.deck || !mesh.diagnosis) return sentences;
+  const bool has_mass_loads =
+      std::ranges::any_of(mesh.deck->load_sets, &structure::LoadSet::is_on_masses);
+  for (const structure::Finding& finding : mesh.diagnosis->findings) {
+    const bool is_of_others = finding.kind == "springs to the ground" ||
+                              (finding.kind == "materials without density" && !has_mass_loads);
+    if (finding.severity == structure::Severity::warning && !is_of_others)
+      sentences.push_back(described(finding));
+  }
+  return sentences;
 }
 
 std::string describe_block_mesh(const MeshModel& mesh) {

@@ -68,6 +68,17 @@ class StressOfDeck : public ::testing::Test {
   test::TemporaryFolder folder_;
 };
 
+// As validate and assess do.
+TEST_F(StressOfDeck, WarnsOfPlatesThatLieOnOneAnother) {
+  change("PSHELL,1,", "CQUAD4,2,1,14,13,12,11\nPSHELL,1,");
+  const Outcome outcome = stress("strip.yaml -o out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const char* const sentence = "1 shells have the corners of another: 2";
+  EXPECT_THAT(outcome.out, HasSubstr(std::string("warning: ") + sentence));
+  const auto summary = nlohmann::json::parse(text_of_file("out/summary.json"));
+  EXPECT_EQ(summary["warnings"], nlohmann::json({sentence}));
+}
+
 TEST_F(StressOfDeck, SolvesEachCase) {
   const Outcome outcome = stress("strip.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
