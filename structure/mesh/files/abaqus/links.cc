@@ -72,6 +72,7 @@ class LinkBlocks {
       mass.vertex = model_.elements[e].nodes.front();
       mass.label = model_.elements[e].label;
       mass.mass = value;
+      model_.elements[e].masses.push_back(static_cast<int>(mesh_.masses.size()));
       mesh_.masses.push_back(mass);
     }
   }

@@ -36,9 +36,10 @@ struct AbaqusDeckElement {
   std::vector<int> nodes;  ///< vertices
   int scope = 0;
   SourceLine line;
-  int shell = -1;          ///< place in the mesh
-  int solid = -1;          ///< place in the mesh
-  std::vector<int> beams;  ///< places in the mesh
+  int shell = -1;           ///< place in the mesh
+  int solid = -1;           ///< place in the mesh
+  std::vector<int> beams;   ///< places in the mesh
+  std::vector<int> masses;  ///< places in the mesh
 };
 
 /// Names and numbers that hold in one part's instance, the assembly, or a deck without parts.

@@ -553,12 +553,13 @@ class AbaqusText {
               fmt::format("{}, P{}, {}", beam_number_[load.beam], static_cast<char>('X' + i),
                           exact(factor * load.force_per_length[i] * units_.length / units_.force)));
     for (const Spin& spin : set.spins) {
-      if (!spin.acceleration.isZero(0) || factor < 0)
-        throw ModelError("a rotation that grows, or pulls inwards, is not written here");
+      if (!spin.acceleration.isZero(0) || factor < 0 || spin.part)
+        throw ModelError("a rotation that grows, pulls inwards or is a part's is not written here");
       line(fmt::format(
           "EVERYTHING, CENTRIF, {}, {}, {}", exact(factor * spin.velocity.squaredNorm()),
           exact(Vector3(spin.place / units_.length)), exact(Vector3(spin.velocity.normalized()))));
     }
+    if (!set.pulls.empty()) throw ModelError("gravity on a part of the masses is not written here");
     const double gravity = factor * set.gravity.norm() / units_.length;
     if (gravity != 0)
       line(fmt::format("EVERYTHING, GRAV, {}, {}", exact(gravity),
