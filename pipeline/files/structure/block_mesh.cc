@@ -102,7 +102,10 @@ class MeshReader {
     give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
     give_tripping_brackets(deck->mesh);
-    if (use_ == MeshUse::lift) let_go(*deck);
+    if (use_ == MeshUse::lift) {
+      refuse_holding_equations(*deck);
+      let_go(*deck);
+    }
     remark_on_solids(*deck);
     if (diagnostics_.error_count() > before) return;
     mesh_model_.diagnosis =
@@ -258,6 +261,14 @@ class MeshReader {
                      "which is not refined",
                      deck.mesh.solids.size()),
          1});
+  }
+
+  void refuse_holding_equations(const Deck& deck) {
+    for (const structure::HoldingEquation& held : deck.holding_equations)
+      pass_on(held.place +
+                  ": error: an equation resists motions of the block as a whole: it would hold it, "
+                  "where a lifted block hangs on its ropes alone",
+              mesh_model_.file.mark, diagnostics_);
   }
 
   /// A lifted block hangs on its ropes alone, and masses on it alone: solvers hold what hangs on

@@ -76,6 +76,16 @@ TEST_F(MeshCommand, NoPicturesOfADeckThatIsWrong) {
   EXPECT_FALSE(fs::exists("pictures"));
 }
 
+TEST_F(MeshCommand, EquationsThatHoldTheWholeAreNoneOfALift) {
+  change("box.bdf", "SUBCASE 1", "MPC = 7\nSUBCASE 1");
+  change("box.bdf", "ENDDATA", "MPC,7,2,3,1.,2,1,-.5\nENDDATA");
+  const Outcome outcome = run("validate mesh-lift/block.yaml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("box.bdf:475: error: an equation resists motions of the block"));
+  EXPECT_EQ(run("stress mesh-lift/block.yaml -o own").exit_code, 0);
+}
+
 TEST_F(MeshCommand, GoverningLoadCasesAreDecksThatAreReadAgain) {
   const Outcome outcome = run("assess mesh-lift -o out --decks");
   EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;

@@ -429,6 +429,7 @@ class LinkBlocks {
   // *EQUATION / number of terms / node, freedom, factor, ...
   void add_equations(const AbaqusBlock& block) {
     for (std::size_t i = 0; i < block.data.size();) {
+      const std::string place = model_.log.place(block.data[i].line);
       const long count = abaqus_label(block.data[i].fields().front(), "number of terms");
       Fields terms;
       for (++i; i < block.data.size() && static_cast<long>(terms.size()) < 3 * count; ++i) {
@@ -436,12 +437,12 @@ class LinkBlocks {
         terms.insert(terms.end(), more.begin(), more.end());
       }
       if (static_cast<long>(terms.size()) < 3 * count) throw CardError{"terms are missing"};
-      add_equation_of_sets(terms, static_cast<std::size_t>(count));
+      add_equation_of_sets(terms, static_cast<std::size_t>(count), place);
     }
   }
 
   /// One equation for each node of the first term's set; a set of one node serves all.
-  void add_equation_of_sets(const Fields& fields, std::size_t count) {
+  void add_equation_of_sets(const Fields& fields, std::size_t count, const std::string& place) {
     std::vector<std::vector<int>> nodes;
     for (std::size_t t = 0; t < count; ++t)
       nodes.push_back(model_.nodes_of(*scope_, fields[3 * t]));
@@ -457,7 +458,7 @@ class LinkBlocks {
         const double factor = abaqus_real(fields, 3 * t + 2, "factor");
         terms.push_back({{node, static_cast<int>(freedom) - 1, model_.axes(node)}, factor});
       }
-      add_equation(model_.deck, terms);
+      add_equation(model_.deck, terms, place);
     }
   }
 

@@ -62,6 +62,8 @@ class AbaqusText {
         nodes_(mesh_.vertex_labels) {}
 
   std::string write() {
+    for (const HoldingEquation& held : deck_.holding_equations)
+      mesh_.equations.push_back(held.equation);
     MiddleVertices middles(mesh_);
     for (const Shell& shell : mesh_.shells)
       middles_.push_back(shell.curvature >= 0 ? middles.of(shell) : std::vector<int>{});

@@ -57,6 +57,13 @@ struct Support {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns
 };
 
+/// An equation between motions whose forces are not in balance: it resists motions of the block as a
+/// whole, and holds it as supports do (rollers on a slope, faces that stay parallel, skew symmetry).
+struct HoldingEquation {
+  MotionEquation equation;
+  std::string place;  ///< file:line
+};
+
 struct SupportSet {
   long label = 0;
   std::string name;
@@ -156,6 +163,7 @@ struct Deck {
   /// Middles of shells' edges that are nodes of the file, whether anything uses them or not.
   std::vector<SurfacePoint> shell_middles;
   std::vector<SupportSet> support_sets;
+  std::vector<HoldingEquation> holding_equations;  ///< of all load cases; a lift has none
   std::vector<LoadSet> load_sets;
   std::vector<DeckLoadCase> load_cases;
   std::vector<NamedSet> sets;
