@@ -544,6 +544,17 @@ std::vector<int> AbaqusModel::elements_of(const AbaqusScope& scope, std::string_
   return look_up(*this, scope, text, &AbaqusScope::elements, &AbaqusScope::element_sets, "element");
 }
 
+std::pair<int, int> AbaqusModel::freedom_of(int vertex, int freedom) const {
+  const auto found = turns_of.find(vertex);
+  if (found == turns_of.end()) return {vertex, freedom};
+  if (freedom >= 3)
+    throw CardError{fmt::format(
+        "freedom {} of node {}, the ROT NODE of a rigid body: its freedoms are 1 to 3, which are "
+        "the body's rotations",
+        freedom + 1, deck.mesh.vertex_labels[vertex])};
+  return {found->second, freedom + 3};
+}
+
 Eigen::Matrix3d AbaqusModel::axes(int vertex) const {
   const auto found = axes_of.find(vertex);
   return found == axes_of.end() ? Eigen::Matrix3d::Identity() : found->second;

@@ -27,6 +27,7 @@ class LinkBlocks {
   explicit LinkBlocks(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
 
   void read() {
+    find_rotation_nodes();
     for (const AbaqusScope& scope : model_.scopes) {
       scope_ = &scope;
       for (std::size_t i = 0; i < scope.blocks.size(); ++i) {
@@ -50,6 +51,21 @@ class LinkBlocks {
   }
 
  private:
+  /// Those of all rigid bodies, which equations before them may name. What is wrong with a body is
+  /// said where it is read.
+  void find_rotation_nodes() {
+    for (const AbaqusScope& scope : model_.scopes)
+      for (const AbaqusBlock* block : scope.blocks) {
+        if (block->name != "RIGID BODY" || !block->has("ROT NODE")) continue;
+        try {
+          const int turning = model_.node_of(scope, block->required("ROT NODE"));
+          model_.turns_of[turning] = model_.node_of(scope, block->required("REF NODE"));
+        } catch (const CardError&) {
+          continue;
+        }
+      }
+  }
+
   std::vector<int> elements(const AbaqusBlock& block, AbaqusKind kind) const {
     std::vector<int> all = model_.elements_of(*scope_, block.required("ELSET"));
     for (const int e : all)
@@ -375,9 +391,12 @@ class LinkBlocks {
     }
   }
 
-  // *RIGID BODY, REF NODE = , ELSET = , PIN NSET = , TIE NSET =
+  // *RIGID BODY, REF NODE = , ROT NODE = , ELSET = , NSET = , PIN NSET = , TIE NSET =
   void add_rigid_body(const AbaqusBlock& block) {
     const int reference = model_.node_of(*scope_, block.required("REF NODE"));
+    const int turning =
+        block.has("ROT NODE") ? model_.node_of(*scope_, block.required("ROT NODE")) : -1;
+    if (turning == reference) throw CardError{"ROT NODE and REF NODE are one"};
     std::set<int> tied, pinned;
     if (block.has("ELSET"))
       for (const int e : model_.elements_of(*scope_, block.value("ELSET")))
@@ -394,7 +413,7 @@ class LinkBlocks {
       link.master = reference;
       link.bound = bound;
       for (const int node : nodes)
-        if (node != reference) link.slaves.push_back(node);
+        if (node != reference && node != turning) link.slaves.push_back(node);
       if (!link.slaves.empty()) mesh_.rigid_links.push_back(link);
     }
   }
@@ -456,7 +475,9 @@ class LinkBlocks {
         if (freedom > 6) throw CardError{"freedoms go from 1 to 6"};
         const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][s];
         const double factor = abaqus_real(fields, 3 * t + 2, "factor");
-        terms.push_back({{node, static_cast<int>(freedom) - 1, model_.axes(node)}, factor});
+        const auto [vertex, component] = model_.freedom_of(node, static_cast<int>(freedom) - 1);
+        // What a ROT NODE's displacement is, in the deck's numbers, is an angle in radians.
+        terms.push_back({{vertex, component, model_.axes(vertex)}, factor});
       }
       add_equation(model_.deck, terms, place);
     }

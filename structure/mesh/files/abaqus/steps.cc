@@ -161,12 +161,29 @@ class StepBlocks {
           support.value[i - 1] = i <= 3 ? value * model_.units.length : value;
         }
       }
-      for (const int node : model_.nodes_of(*scope_, fields[0])) {
-        support.vertex = node;
-        support.axes = model_.axes(node);
-        now_.supports.push_back(support);
-      }
+      for (const int node : model_.nodes_of(*scope_, fields[0]))
+        now_.supports.push_back(support_at(node, support));
     });
+  }
+
+  /// A support of a node; that of a ROT NODE holds the rotations of its rigid body.
+  Support support_at(int node, const Support& given) const {
+    Support support = given;
+    support.vertex = node;
+    if (model_.turns_of.contains(node)) {
+      support.held = {};
+      support.value = {};
+      for (int i = 0; i < 6; ++i) {
+        // Of all six that a range or name may hold, a node has its own three.
+        if (!given.held[i] || (i >= 3 && given.held[0])) continue;
+        const auto [vertex, freedom] = model_.freedom_of(node, i);
+        support.vertex = vertex;
+        support.held[freedom] = true;
+        support.value[freedom] = given.value[i] / model_.units.length;
+      }
+    }
+    support.axes = model_.axes(support.vertex);
+    return support;
   }
 
   void read_step(const std::vector<const AbaqusBlock*>& blocks) {
@@ -304,9 +321,9 @@ class StepBlocks {
       }
       const double value = abaqus_real(fields, 2, "value");
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
-        const double unit = freedom <= 3 ? model_.units.force : model_.units.moment();
-        now_.points.add({node, freedom - 1},
-                        value * unit * model_.axes(node).col((freedom - 1) % 3));
+        const auto [vertex, component] = model_.freedom_of(node, static_cast<int>(freedom) - 1);
+        const double unit = component < 3 ? model_.units.force : model_.units.moment();
+        now_.points.add({vertex, component}, value * unit * model_.axes(vertex).col(component % 3));
       }
     });
   }
