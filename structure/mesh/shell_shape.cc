@@ -83,4 +83,18 @@ bool is_folded(const Mesh& mesh, const Shell& shell) {
                      [&](const Vector3& normal) { return normal.dot(mean) < -rounding * largest; });
 }
 
+std::vector<int> fastened_off_straight_shells(const Mesh& mesh) {
+  constexpr double rounding = 1e-6;  // of the shell's size
+  std::vector<int> off;
+  for (const SurfacePoint& point : mesh.surface_points) {
+    Shell straight = mesh.shells[point.shell];
+    if (straight.curvature < 0 || !point.line.empty()) continue;
+    straight.curvature = -1;
+    const double distance =
+        (mesh.vertices[point.vertex] - position(mesh, straight, point.xi)).norm();
+    if (distance > rounding * longest_edge(mesh, straight)) off.push_back(point.vertex);
+  }
+  return off;
+}
+
 }  // namespace blocklift::structure

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "structure/mesh/mesh.h"
 
 namespace blocklift::structure {
@@ -9,5 +11,11 @@ namespace blocklift::structure {
 /// far off. Judged at corners, and of curved shells at the middles and Gauss' points, too. A shell
 /// without area is not said to be folded.
 bool is_folded(const Mesh& mesh, const Shell& shell);
+
+/// Vertices that are fastened to curved shells (SurfacePoint, such as a force or a mass at the
+/// middle of an edge), off the places that straight shells between the same corners have there.
+/// Elements of degree 1 are straight: what is fastened would not turn with them as a rigid body,
+/// and a force there lose its moment.
+std::vector<int> fastened_off_straight_shells(const Mesh& mesh);
 
 }  // namespace blocklift::structure

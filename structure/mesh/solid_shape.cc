@@ -158,8 +158,8 @@ Vector3 centre_of(const SolidTopology& topology) {
   return topology.linear_kind.local.rowwise().mean();
 }
 
-/// d N_i / d xi_a, three rows a point, where a solid's shape is judged: at its nodes, its centre and
-/// the points of its rule.
+/// d N_i / d xi_a, three rows a point, where a solid's shape is judged: at its nodes, its centre
+/// and the points of its rule.
 Eigen::MatrixXd find_judged_gradients(SolidShape form) {
   const SolidTopology& topology = topology_of(form);
   const ElementKind& kind = topology.kind;

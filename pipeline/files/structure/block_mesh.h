@@ -63,7 +63,8 @@ void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
 std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh);
 
 /// What is probably not meant in a mesh whose own load cases are solved, such as plates that lie on
-/// one another, as sentences with the numbers of the first cells; those of lifts alone are left out.
+/// one another, as sentences with the numbers of the first cells; those of lifts alone are left
+/// out.
 std::vector<std::string> warnings_of_own_cases(const MeshModel& mesh);
 
 /// What was found in the deck and what became of it, as lines of text: cards that are not or not

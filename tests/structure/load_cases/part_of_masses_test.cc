@@ -63,9 +63,9 @@ TEST(PartOfMasses, PartsMakeTheWhole) {
   }
 }
 
-// Weights by hand: masses that are not in the set are not pulled. CalculiX 2.20 does so, too: a cube
-// with a mass of 1000 kg on it, pulled by 10 m/s^2, presses by 10,000 N more if the mass is in the
-// set.
+// Weights by hand: masses that are not in the set are not pulled. CalculiX 2.20 does so, too: a
+// cube with a mass of 1000 kg on it, pulled by 10 m/s^2, presses by 10,000 N more if the mass is in
+// the set.
 TEST(PartOfMasses, MassesOutsideTheSetAreNotPulled) {
   const double density = 7850, pull = 10;
   const auto down = [](const std::string& set) {

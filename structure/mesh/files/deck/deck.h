@@ -57,8 +57,9 @@ struct Support {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns
 };
 
-/// An equation between motions whose forces are not in balance: it resists motions of the block as a
-/// whole, and holds it as supports do (rollers on a slope, faces that stay parallel, skew symmetry).
+/// An equation between motions whose forces are not in balance: it resists motions of the block as
+/// a whole, and holds it as supports do (rollers on a slope, faces that stay parallel, skew
+/// symmetry).
 struct HoldingEquation {
   MotionEquation equation;
   std::string place;  ///< file:line

@@ -1,6 +1,7 @@
 // Cells of decks that are numbered inside out, or folded.
 
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -82,8 +83,8 @@ TEST(DistortedCells, FoldedSolidsAreRefusedAtTheirLine) {
               HasSubstr("deck.inp:11: error: *ELEMENT: element 10 is folded or has no volume"));
 }
 
-// Along the edge from 1 to 2 the place is a parabola through its middle, which turns back within the
-// edge where the middle lies beyond 3/4 of it.
+// Along the edge from 1 to 2 the place is a parabola through its middle, which turns back within
+// the edge where the middle lies beyond 3/4 of it.
 TEST(DistortedCells, MiddlesThatLieFarOffFoldASolid) {
   const auto deck = [](const char* x) {
     return grids_of_cube + "GRID,10,," + x + ",0.,0.\nCTETRA,103,5,1,2,3,5,10\n" +
@@ -134,6 +135,19 @@ TEST(DistortedCells, MiddlesThatLieFarOffFoldAPlate) {
   };
   EXPECT_EQ(complaints_of_nastran(triangle(".7")), "");
   EXPECT_THAT(complaints_of_nastran(triangle(".8")), HasSubstr("element 7 is folded"));
+}
+
+// Elements of degree 1 leave out how high the middle of an edge stands: what is fastened there
+// hangs beside them. A straight edge's middle, and one that nothing is fastened to, are on them.
+TEST(DistortedCells, FastenedMiddlesOfCurvedEdgesLieOffStraightShells) {
+  const std::string deck = grids_of_cube +
+                           "GRID,10,,.5,0.,.1\nGRID,11,,1.,.5,0.\nCQUAD8,7,5,1,2,3,4,10,11\n" +
+                           property_of_plates;
+  EXPECT_TRUE(fastened_off_straight_shells(nastran(deck).mesh).empty());
+  EXPECT_TRUE(fastened_off_straight_shells(nastran(deck + "CONM2,9,11,,5.\n").mesh).empty());
+  const std::vector<int> off =
+      fastened_off_straight_shells(nastran(deck + "CONM2,9,10,,5.\n").mesh);
+  EXPECT_THAT(off, testing::ElementsAre(9));
 }
 
 }  // namespace
