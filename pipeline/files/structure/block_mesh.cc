@@ -98,6 +98,10 @@ class MeshReader {
     const std::size_t before = diagnostics_.error_count();
     const auto deck = std::make_shared<Deck>();
     if (!read_deck(*deck)) return;
+    if (deck->mesh.shells.empty() && deck->mesh.beams.empty() && deck->mesh.solids.empty()) {
+      complain(mesh_model_.file.value + " has no plates, bars or solids", {"is it all there?"});
+      return;
+    }
     mesh_model_.content = hash_of_files(deck->files);
     give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
