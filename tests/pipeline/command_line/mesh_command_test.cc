@@ -79,9 +79,9 @@ TEST_F(MeshCommand, NoPicturesOfADeckThatIsWrong) {
 TEST_F(MeshCommand, FilesWithoutElementsAreRefused) {
   folder_.write("nodes.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n");
   folder_.write("empty.msh", "");
-  for (const std::string file : {"nodes.bdf, units: m-kg-N", "empty.msh, units: m"}) {
+  for (const char* file : {"nodes.bdf, units: m-kg-N", "empty.msh, units: m"}) {
     folder_.write("nothing.yaml",
-                  "kind: block\nmesh: {file: " + file + ", yield_stress: 235 MPa}\n");
+                  std::string("kind: block\nmesh: {file: ") + file + ", yield_stress: 235 MPa}\n");
     const Outcome outcome = run("validate nothing.yaml");
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, testing::AnyOf(HasSubstr("nodes.bdf has no plates, bars or solids"),
