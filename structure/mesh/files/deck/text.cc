@@ -138,6 +138,8 @@ const DeckFiles::File& DeckFiles::load(const std::filesystem::path& path,
   stream.read(text->data(), static_cast<std::streamsize>(text->size()));
   if (text->find('\0') != std::string::npos)
     throw CardError{fmt::format("\"{}\" is no text: it has bytes of zero", path.string())};
+  // Lines of old Macintoshes end in a return alone.
+  if (text->find('\n') == std::string::npos) std::replace(text->begin(), text->end(), '\r', '\n');
   auto file = std::make_unique<File>();
   file->number = log_.add_file(path.string());
   file->path = path;

@@ -1,5 +1,6 @@
 // Decks that are cut off, empty, or written by editors and exports that do as they like.
 
+#include <algorithm>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -63,6 +64,10 @@ TEST(BrokenDecks, MarksOfEditors) {
   };
   EXPECT_EQ(complaints_of_nastran(for_windows(square_of_nastran)), "");
   EXPECT_EQ(complaints_of_abaqus(for_windows(square_of_abaqus)), "");
+  // Those of old Macintoshes end them in a return alone.
+  std::string returns = square_of_abaqus;
+  std::replace(returns.begin(), returns.end(), '\n', '\r');
+  EXPECT_EQ(abaqus(returns).mesh.shells.size(), 1U);
 }
 
 // A keyword goes on behind a comma, but never in another keyword.
