@@ -369,6 +369,9 @@ class MeshReader {
   /// What hangs on nothing in a lift may be held by the deck's own supports; whether it is shows
   /// when its cases are solved.
   bool concerns_use(const structure::Finding& finding) const {
+    // Gmsh's own, of a geometry, are told and no more: nobody could mend them.
+    if (finding.kind == "folded shells" && structure::is_cad_file(mesh_model_.file.value))
+      return false;
     return use_ == MeshUse::lift || finding.kind.starts_with("shells without") ||
            finding.kind.starts_with("folded");
   }
