@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "algebra/decompositions.h"
 
@@ -65,9 +66,18 @@ std::string level_axis(double angle) {
 
 enum class Motion { level, upright, tilt, yaw };
 
-Motion main_motion(const BodyEnergies& e) {
+// The kind of motion with most energy first; behind it, in the order of the kinds, those with as
+// much but for a little.
+std::vector<Motion> main_motions(const BodyEnergies& e) {
+  constexpr double nearly = 0.95;  // 49 to 51 % is 0.96
   const std::array<double, 4> parts = {e.level, e.upright, e.roll_and_pitch, e.yaw};
-  return static_cast<Motion>(std::max_element(parts.begin(), parts.end()) - parts.begin());
+  const auto most = std::max_element(parts.begin(), parts.end());
+  std::vector<Motion> motions = {static_cast<Motion>(most - parts.begin())};
+  for (auto part = parts.begin(); part != parts.end(); ++part) {
+    if (part != most && *part > nearly * *most)
+      motions.push_back(static_cast<Motion>(part - parts.begin()));
+  }
+  return motions;
 }
 
 std::string motion_in_words(Motion motion, const BodyModeMotion& body, double elastic_share) {
@@ -88,6 +98,16 @@ std::string motion_in_words(Motion motion, const BodyModeMotion& body, double el
     }
   }
   return {};
+}
+
+// All of several, in the order of the kinds, so that the name does not hang on which has most.
+std::string motions_in_words(std::vector<Motion> motions, const BodyModeMotion& body,
+                             double elastic_share) {
+  std::sort(motions.begin(), motions.end());
+  std::string words;
+  for (const Motion motion : motions)
+    words += (words.empty() ? "" : " and ") + motion_in_words(motion, body, elastic_share);
+  return words;
 }
 
 // The elastic mode of a body that has most of the energy, where vibration is most of the body's
@@ -197,9 +217,10 @@ std::string mode_name(const Mechanism& mechanism, const Kinematics& kinematics, 
   const std::string bodies = listed(mechanism, order, count) + ": ";
   if (const ElasticModeMotion* vibration = main_vibration(mechanism, mode, first))
     return bodies + "vibration in " + mechanism.elastic_modes()[vibration->mode].name;
-  const Motion motion = main_motion(
+  const std::vector<Motion> motions = main_motions(
       energies(first, mechanism.bodies()[b].inertia.mass, inertia_W(mechanism, kinematics, b)));
-  std::string name = bodies + motion_in_words(motion, first, mode.elastic_share);
+  const Motion motion = motions.front();
+  std::string name = bodies + motions_in_words(motions, first, mode.elastic_share);
   for (std::size_t i = count; i < order.size() && order[i]->energy_share >= 0.05; ++i) {
     const double phase = telling(motion, first).dot(telling(motion, *order[i])).real();
     if (phase >= 0.0) continue;

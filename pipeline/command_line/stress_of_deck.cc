@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/files/structure/block_mesh.h"
 #include "pipeline/terminal/text_table.h"
 #include "structure/process_group.h"
 
@@ -95,6 +96,8 @@ void print_remarks(const DeckAssessment& assessment) {
   if (!assessment.solution.idle_supports.empty())
     print_wrapped(fmt::format("{} held nodes hold nothing: no element is joined to them",
                               assessment.solution.idle_supports.size()));
+  for (const std::string& sentence : warnings_of_own_cases(*assessment.block->mesh))
+    print_wrapped("warning: " + sentence);
   for (const std::string& sentence : left_out_of_cases(deck))
     print_wrapped("warning: these cases lack what the deck has: " + sentence);
   for (const structure::DeckRemark& remark : deck.remarks)

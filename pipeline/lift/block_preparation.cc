@@ -12,6 +12,7 @@
 #include "structure/error.h"
 #include "structure/mesh/padeye/padeye_in_block.h"
 #include "structure/mesh/plates/shell_generator.h"
+#include "structure/mesh/shell_shape.h"
 #include "structure/practice/hot_spot.h"
 #include "structure/response/line_loads.h"
 #include "structure/response/loose_block.h"
@@ -121,14 +122,20 @@ std::unique_ptr<structure::ElasticModel> make_model(const BlockModel& block,
 
 bool check_element_degree(const BlockModel& block, const StructureSettings& settings,
                           Diagnostics& diagnostics) {
-  if (settings.element_degree != 1 || !block.mesh || block.mesh->deck->mesh.curved_shells.empty())
-    return true;
-  diagnostics.error(block.mesh->file.mark,
-                    "the mesh has quadratic shells, which may be curved, and the case asks for "
-                    "elements of degree 1 (structure: element_degree: 1), which do not turn with "
-                    "them as a rigid body",
-                    {"element_degree of 2, which the mesh itself has, to 4",
-                     "or a mesh of linear shells (CQUAD4, CTRIA3, S4, S3)"});
+  if (settings.element_degree != 1 || !block.mesh) return true;
+  const structure::Mesh& mesh = block.mesh->deck->mesh;
+  const std::vector<int> off = structure::fastened_off_straight_shells(mesh);
+  if (off.empty()) return true;
+  diagnostics.error(
+      block.mesh->file.mark,
+      fmt::format(
+          "the case asks for elements of degree 1 (structure: element_degree: 1), which are "
+          "straight, "
+          "and {} nodes to which something is fastened, {} the first, lie off them, in middles of "
+          "curved edges: what is there would not turn with the elements as a rigid body",
+          off.size(), mesh.vertex_labels[off.front()]),
+      {"element_degree of 2, which the mesh itself has, to 4",
+       "or a mesh of linear shells (CQUAD4, CTRIA3, S4, S3)"});
   return false;
 }
 

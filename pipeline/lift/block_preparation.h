@@ -10,14 +10,15 @@
 
 namespace blocklift::pipeline {
 
-/// Complains of elements of degree 1 for a deck of quadratic shells, at the deck's place.
+/// Complains, at the deck's place, of elements of degree 1 where something is fastened to curved
+/// shells off the straight ones (fastened_off_straight_shells).
 /// @returns whether it had nothing to complain of.
 bool check_element_degree(const BlockModel& block, const StructureSettings& settings,
                           Diagnostics& diagnostics);
 
 /// Mesh, mass and load vectors of a block model.
 ///
-/// Elements of degree 1 for a deck of quadratic shells are refused: see check_element_degree.
+/// Some elements of degree 1 are refused: see check_element_degree.
 /// What the mesh generator and the spreading of outfitting refuse (parts that run into one another,
 /// that nothing joins or that carry a mass they cannot have; elements that no memory holds), and a
 /// stated mass below that of the plates, is wrong in the input: it is said as a complaint about the

@@ -6,6 +6,7 @@
 
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
+#include "structure/mesh/shell_shape.h"
 
 namespace blocklift::pipeline {
 
@@ -43,6 +44,19 @@ structure::Mesh mesh_of(const structure::Deck& deck, bool is_massless, const Mar
   return mesh;
 }
 
+/// Of a degree that the deck's own elements do not have.
+void check_degree(const structure::Mesh& mesh, int degree, const Mark& mark) {
+  if (degree != 1) return;
+  const std::vector<int> off = structure::fastened_off_straight_shells(mesh);
+  if (off.empty()) return;
+  refuse(mark,
+         fmt::format("elements of degree 1 are straight, and {} nodes that are loaded, held or "
+                     "joined, {} the first, lie off them, in middles of curved edges: what acts "
+                     "there would lose its moment",
+                     off.size(), mesh.vertex_labels[off.front()]),
+         {"--degree 2, which the deck itself has, to 4"});
+}
+
 }  // namespace
 
 DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::string& name,
@@ -57,12 +71,13 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
   assessment.block = std::move(block);
   assessment.name = name;
   const structure::Deck& deck = assessment.deck();
+  const int of_elements = degree.value_or(own_degree(deck));
+  check_degree(deck.mesh, of_elements, mark);
   Stopwatch watch;
   try {
     assessment.is_massless = !(assessment.block->mesh->diagnosis->mass.mass > 0);
     assessment.model = std::make_unique<structure::ElasticModel>(
-        mesh_of(deck, assessment.is_massless, mark),
-        structure::Resolution{degree.value_or(own_degree(deck)), {}});
+        mesh_of(deck, assessment.is_massless, mark), structure::Resolution{of_elements, {}});
     assessment.mesh_s = watch.lap();
     assessment.solution = structure::solve_deck(*assessment.model, deck);
   } catch (const structure::ModelError& error) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pipeline/files/structure/block_mesh.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/preparation.h"
 #include "pipeline/part/deck_assessment.h"
@@ -104,6 +105,7 @@ Json make_summary(const DeckAssessment& assessment) {
                                   {"reason", skipped.is_held ? "no loads" : "no supports"}});
   }
   summary["left_out"] = left_out_of_cases(deck);
+  summary["warnings"] = warnings_of_own_cases(*assessment.block->mesh);
   const structure::DeckTimes& times = assessment.solution.times;
   summary["timing"] = {{"mesh_s", assessment.mesh_s},
                        {"assembly_s", times.assembly},

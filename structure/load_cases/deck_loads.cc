@@ -11,6 +11,7 @@
 #include "structure/mesh/files/deck/coordinate_systems.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
+#include "structure/system/matter.h"
 
 namespace blocklift::structure {
 
@@ -163,6 +164,10 @@ Eigen::Matrix<double, 12, 1> field_of(const Spin& spin) {
   return field;
 }
 
+Eigen::MatrixXd loads_of_part(const ElasticModel& model, const MeshPart& part) {
+  return inertia_loads(model.space(), model.mass_properties(), part);
+}
+
 }  // namespace
 
 Eigen::VectorXd load_of(const ElasticModel& model, const Deck& deck,
@@ -177,7 +182,11 @@ Eigen::VectorXd load_of(const ElasticModel& model, const Deck& deck,
     for (const BeamLoad& along : set.beam_loads) adder.add(along, factor);
     if (!set.gravity.isZero(0))
       load -= factor * (model.inertia_loads().leftCols<3>() * set.gravity);
-    for (const Spin& spin : set.spins) load += factor * (model.inertia_loads() * field_of(spin));
+    for (const PartPull& pull : set.pulls)
+      load -= factor * (loads_of_part(model, *pull.part).leftCols<3>() * pull.acceleration);
+    for (const Spin& spin : set.spins)
+      load += factor * ((spin.part ? loads_of_part(model, *spin.part) : model.inertia_loads()) *
+                        field_of(spin));
   }
   return load;
 }

@@ -15,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/load_cases/deck_loads.h"
 #include "structure/load_cases/deck_supports.h"
+#include "structure/load_cases/holding_equations.h"
 #include "structure/mesh/spring_motion.h"
 #include "structure/response/loose_block.h"
 #include "structure/space/freedom_text.h"
@@ -37,6 +38,8 @@ std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets)
     const auto& of_set = deck.support_sets[set].supports;
     supports.insert(supports.end(), of_set.begin(), of_set.end());
   }
+  const std::vector<Support> of_equations = supports_of_equations(deck);
+  supports.insert(supports.end(), of_equations.begin(), of_equations.end());
   return supports;
 }
 
@@ -249,7 +252,9 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   const Space& space = model.space();
   const std::vector<HeldDirection> directions =
       find_held_directions(space, supports_of(deck, sets), own_middles(deck));
-  const std::vector<HeldSum> sums = as_sums(space, directions);
+  std::vector<HeldSum> sums = as_sums(space, directions);
+  const std::vector<HeldSum> of_equations = sums_of_equations(space, deck);
+  sums.insert(sums.end(), of_equations.begin(), of_equations.end());
   Stopwatch watch;
   Eigen::VectorXd diagonal;
   // Handed over as it is made: sparse matrices are copied where they are moved.
@@ -263,7 +268,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   try {
     system.factorise();
   } catch (const LooseUnknown& loose) {
-    if (directions.empty()) {  // springs to the ground, which do not hold it alone
+    if (sums.empty()) {  // springs to the ground, which do not hold it alone
       for (const int load_case : cases) result.skipped.push_back({load_case, false});
       return;
     }
@@ -291,6 +296,9 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     solution.motion = motions.col(column);
     solution.reactions = reactions_at(space, directions, forces.col(column));
     for (const SupportReaction& reaction : of_loose_parts[c]) add(solution.reactions, reaction);
+    for (const SupportReaction& reaction : reactions_of_equations(
+             deck, forces.col(column).tail(static_cast<Eigen::Index>(of_equations.size()))))
+      add(solution.reactions, reaction);
     solution.strain_energy = system.energy(unknowns.col(column));
     const Eigen::VectorXd by_loads = unknowns.col(column) - unloaded;
     check_energy(is_moved ? system.energy(by_loads) : solution.strain_energy, diagonal,
@@ -317,7 +325,7 @@ CasesOfSupports sort_cases(const Deck& deck, DeckSolution& result) {
     const bool is_grounded = std::any_of(
         deck.mesh.springs.begin(), deck.mesh.springs.end(),
         [](const Spring& spring) { return spring.vertices[0] < 0 || spring.vertices[1] < 0; });
-    if (supports.empty() && !is_grounded)
+    if (supports.empty() && !is_grounded && deck.holding_equations.empty())
       result.skipped.push_back({static_cast<int>(c), false});
     else if (load_case.loads.empty() && !is_moved)
       result.skipped.push_back({static_cast<int>(c), true});

@@ -14,6 +14,7 @@
 
 #include "algebra/decompositions.h"
 #include "structure/index.h"
+#include "structure/mesh/shell_shape.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/mesh/spring_motion.h"
 
@@ -149,6 +150,10 @@ class Doctor {
       const std::vector<int> corners = around(shell);
       const double surface = area(mesh_, shell);
       result_.plate_area += surface;
+      if (is_folded(mesh_, shell)) {
+        add("folded shells", Severity::error, shell.label, centre(shell));
+        continue;
+      }
       if (!(surface > 1e-6 * size * size)) {
         add("shells without area", Severity::error, shell.label, centre(shell));
         continue;
@@ -172,6 +177,9 @@ class Doctor {
     }
     for (const Beam& beam : mesh_.beams)
       result_.beam_length += (vertex(beam.vertices[1]) - vertex(beam.vertices[0])).norm();
+    say("folded shells",
+        "{} shells are folded: their corners are not in turn about them, or one turns inwards",
+        count("folded shells"));
     say("shells without area", "{} shells have no area", count("shells without area"));
     say("slender shells", "{} shells are slender, up to {:.0f} times longer than high",
         count("slender shells"), worst_aspect);

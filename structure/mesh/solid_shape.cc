@@ -1,6 +1,7 @@
 #include "structure/mesh/solid_shape.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -157,6 +158,28 @@ Vector3 centre_of(const SolidTopology& topology) {
   return topology.linear_kind.local.rowwise().mean();
 }
 
+/// d N_i / d xi_a, three rows a point, where a solid's shape is judged: at its nodes, its centre
+/// and the points of its rule.
+Eigen::MatrixXd find_judged_gradients(SolidShape form) {
+  const SolidTopology& topology = topology_of(form);
+  const ElementKind& kind = topology.kind;
+  const Eigen::Index own = 3L * (kind.nodes + 1);
+  Eigen::MatrixXd gradients(own + kind.gradients.rows(), kind.nodes);
+  for (Eigen::Index i = 0; i < kind.nodes; ++i)
+    gradients.middleRows<3>(3 * i) = shape_of(form).gradients(kind.local.col(i)).transpose();
+  gradients.middleRows<3>(3L * kind.nodes) =
+      shape_of(form).gradients(centre_of(topology)).transpose();
+  gradients.bottomRows(kind.gradients.rows()) = kind.gradients;
+  return gradients;
+}
+
+const Eigen::MatrixXd& judged_gradients(SolidShape form) {
+  static const std::array<Eigen::MatrixXd, 4> all{
+      find_judged_gradients(SolidShape::tetrahedron), find_judged_gradients(SolidShape::wedge),
+      find_judged_gradients(SolidShape::hexahedron), find_judged_gradients(SolidShape::pyramid)};
+  return all[static_cast<std::size_t>(form)];
+}
+
 }  // namespace
 
 const SolidTopology& topology_of(SolidShape shape) {
@@ -213,15 +236,12 @@ void complete_solid(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles) {
 }
 
 double least_jacobian_ratio(const Mesh& mesh, const Solid& solid) {
-  const SolidTopology& topology = topology_of(solid.shape);
+  const Eigen::MatrixXd& gradients = judged_gradients(solid.shape);
   const Eigen::Matrix3Xd places = places_of(mesh, solid);
-  const auto determinant = [&](const Vector3& xi) {
-    const Eigen::Matrix3d jacobian = places * shape_of(solid.shape).gradients(xi);
-    return jacobian.determinant();
-  };
-  double least = determinant(centre_of(topology)), largest = least;
-  for (Eigen::Index c = 0; c < topology.corners; ++c) {
-    const double here = determinant(topology.kind.local.col(c));
+  double least = std::numeric_limits<double>::infinity(), largest = -least;
+  for (Eigen::Index row = 0; row < gradients.rows(); row += 3) {
+    const Eigen::Matrix3d jacobian = places * gradients.middleRows<3>(row).transpose();
+    const double here = jacobian.determinant();
     least = std::min(least, here);
     largest = std::max(largest, here);
   }

@@ -50,7 +50,8 @@ struct SolidEdgeMiddles {
 /// mesh, with labels of their own. Turns it where its nodes run the other way round.
 void complete_solid(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles);
 
-/// The least determinant of the Jacobian at the corners and the centre, over the largest.
+/// The least determinant of the Jacobian at the nodes, the centre and the points of the rule, over
+/// the largest.
 double least_jacobian_ratio(const Mesh& mesh, const Solid& solid);
 
 /// The face of a solid whose corners are these vertices, in any order: its place among the faces

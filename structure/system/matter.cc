@@ -30,10 +30,12 @@ Eigen::Matrix3d cross_matrix(const Vector3& v) {
   return m;
 }
 
-void visit_beams(const Space& space, const VisitMatter& visit) {
+/// @param part none: all
+void visit_beams(const Space& space, const MeshPart* part, const VisitMatter& visit) {
   const Mesh& mesh = space.mesh();
   for (int cell = 0; cell < static_cast<int>(space.beams().size()); ++cell) {
     const BeamCell& located = space.beams()[cell];
+    if (part != nullptr && !MeshPart::has(part->beams, located.beam)) continue;
     const Beam& beam = mesh.beams[located.beam];
     const Eigen::Matrix3d axes = beam_axes(mesh, beam);
     const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree) + 1);
@@ -67,9 +69,10 @@ void visit_beams(const Space& space, const VisitMatter& visit) {
   }
 }
 
-void visit_solids(const Space& space, const VisitMatter& visit) {
+void visit_solids(const Space& space, const MeshPart* part, const VisitMatter& visit) {
   const Mesh& mesh = space.mesh();
   for (std::size_t s = 0; s < mesh.solids.size(); ++s) {
+    if (part != nullptr && !MeshPart::has(part->solids, static_cast<int>(s))) continue;
     const Solid& solid = mesh.solids[s];
     for (const SolidPoint& integrated : solid_points(mesh, solid)) {
       MatterPoint point;
@@ -84,9 +87,12 @@ void visit_solids(const Space& space, const VisitMatter& visit) {
   }
 }
 
-void visit_masses(const Space& space, const VisitMatter& visit) {
-  for (const PointMass& mass : space.mesh().masses) {
+void visit_masses(const Space& space, const MeshPart* part, const VisitMatter& visit) {
+  const std::vector<PointMass>& masses = space.mesh().masses;
+  for (std::size_t m = 0; m < masses.size(); ++m) {
+    const PointMass& mass = masses[m];
     if (!(mass.mass > 0)) continue;
+    if (part != nullptr && !MeshPart::has(part->masses, static_cast<int>(m))) continue;
     const int node = space.node_of_vertex(mass.vertex);
     const double one = 1;
     MatterPoint point;
@@ -227,9 +233,9 @@ void Matter::visit_shell(int cell, const VisitMatter& visit) const {
 }
 
 void Matter::visit_others(const VisitMatter& visit) const {
-  visit_beams(space_, visit);
-  visit_solids(space_, visit);
-  visit_masses(space_, visit);
+  visit_beams(space_, nullptr, visit);
+  visit_solids(space_, nullptr, visit);
+  visit_masses(space_, nullptr, visit);
 }
 
 Wrench resultant(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& load) {
@@ -273,6 +279,24 @@ Eigen::MatrixXd inertia_loads(const Matter& matter, const MassProperties& mass, 
       for (const int cell : cells[shell]) matter.visit_shell(cell, add);
   });
   matter.visit_others(add);
+  return loads;
+}
+
+Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass,
+                              const MeshPart& part) {
+  Eigen::MatrixXd loads = make_large_zero(space.freedoms(), 12);
+  const VisitMatter add = [&](const MatterPoint& p) {
+    const Eigen::Matrix<double, 3, 12> forces =
+        p.mass * mass.density_factor(p.place) * inertia_forces(p.place);
+    add_forces(p, forces, loads);
+  };
+  std::vector<int> cells;
+  for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell)
+    if (MeshPart::has(part.shells, space.shells()[cell].shell)) cells.push_back(cell);
+  for_each_shell_point(space, cells, add);
+  visit_beams(space, &part, add);
+  visit_solids(space, &part, add);
+  visit_masses(space, &part, add);
   return loads;
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
+#include "structure/mesh/mesh_part.h"
 #include "structure/rigid_body.h"
 #include "structure/space/space.h"
 
@@ -94,6 +95,8 @@ MassProperties find_mass_properties(const Space& space, const double* stated_mas
 /// @param threads 0: as many as the machine has; sums are formed in one order, whatever the number.
 Eigen::MatrixXd inertia_loads(const Matter& matter, const MassProperties& mass, int threads = 0);
 Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass);
+/// The same of a part of the mesh alone.
+Eigen::MatrixXd inertia_loads(const Space& space, const MassProperties& mass, const MeshPart& part);
 
 /// Load vectors of wrenches about a point (force, moment; a column each), spread over some shell
 /// cells as a body force b(x) = c + d x (x - point) with c and d such that the resultant is the

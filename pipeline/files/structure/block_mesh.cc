@@ -98,11 +98,18 @@ class MeshReader {
     const std::size_t before = diagnostics_.error_count();
     const auto deck = std::make_shared<Deck>();
     if (!read_deck(*deck)) return;
+    if (deck->mesh.shells.empty() && deck->mesh.beams.empty() && deck->mesh.solids.empty()) {
+      complain(mesh_model_.file.value + " has no plates, bars or solids", {"is it all there?"});
+      return;
+    }
     mesh_model_.content = hash_of_files(deck->files);
     give_properties(block_, *deck, diagnostics_);
     give_yield_stress(deck->mesh);
     give_tripping_brackets(deck->mesh);
-    if (use_ == MeshUse::lift) let_go(*deck);
+    if (use_ == MeshUse::lift) {
+      refuse_holding_equations(*deck);
+      let_go(*deck);
+    }
     remark_on_solids(*deck);
     if (diagnostics_.error_count() > before) return;
     mesh_model_.diagnosis =
@@ -260,6 +267,14 @@ class MeshReader {
          1});
   }
 
+  void refuse_holding_equations(const Deck& deck) {
+    for (const structure::HoldingEquation& held : deck.holding_equations)
+      pass_on(held.place +
+                  ": error: an equation resists motions of the block as a whole: it would hold it, "
+                  "where a lifted block hangs on its ropes alone",
+              mesh_model_.file.mark, diagnostics_);
+  }
+
   /// A lifted block hangs on its ropes alone, and masses on it alone: solvers hold what hangs on
   /// nothing, a lift does not.
   static void let_go(Deck& deck) {
@@ -354,8 +369,11 @@ class MeshReader {
   /// What hangs on nothing in a lift may be held by the deck's own supports; whether it is shows
   /// when its cases are solved.
   bool concerns_use(const structure::Finding& finding) const {
+    // Gmsh's own, of a geometry, are told and no more: nobody could mend them.
+    if (finding.kind == "folded shells" && structure::is_cad_file(mesh_model_.file.value))
+      return false;
     return use_ == MeshUse::lift || finding.kind.starts_with("shells without") ||
-           finding.kind == "folded solids";
+           finding.kind.starts_with("folded");
   }
 
   BlockModel& block_;
@@ -455,6 +473,20 @@ std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh) {
     if (entry.used != entry.read || !entry.left_out.empty()) cards.push_back(std::move(entry));
   }
   return cards;
+}
+
+std::vector<std::string> warnings_of_own_cases(const MeshModel& mesh) {
+  std::vector<std::string> sentences;
+  if (!mesh.deck || !mesh.diagnosis) return sentences;
+  const bool has_mass_loads =
+      std::ranges::any_of(mesh.deck->load_sets, &structure::LoadSet::is_on_masses);
+  for (const structure::Finding& finding : mesh.diagnosis->findings) {
+    const bool is_of_others = finding.kind == "springs to the ground" ||
+                              (finding.kind == "materials without density" && !has_mass_loads);
+    if (finding.severity == structure::Severity::warning && !is_of_others)
+      sentences.push_back(described(finding));
+  }
+  return sentences;
 }
 
 std::string describe_block_mesh(const MeshModel& mesh) {

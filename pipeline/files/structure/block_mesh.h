@@ -62,6 +62,11 @@ void read_block_mesh(BlockModel& block, const std::filesystem::path& folder,
 /// The deck's cards that are not, or not all, in the block; its loads and supports are among them.
 std::vector<structure::LedgerEntry> unused_cards(const MeshModel& mesh);
 
+/// What is probably not meant in a mesh whose own load cases are solved, such as plates that lie on
+/// one another, as sentences with the numbers of the first cells; those of lifts alone are left
+/// out.
+std::vector<std::string> warnings_of_own_cases(const MeshModel& mesh);
+
 /// What was found in the deck and what became of it, as lines of text: cards that are not or not
 /// all used, remarks of the reader, and what the look-over saw.
 std::string describe_block_mesh(const MeshModel& mesh);

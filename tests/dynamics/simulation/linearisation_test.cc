@@ -73,6 +73,25 @@ TEST(Linearisation, CompoundPendulum) {
   EXPECT_EQ(l.modes[0].elastic_share, 0.0);
 }
 
+// Its kinetic energy is that of its centre's way, m l^2 = 12 kg m^2, and of its turn, I. Where both
+// are nearly equal the name has both, whichever is more.
+TEST(Linearisation, MotionsThatAreNearlyEqualAreNamedTogether) {
+  const auto name = [](double inertia) {
+    MechanismBuilder builder;
+    builder.set_gravity({0, 0, -g});
+    BodyDefinition bob = pendulum_link("bob", "world", 3.0, 2.0);
+    bob.I_BBcm_B = Vector3(inertia, inertia, 1.0).asDiagonal();
+    builder.add_body(bob);
+    return linearised(at_rest(builder.build(), {}, Eigen::VectorXd::Constant(1, 0.3)))
+        .modes.at(0)
+        .name;
+  };
+  EXPECT_EQ(name(11.0), "bob: pendulum along x");
+  EXPECT_EQ(name(11.8), "bob: pendulum along x and pitch about y");
+  EXPECT_EQ(name(12.2), "bob: pendulum along x and pitch about y");
+  EXPECT_EQ(name(13.0), "bob: pitch about y");
+}
+
 // A block on two plumb ropes whose pins are h above its centre of mass, or below it, rights itself
 // about the line of the pins by m g h times the tilt, however the ropes give way; about the other
 // axis the ropes hold it much better.

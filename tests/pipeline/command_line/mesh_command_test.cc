@@ -76,6 +76,28 @@ TEST_F(MeshCommand, NoPicturesOfADeckThatIsWrong) {
   EXPECT_FALSE(fs::exists("pictures"));
 }
 
+TEST_F(MeshCommand, FilesWithoutElementsAreRefused) {
+  folder_.write("nodes.bdf", "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n");
+  folder_.write("empty.msh", "");
+  for (const char* file : {"nodes.bdf, units: m-kg-N", "empty.msh, units: m"}) {
+    folder_.write("nothing.yaml",
+                  std::string("kind: block\nmesh: {file: ") + file + ", yield_stress: 235 MPa}\n");
+    const Outcome outcome = run("validate nothing.yaml");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, testing::AnyOf(HasSubstr("nodes.bdf has no plates, bars or solids"),
+                                            HasSubstr("neither plates nor bars")));
+  }
+}
+
+TEST_F(MeshCommand, EquationsThatHoldTheWholeAreNoneOfALift) {
+  change("box.bdf", "SUBCASE 1", "MPC = 7\nSUBCASE 1");
+  change("box.bdf", "ENDDATA", "MPC,7,2,3,1.,2,1,-.5\nENDDATA");
+  const Outcome outcome = run("validate mesh-lift/block.yaml");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("box.bdf:475: error: an equation resists motions of the block"));
+}
+
 TEST_F(MeshCommand, GoverningLoadCasesAreDecksThatAreReadAgain) {
   const Outcome outcome = run("assess mesh-lift -o out --decks");
   EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;

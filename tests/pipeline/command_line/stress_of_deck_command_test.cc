@@ -68,6 +68,27 @@ class StressOfDeck : public ::testing::Test {
   test::TemporaryFolder folder_;
 };
 
+// A force at the middle of a curved edge is beside elements of degree 1, which are straight.
+TEST_F(StressOfDeck, DegreeOneIsRefusedWhereALoadIsOffIt) {
+  change("CQUAD4,1,1,11,12,13,14",
+         "GRID,15,,500.,0.,50.\nCQUAD8,1,1,11,12,13,14,15\nFORCE,2,15,,1000.,1.,0.,0.");
+  const Outcome outcome = stress("strip.yaml -o out --degree 1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("1 nodes that are loaded, held or joined, 15 the first"));
+  EXPECT_EQ(stress("strip.yaml -o out").exit_code, 0);
+}
+
+// As validate and assess do.
+TEST_F(StressOfDeck, WarnsOfPlatesThatLieOnOneAnother) {
+  change("PSHELL,1,", "CQUAD4,2,1,14,13,12,11\nPSHELL,1,");
+  const Outcome outcome = stress("strip.yaml -o out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const char* const sentence = "1 shells have the corners of another: 2";
+  EXPECT_THAT(outcome.out, HasSubstr(std::string("warning: ") + sentence));
+  const auto summary = nlohmann::json::parse(text_of_file("out/summary.json"));
+  EXPECT_EQ(summary["warnings"], nlohmann::json({sentence}));
+}
+
 TEST_F(StressOfDeck, SolvesEachCase) {
   const Outcome outcome = stress("strip.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -221,36 +221,42 @@ TEST(BlockMesh, SupportsOfTheDeckThatHeldWhatIsLooseAreNamed) {
               HasSubstr("the deck's own supports hold 2 nodes, such as 8002, of it (constraint "));
 }
 
-// Straight elements on curved ones are refused where a lift is computed, and taken at degree 2.
-TEST(BlockMesh, QuadraticShellsAreNotOfDegreeOne) {
+// Straight elements on curved ones are refused where something is fastened to a middle off the
+// straight edge, and taken at degree 2.
+TEST(BlockMesh, WhatIsFastenedToCurvedEdgesIsNotOfDegreeOne) {
   const test::TemporaryFolder folder;
-  folder.write("plate.bdf",
-               "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\n"
-               "GRID,4,,0.,1.,0.\nGRID,5,,1.,0.,0.1\nGRID,6,,2.,.5,0.\nGRID,7,,1.,1.,0.1\n"
-               "GRID,8,,0.,.5,0.\nCQUAD8,1,1,1,2,3,4,5,6\n,7,8\nPSHELL,1,1,.01,1,,1\n"
-               "MAT1,1,2.1+11,,.3,7850.\nENDDATA\n");
-  folder.write("block.yaml",
-               "kind: block\nmesh: {file: plate.bdf, units: m-kg-N, yield_stress: 355 MPa}\n"
-               "lugs: {L1: {node: 1}}\n");
-  std::string complaints;
-  const auto block = read_block("block.yaml", complaints);
-  ASSERT_EQ(complaints, "");
-  for (const int degree : {1, 2}) {
-    Diagnostics diagnostics;
-    StructureSettings settings;
-    settings.element_degree = degree;
-    settings.largest_element = 10;
-    EXPECT_EQ(make_block_model(*block, "plate", settings, diagnostics) == nullptr, degree == 1);
-    if (degree == 1) {
-      EXPECT_THAT(diagnostics.to_text(), HasSubstr("the mesh has quadratic shells"));
-      EXPECT_THAT(diagnostics.to_text(), HasSubstr("element_degree: 1"));
-    } else {
-      EXPECT_EQ(diagnostics.to_text(), "");
+  for (const bool is_fastened : {true, false}) {
+    folder.write("plate.bdf",
+                 std::string("BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\n"
+                             "GRID,4,,0.,1.,0.\nGRID,5,,1.,0.,0.1\nGRID,6,,2.,.5,0.\n"
+                             "GRID,7,,1.,1.,0.1\nGRID,8,,0.,.5,0.\nCQUAD8,1,1,1,2,3,4,5,6\n,7,8\n"
+                             "PSHELL,1,1,.01,1,,1\nMAT1,1,2.1+11,,.3,7850.\n") +
+                     (is_fastened ? "CONM2,9,6,,1.\nCONM2,10,5,,1.\n" : "CONM2,9,6,,1.\n") +
+                     "ENDDATA\n");
+    folder.write("block.yaml",
+                 "kind: block\nmesh: {file: plate.bdf, units: m-kg-N, yield_stress: 355 MPa}\n"
+                 "lugs: {L1: {node: 1}}\n");
+    std::string complaints;
+    const auto block = read_block("block.yaml", complaints);
+    ASSERT_EQ(complaints, "");
+    for (const int degree : {1, 2}) {
+      Diagnostics diagnostics;
+      StructureSettings settings;
+      settings.element_degree = degree;
+      settings.largest_element = 10;
+      const bool is_refused = degree == 1 && is_fastened;
+      EXPECT_EQ(make_block_model(*block, "plate", settings, diagnostics) == nullptr, is_refused);
+      if (is_refused) {
+        EXPECT_THAT(diagnostics.to_text(), HasSubstr("1 nodes to which something is fastened, 5 "));
+        EXPECT_THAT(diagnostics.to_text(), HasSubstr("element_degree: 1"));
+      } else {
+        EXPECT_EQ(diagnostics.to_text(), "");
+      }
     }
+    Diagnostics diagnostics;  // the cheap check has no degree of its own
+    check_block_model(*block, "plate", diagnostics);
+    EXPECT_EQ(diagnostics.to_text(), "");
   }
-  Diagnostics diagnostics;  // the cheap check has no degree of its own
-  check_block_model(*block, "plate", diagnostics);
-  EXPECT_EQ(diagnostics.to_text(), "");
 }
 
 /// What is said of a mechanism that only the whole stiffness shows.

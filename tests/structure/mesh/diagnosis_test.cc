@@ -138,6 +138,10 @@ TEST(Diagnosis, Shapes) {
   flat.vertices[2] = Vector3(0.3, 0, 0);
   flat.vertices[3] = Vector3(0.6, 0, 0);
   EXPECT_EQ(count(diagnose(flat), "shells without area"), 1);
+  EXPECT_EQ(count(diagnose(flat), "folded shells"), 0);
+  Mesh bow_tie = plate(1, 1);
+  std::swap(bow_tie.shells[0].vertices[2], bow_tie.shells[0].vertices[3]);
+  EXPECT_EQ(count(diagnose(bow_tie), "folded shells"), 1);
 }
 
 TEST(Diagnosis, NormalsThatDisagree) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -124,6 +125,8 @@ class Cells {
 
   void divide(const std::vector<AbaqusBlock>& blocks) {
     std::map<std::string, std::vector<const AbaqusBlock*>> parts;
+    std::map<std::string, SourceLine> line_of_part;
+    std::set<std::string> parts_used;
     std::vector<AbaqusScope> instances;
     AbaqusScope whole, assembly;
     std::vector<const AbaqusBlock*>* into = &whole.blocks;
@@ -140,12 +143,16 @@ class Cells {
       if (in_step) {
         model_.steps.back().push_back(&block);
       } else if (block.name == "PART") {
-        model_.guarded(block, [&] { into = &parts[block.required("NAME")]; });
+        model_.guarded(block, [&] {
+          into = &parts[block.required("NAME")];
+          line_of_part.try_emplace(block.required("NAME"), block.line);
+        });
       } else if (block.name == "ASSEMBLY") {
         model_.log.use("*ASSEMBLY");
         in_assembly = true;
         go_on();
       } else if (block.name == "INSTANCE") {
+        parts_used.insert(block.value("PART"));
         model_.guarded(block, [&] { instances.push_back(instance(block, parts)); });
         if (!instances.empty()) into = &instances.back().blocks;
       } else if (block.name == "END PART" || block.name == "END INSTANCE" ||
@@ -157,9 +164,23 @@ class Cells {
         into->push_back(&block);
       }
     }
+    note_unused_parts(line_of_part, parts_used);
     model_.scopes.push_back(std::move(whole));
     for (AbaqusScope& one : instances) model_.scopes.push_back(std::move(one));
     model_.scopes.push_back(std::move(assembly));
+  }
+
+  /// Parts that no instance takes are not in the model; of a deck of such alone nothing would be.
+  void note_unused_parts(const std::map<std::string, SourceLine>& line_of_part,
+                         const std::set<std::string>& used) {
+    for (const auto& [name, line] : line_of_part) {
+      if (used.contains(name)) continue;
+      const std::string text = fmt::format("*PART: no *INSTANCE takes part \"{}\"", name);
+      if (used.empty())
+        model_.log.complain(line, text + ": what it has is not in the model");
+      else
+        model_.log.remark(line, text + ", which is not in the model");
+    }
   }
 
   // *INSTANCE, NAME = , PART = / shift / two points of the axis, angle in degrees
@@ -341,6 +362,10 @@ class Cells {
       }
       all.clear();
     }
+    if (!all.empty())
+      model_.log.complain(block.data.back().line,
+                          fmt::format("*ELEMENT: element {} ends after {} of {} nodes", all.front(),
+                                      all.size() - 1, known.nodes));
   }
 
   void add_element(const std::vector<std::string_view>& fields, const ElementType& known,
@@ -542,6 +567,17 @@ int AbaqusModel::node_of(const AbaqusScope& scope, std::string_view text) const 
 
 std::vector<int> AbaqusModel::elements_of(const AbaqusScope& scope, std::string_view text) const {
   return look_up(*this, scope, text, &AbaqusScope::elements, &AbaqusScope::element_sets, "element");
+}
+
+std::pair<int, int> AbaqusModel::freedom_of(int vertex, int freedom) const {
+  const auto found = turns_of.find(vertex);
+  if (found == turns_of.end()) return {vertex, freedom};
+  if (freedom >= 3)
+    throw CardError{fmt::format(
+        "freedom {} of node {}, the ROT NODE of a rigid body: its freedoms are 1 to 3, which are "
+        "the body's rotations",
+        freedom + 1, deck.mesh.vertex_labels[vertex])};
+  return {found->second, freedom + 3};
 }
 
 Eigen::Matrix3d AbaqusModel::axes(int vertex) const {

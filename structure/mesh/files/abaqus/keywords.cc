@@ -25,7 +25,9 @@ class KeywordSplitter {
       : files_(files), log_(log), is_read_(is_read) {}
 
   std::vector<AbaqusBlock> split(const std::filesystem::path& path) {
-    read(files_.open(path));
+    const DeckFiles::File& file = files_.open(path);
+    read(file);
+    note_missing_end(file);
     return std::move(blocks_);
   }
 
@@ -44,13 +46,37 @@ class KeywordSplitter {
       }
       std::string keyword(text);
       while (keyword.back() == ',' && i + 1 < file.lines.size()) {
-        const std::string_view next = trimmed(file.lines[++i]);
-        if (next.substr(0, 2) != "**") keyword += next;
+        const std::string_view next = trimmed(file.lines[i + 1]);
+        const bool is_comment = next.substr(0, 2) == "**";
+        if (next.starts_with('*') && !is_comment) break;  // the comma was one too many
+        ++i;
+        if (!is_comment) keyword += next;
         if (next.empty()) break;
       }
       start(place, keyword, file);
     }
     files_.close();
+  }
+
+  /// What begins and does not end: the file may be cut off, and is where its last line has no end
+  /// either.
+  void note_missing_end(const DeckFiles::File& file) {
+    for (const char* name : {"STEP", "PART", "INSTANCE", "ASSEMBLY"}) {
+      const AbaqusBlock* open = nullptr;
+      for (const AbaqusBlock& block : blocks_) {
+        const std::string own = without_blanks(block.name);
+        if (own == name) open = &block;
+        if (own == std::string("END") + name) open = nullptr;
+      }
+      if (open == nullptr) continue;
+      if (file.is_ended)
+        log_.remark(open->line, fmt::format("*{0} has no *END {0}: is the deck all there?", name));
+      else
+        log_.complain({file.number, static_cast<int>(file.lines.size())},
+                      fmt::format("the deck is cut off: *{0} ({1}) has no *END {0}, and the last "
+                                  "line no end",
+                                  name, log_.place(open->line)));
+    }
   }
 
   void start(SourceLine place, const std::string& keyword, const DeckFiles::File& file) {

@@ -27,6 +27,7 @@ class LinkBlocks {
   explicit LinkBlocks(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
 
   void read() {
+    find_rotation_nodes();
     for (const AbaqusScope& scope : model_.scopes) {
       scope_ = &scope;
       for (std::size_t i = 0; i < scope.blocks.size(); ++i) {
@@ -50,6 +51,21 @@ class LinkBlocks {
   }
 
  private:
+  /// Those of all rigid bodies, which equations before them may name. What is wrong with a body is
+  /// said where it is read.
+  void find_rotation_nodes() {
+    for (const AbaqusScope& scope : model_.scopes)
+      for (const AbaqusBlock* block : scope.blocks) {
+        if (block->name != "RIGID BODY" || !block->has("ROT NODE")) continue;
+        try {
+          const int turning = model_.node_of(scope, block->required("ROT NODE"));
+          model_.turns_of[turning] = model_.node_of(scope, block->required("REF NODE"));
+        } catch (const CardError&) {
+          continue;
+        }
+      }
+  }
+
   std::vector<int> elements(const AbaqusBlock& block, AbaqusKind kind) const {
     std::vector<int> all = model_.elements_of(*scope_, block.required("ELSET"));
     for (const int e : all)
@@ -72,6 +88,7 @@ class LinkBlocks {
       mass.vertex = model_.elements[e].nodes.front();
       mass.label = model_.elements[e].label;
       mass.mass = value;
+      model_.elements[e].masses.push_back(static_cast<int>(mesh_.masses.size()));
       mesh_.masses.push_back(mass);
     }
   }
@@ -374,9 +391,12 @@ class LinkBlocks {
     }
   }
 
-  // *RIGID BODY, REF NODE = , ELSET = , PIN NSET = , TIE NSET =
+  // *RIGID BODY, REF NODE = , ROT NODE = , ELSET = , NSET = , PIN NSET = , TIE NSET =
   void add_rigid_body(const AbaqusBlock& block) {
     const int reference = model_.node_of(*scope_, block.required("REF NODE"));
+    const int turning =
+        block.has("ROT NODE") ? model_.node_of(*scope_, block.required("ROT NODE")) : -1;
+    if (turning == reference) throw CardError{"ROT NODE and REF NODE are one"};
     std::set<int> tied, pinned;
     if (block.has("ELSET"))
       for (const int e : model_.elements_of(*scope_, block.value("ELSET")))
@@ -393,7 +413,7 @@ class LinkBlocks {
       link.master = reference;
       link.bound = bound;
       for (const int node : nodes)
-        if (node != reference) link.slaves.push_back(node);
+        if (node != reference && node != turning) link.slaves.push_back(node);
       if (!link.slaves.empty()) mesh_.rigid_links.push_back(link);
     }
   }
@@ -428,6 +448,7 @@ class LinkBlocks {
   // *EQUATION / number of terms / node, freedom, factor, ...
   void add_equations(const AbaqusBlock& block) {
     for (std::size_t i = 0; i < block.data.size();) {
+      const std::string place = model_.log.place(block.data[i].line);
       const long count = abaqus_label(block.data[i].fields().front(), "number of terms");
       Fields terms;
       for (++i; i < block.data.size() && static_cast<long>(terms.size()) < 3 * count; ++i) {
@@ -435,12 +456,12 @@ class LinkBlocks {
         terms.insert(terms.end(), more.begin(), more.end());
       }
       if (static_cast<long>(terms.size()) < 3 * count) throw CardError{"terms are missing"};
-      add_equation_of_sets(terms, static_cast<std::size_t>(count));
+      add_equation_of_sets(terms, static_cast<std::size_t>(count), place);
     }
   }
 
   /// One equation for each node of the first term's set; a set of one node serves all.
-  void add_equation_of_sets(const Fields& fields, std::size_t count) {
+  void add_equation_of_sets(const Fields& fields, std::size_t count, const std::string& place) {
     std::vector<std::vector<int>> nodes;
     for (std::size_t t = 0; t < count; ++t)
       nodes.push_back(model_.nodes_of(*scope_, fields[3 * t]));
@@ -454,9 +475,11 @@ class LinkBlocks {
         if (freedom > 6) throw CardError{"freedoms go from 1 to 6"};
         const int node = nodes[t].size() == 1 ? nodes[t].front() : nodes[t][s];
         const double factor = abaqus_real(fields, 3 * t + 2, "factor");
-        terms.push_back({{node, static_cast<int>(freedom) - 1, model_.axes(node)}, factor});
+        const auto [vertex, component] = model_.freedom_of(node, static_cast<int>(freedom) - 1);
+        // What a ROT NODE's displacement is, in the deck's numbers, is an angle in radians.
+        terms.push_back({{vertex, component, model_.axes(vertex)}, factor});
       }
-      add_equation(model_.deck, terms);
+      add_equation(model_.deck, terms, place);
     }
   }
 

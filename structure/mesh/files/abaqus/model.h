@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "structure/mesh/files/abaqus/keywords.h"
@@ -36,9 +37,10 @@ struct AbaqusDeckElement {
   std::vector<int> nodes;  ///< vertices
   int scope = 0;
   SourceLine line;
-  int shell = -1;          ///< place in the mesh
-  int solid = -1;          ///< place in the mesh
-  std::vector<int> beams;  ///< places in the mesh
+  int shell = -1;           ///< place in the mesh
+  int solid = -1;           ///< place in the mesh
+  std::vector<int> beams;   ///< places in the mesh
+  std::vector<int> masses;  ///< places in the mesh
 };
 
 /// Names and numbers that hold in one part's instance, the assembly, or a deck without parts.
@@ -86,6 +88,9 @@ struct AbaqusModel {
   std::map<std::string, AbaqusMaterial> materials;
   std::unordered_map<int, Eigen::Matrix3d> axes_of;  ///< vertices with a system of their own
   std::vector<SurfacePoint> middles;
+  /// Nodes whose displacements stand for the rotations of others (ROT NODE of a rigid body, as
+  /// CalculiX has it), and the others.
+  std::unordered_map<int, int> turns_of;
 
   /// Does something with a block; notes what is wrong and that it was used.
   void guarded(const AbaqusBlock& block, const std::function<void()>& step);
@@ -98,6 +103,9 @@ struct AbaqusModel {
   std::vector<int> nodes_of(const AbaqusScope& scope, std::string_view text) const;
   int node_of(const AbaqusScope& scope, std::string_view text) const;
   std::vector<int> elements_of(const AbaqusScope& scope, std::string_view text) const;
+  /// The vertex and the freedom, from 0, that a node's freedom stands for.
+  /// @throws CardError for a rotation of a ROT NODE.
+  std::pair<int, int> freedom_of(int vertex, int freedom) const;
   Eigen::Matrix3d axes(int vertex) const;
   const Vector3& place(int vertex) const { return deck.mesh.vertices[vertex]; }
 };

@@ -54,7 +54,7 @@ const KnownParameters* parameters_of(const std::string& keyword) {
       {"KINEMATIC COUPLING", {{"REF NODE", "ORIENTATION"}, {}}},
       {"DISTRIBUTING", {{"COUPLING", "WEIGHTING METHOD"}, {}}},
       {"RIGID BODY",
-       {{"REF NODE", "ELSET", "NSET", "TIE NSET", "PIN NSET", "ANALYTICAL SURFACE"},
+       {{"REF NODE", "ROT NODE", "ELSET", "NSET", "TIE NSET", "PIN NSET", "ANALYTICAL SURFACE"},
         {"ISOTHERMAL"}}}};
   const auto found = all.find(keyword);
   return found == all.end() ? nullptr : &found->second;

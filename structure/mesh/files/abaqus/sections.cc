@@ -15,6 +15,7 @@
 #include "structure/mesh/files/abaqus/orientation.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
+#include "structure/mesh/shell_shape.h"
 
 namespace blocklift::structure {
 
@@ -345,6 +346,13 @@ class Sections {
       corners.pop_back();
     }
     shell.vertices = lexicographic(corners);
+    if (is_folded(mesh_, shell))
+      model_.log.complain(
+          element.line,
+          fmt::format("*ELEMENT: element {} is folded: its corners are not in turn about it, one "
+                      "turns inwards{}",
+                      shell.label,
+                      shell.curvature < 0 ? "" : ", or middles of its edges lie far off"));
     mesh_.shells.push_back(shell);
   }
 

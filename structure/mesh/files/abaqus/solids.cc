@@ -11,6 +11,7 @@
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/abaqus/orientation.h"
+#include "structure/mesh/files/deck/given_solids.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -84,18 +85,16 @@ void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const Abaqu
     model.log.remark(section.line, remark_on_directional_solids(static_cast<int>(elements.size())));
 }
 
-// First those that tell their edges' middles, which others have in common with them.
 void complete_abaqus_solids(AbaqusModel& model) {
-  Mesh& mesh = model.deck.mesh;
-  model.deck.own_vertices = static_cast<int>(mesh.vertices.size());
-  SolidEdgeMiddles middles(mesh);
-  for (const bool is_told : {true, false})
-    for (Solid& solid : mesh.solids) {
-      const SolidTopology& topology = topology_of(solid.shape);
-      const bool is_quadratic =
-          static_cast<int>(solid.vertices.size()) > topology.corners && solid.vertices.back() >= 0;
-      if (is_told == is_quadratic) complete_solid(mesh, solid, middles);
-    }
+  const Mesh& mesh = model.deck.mesh;
+  std::vector<GivenSolid> given(mesh.solids.size());
+  for (const AbaqusDeckElement& element : model.elements) {
+    if (element.solid < 0) continue;
+    const int corners = topology_of(mesh.solids[element.solid].shape).corners;
+    given[element.solid] = {"*ELEMENT", element.line,
+                            static_cast<int>(element.nodes.size()) > corners};
+  }
+  complete_solids(model.deck, given, model.log);
 }
 
 std::vector<int> corners_of_face(const AbaqusDeckElement& solid, const std::string& face) {

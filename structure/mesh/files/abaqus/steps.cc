@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -67,7 +68,12 @@ struct SpreadLoads {
     plates.for_each([&](const Key&, const PlateLoad& load) { set.plate_loads.push_back(load); });
     solids.for_each([&](const Key&, const SolidLoad& load) { set.solid_loads.push_back(load); });
     beams.for_each([&](const Key&, const BeamLoad& load) { set.beam_loads.push_back(load); });
-    gravity.for_each([&](const Key&, const Vector3& pull) { set.gravity += pull; });
+    gravity.for_each([&](const Key&, const PartPull& pull) {
+      if (pull.part)
+        set.pulls.push_back(pull);
+      else
+        set.gravity += pull.acceleration;
+    });
     spins.for_each([&](const Key&, const Spin& spin) { set.spins.push_back(spin); });
   }
   template <typename Visit>
@@ -82,7 +88,7 @@ struct SpreadLoads {
   GivenBySteps<Key, PlateLoad> plates;
   GivenBySteps<Key, SolidLoad> solids;
   GivenBySteps<Key, BeamLoad> beams;
-  GivenBySteps<Key, Vector3> gravity;
+  GivenBySteps<Key, PartPull> gravity;
   GivenBySteps<Key, Spin> spins;
 };
 
@@ -155,12 +161,29 @@ class StepBlocks {
           support.value[i - 1] = i <= 3 ? value * model_.units.length : value;
         }
       }
-      for (const int node : model_.nodes_of(*scope_, fields[0])) {
-        support.vertex = node;
-        support.axes = model_.axes(node);
-        now_.supports.push_back(support);
-      }
+      for (const int node : model_.nodes_of(*scope_, fields[0]))
+        now_.supports.push_back(support_at(node, support));
     });
+  }
+
+  /// A support of a node; that of a ROT NODE holds the rotations of its rigid body.
+  Support support_at(int node, const Support& given) const {
+    Support support = given;
+    support.vertex = node;
+    if (model_.turns_of.contains(node)) {
+      support.held = {};
+      support.value = {};
+      for (int i = 0; i < 6; ++i) {
+        // Of all six that a range or name may hold, a node has its own three.
+        if (!given.held[i] || (i >= 3 && given.held[0])) continue;
+        const auto [vertex, freedom] = model_.freedom_of(node, i);
+        support.vertex = vertex;
+        support.held[freedom] = true;
+        support.value[freedom] = given.value[i] / model_.units.length;
+      }
+    }
+    support.axes = model_.axes(support.vertex);
+    return support;
   }
 
   void read_step(const std::vector<const AbaqusBlock*>& blocks) {
@@ -298,9 +321,9 @@ class StepBlocks {
       }
       const double value = abaqus_real(fields, 2, "value");
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
-        const double unit = freedom <= 3 ? model_.units.force : model_.units.moment();
-        now_.points.add({node, freedom - 1},
-                        value * unit * model_.axes(node).col((freedom - 1) % 3));
+        const auto [vertex, component] = model_.freedom_of(node, static_cast<int>(freedom) - 1);
+        const double unit = component < 3 ? model_.units.force : model_.units.moment();
+        now_.points.add({vertex, component}, value * unit * model_.axes(vertex).col(component % 3));
       }
     });
   }
@@ -334,9 +357,9 @@ class StepBlocks {
                             abaqus_real(fields, 4, "direction", 0.0),
                             abaqus_real(fields, 5, "direction", 0.0));
     if (!(direction.norm() > 0)) throw CardError{"GRAV has no direction"};
-    require_all_masses(fields, "GRAV pulls", "gravity");
-    now_.on_elements.gravity.add({"GRAV", -1},
-                                 value * model_.units.length * direction.normalized());
+    const std::shared_ptr<const MeshPart> part = part_of(fields[0]);
+    now_.on_elements.gravity.add({part ? "GRAV " + upper(fields[0]) : "GRAV", -1},
+                                 {part, value * model_.units.length * direction.normalized()});
   }
 
   void add_spin(const Fields& fields, double square) {
@@ -349,27 +372,41 @@ class StepBlocks {
     if (!(axis.norm() > 0)) throw CardError{"CENTRIF has no direction of its axis"};
     if (square < 0)
       throw CardError{"CENTRIF has the square of an angular velocity, which is not negative"};
-    require_all_masses(fields, "CENTRIF turns", "rotation");
     Spin spin;
+    spin.part = part_of(fields[0]);
     spin.place = model_.units.length * vector(3, "place on the axis");
     spin.velocity = std::sqrt(square) * axis.normalized();
-    now_.on_elements.spins.add({"CENTRIF", -1}, spin);
+    now_.on_elements.spins.add({spin.part ? "CENTRIF " + upper(fields[0]) : "CENTRIF", -1}, spin);
   }
 
-  /// What acts on masses acts on all of them.
-  void require_all_masses(const Fields& fields, const char* acts, const char* load) const {
-    if (fields[0].empty()) return;
-    const std::vector<int> named = model_.elements_of(*scope_, fields[0]);
-    const std::set<int> set(named.begin(), named.end());
+  /// The part of the mesh that a set of elements is, for what acts on masses; none where the set is
+  /// not named, or has all that has mass. Masses at nodes that are not in the set are not in it
+  /// either, which is what CalculiX does, too.
+  std::shared_ptr<const MeshPart> part_of(std::string_view set) const {
+    if (set.empty()) return nullptr;
+    const std::vector<int> named = model_.elements_of(*scope_, set);
+    const std::set<int> members(named.begin(), named.end());
+    const Mesh& mesh = model_.deck.mesh;
+    MeshPart part;
+    part.shells.assign(mesh.shells.size(), 0);
+    part.beams.assign(mesh.beams.size(), 0);
+    part.solids.assign(mesh.solids.size(), 0);
+    part.masses.assign(mesh.masses.size(), 0);
+    bool is_all = true;
     for (std::size_t e = 0; e < model_.elements.size(); ++e) {
-      const AbaqusKind kind = model_.elements[e].kind;
-      const bool has_mass = kind == AbaqusKind::shell || kind == AbaqusKind::beam ||
-                            kind == AbaqusKind::truss || kind == AbaqusKind::mass ||
-                            kind == AbaqusKind::solid;
-      if (has_mass && set.count(static_cast<int>(e)) == 0)
-        throw CardError{fmt::format("{} \"{}\" alone, not element {}; {} of all is due", acts,
-                                    fields[0], model_.elements[e].label, load)};
+      const AbaqusDeckElement& element = model_.elements[e];
+      if (members.count(static_cast<int>(e)) == 0) {
+        const bool has_mass = element.shell >= 0 || element.solid >= 0 || !element.beams.empty() ||
+                              !element.masses.empty();
+        is_all = is_all && !has_mass;
+        continue;
+      }
+      if (element.shell >= 0) part.shells[element.shell] = 1;
+      if (element.solid >= 0) part.solids[element.solid] = 1;
+      for (const int beam : element.beams) part.beams[beam] = 1;
+      for (const int mass : element.masses) part.masses[mass] = 1;
     }
+    return is_all ? nullptr : std::make_shared<const MeshPart>(std::move(part));
   }
 
   /// Notes that a load is left out, and says so at its keyword, for its step lacks it.

@@ -62,6 +62,8 @@ class AbaqusText {
         nodes_(mesh_.vertex_labels) {}
 
   std::string write() {
+    for (const HoldingEquation& held : deck_.holding_equations)
+      mesh_.equations.push_back(held.equation);
     MiddleVertices middles(mesh_);
     for (const Shell& shell : mesh_.shells)
       middles_.push_back(shell.curvature >= 0 ? middles.of(shell) : std::vector<int>{});
@@ -553,12 +555,13 @@ class AbaqusText {
               fmt::format("{}, P{}, {}", beam_number_[load.beam], static_cast<char>('X' + i),
                           exact(factor * load.force_per_length[i] * units_.length / units_.force)));
     for (const Spin& spin : set.spins) {
-      if (!spin.acceleration.isZero(0) || factor < 0)
-        throw ModelError("a rotation that grows, or pulls inwards, is not written here");
+      if (!spin.acceleration.isZero(0) || factor < 0 || spin.part)
+        throw ModelError("a rotation that grows, pulls inwards or is a part's is not written here");
       line(fmt::format(
           "EVERYTHING, CENTRIF, {}, {}, {}", exact(factor * spin.velocity.squaredNorm()),
           exact(Vector3(spin.place / units_.length)), exact(Vector3(spin.velocity.normalized()))));
     }
+    if (!set.pulls.empty()) throw ModelError("gravity on a part of the masses is not written here");
     const double gravity = factor * set.gravity.norm() / units_.length;
     if (gravity != 0)
       line(fmt::format("EVERYTHING, GRAV, {}, {}", exact(gravity),

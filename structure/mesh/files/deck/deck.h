@@ -11,6 +11,7 @@
 
 #include "structure/error.h"
 #include "structure/mesh/mesh.h"
+#include "structure/mesh/mesh_part.h"
 
 namespace blocklift::structure {
 
@@ -56,6 +57,14 @@ struct Support {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns
 };
 
+/// An equation between motions whose forces are not in balance: it resists motions of the block as
+/// a whole, and holds it as supports do (rollers on a slope, faces that stay parallel, skew
+/// symmetry).
+struct HoldingEquation {
+  MotionEquation equation;
+  std::string place;  ///< file:line
+};
+
 struct SupportSet {
   long label = 0;
   std::string name;
@@ -98,7 +107,14 @@ struct BeamLoad {
 struct Spin {
   Vector3 place = Vector3::Zero();     ///< on the axis, m
   Vector3 velocity = Vector3::Zero();  ///< w, rad/s: forces -w x (w x r) per mass, r from the place
-  Vector3 acceleration = Vector3::Zero();  ///< a, rad/s^2: forces a x r per mass
+  Vector3 acceleration = Vector3::Zero();          ///< a, rad/s^2: forces a x r per mass
+  std::shared_ptr<const MeshPart> part = nullptr;  ///< whose masses feel it; none: all
+};
+
+/// Gravity that the masses of a part of the mesh feel.
+struct PartPull {
+  std::shared_ptr<const MeshPart> part;
+  Vector3 acceleration = Vector3::Zero();  ///< m/s^2
 };
 
 struct LoadSet {
@@ -109,10 +125,11 @@ struct LoadSet {
   std::vector<SolidLoad> solid_loads;
   std::vector<BeamLoad> beam_loads;
   Vector3 gravity = Vector3::Zero();  ///< acceleration that all masses feel, m/s^2
+  std::vector<PartPull> pulls;        ///< besides
   std::vector<Spin> spins;
 
   /// Do masses bear a load?
-  bool is_on_masses() const { return !gravity.isZero(0) || !spins.empty(); }
+  bool is_on_masses() const { return !gravity.isZero(0) || !pulls.empty() || !spins.empty(); }
 };
 
 /// Subcase or step.
@@ -147,6 +164,7 @@ struct Deck {
   /// Middles of shells' edges that are nodes of the file, whether anything uses them or not.
   std::vector<SurfacePoint> shell_middles;
   std::vector<SupportSet> support_sets;
+  std::vector<HoldingEquation> holding_equations;  ///< of all load cases; a lift has none
   std::vector<LoadSet> load_sets;
   std::vector<DeckLoadCase> load_cases;
   std::vector<NamedSet> sets;

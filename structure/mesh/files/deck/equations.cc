@@ -70,7 +70,7 @@ Matrix6 inverse_or_complaint(const Matrix6& matrix, const char* text) {
 
 }  // namespace
 
-void add_equation(Deck& deck, const std::vector<EquationTerm>& terms) {
+void add_equation(Deck& deck, const std::vector<EquationTerm>& terms, const std::string& place) {
   MotionEquation equation;
   // A displacement counts in the deck's lengths, a rotation in radians.
   for (const EquationTerm& term : terms)
@@ -81,11 +81,11 @@ void add_equation(Deck& deck, const std::vector<EquationTerm>& terms) {
     throw CardError{"the factor of the first freedom is nil"};
   // Factors have three digits and more.
   constexpr double most_rounding = 0.01;
-  if (!(balance(deck.mesh, equation) < most_rounding))
-    throw CardError{
-        "an equation resists motions of the block as a whole: it would hold it, where a lifted "
-        "block hangs on its ropes alone"};
-  push(deck, std::move(equation));
+  const MotionEquation given = equation;
+  if (balance(deck.mesh, equation) < most_rounding)
+    push(deck, std::move(equation));
+  else
+    deck.holding_equations.push_back({given, place});
 }
 
 void add_rigid_equations(Deck& deck, const std::vector<DeckFreedom>& independent,

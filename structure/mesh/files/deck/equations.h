@@ -1,6 +1,7 @@
 #pragma once
 
 #include <set>
+#include <string>
 #include <vector>
 
 #include "structure/mesh/files/deck/deck.h"
@@ -21,10 +22,11 @@ struct EquationTerm {
 };
 
 /// Adds an equation between motions, whose first term follows the others, to a deck's mesh. Factors
-/// are rounded in decks: what they leave of a resistance to motions of the whole is taken out.
-/// @throws CardError if they resist such a motion by more than a hundredth: a lifted block is held
-///   by its ropes alone.
-void add_equation(Deck& deck, const std::vector<EquationTerm>& terms);
+/// are rounded in decks: what they leave of a resistance to motions of the whole is taken out. One
+/// that resists such a motion by more than a hundredth becomes one of the deck's holding equations.
+/// @param place of the equation, file:line
+/// @throws CardError if the factor of the first freedom is nil.
+void add_equation(Deck& deck, const std::vector<EquationTerm>& terms, const std::string& place);
 
 /// Makes freedoms follow the rigid motion that six others determine.
 /// @throws CardError if the six do not determine one, or no freedom follows.

@@ -22,6 +22,8 @@ void fasten_used_middles(Deck& deck, const std::vector<SurfacePoint>& middles) {
     for (const int vertex : spring.vertices) use(vertex);
   for (const SupportSet& set : deck.support_sets)
     for (const Support& support : set.supports) use(support.vertex);
+  for (const HoldingEquation& held : deck.holding_equations)
+    for (const int vertex : vertices_of(held.equation)) use(vertex);
   for (const LoadSet& set : deck.load_sets)
     for (const PointLoad& load : set.point_loads) use(load.vertex);
   for (const SurfacePoint& middle : middles) {

@@ -138,10 +138,15 @@ const DeckFiles::File& DeckFiles::load(const std::filesystem::path& path,
   stream.read(text->data(), static_cast<std::streamsize>(text->size()));
   if (text->find('\0') != std::string::npos)
     throw CardError{fmt::format("\"{}\" is no text: it has bytes of zero", path.string())};
+  // Lines of old Macintoshes end in a return alone.
+  if (text->find('\n') == std::string::npos) std::replace(text->begin(), text->end(), '\r', '\n');
   auto file = std::make_unique<File>();
   file->number = log_.add_file(path.string());
   file->path = path;
-  const std::string_view all = *text;
+  std::string_view all = *text;
+  constexpr std::string_view byte_order_mark =
+      "\xEF\xBB\xBF";  // of UTF-8, as Windows' editors write
+  if (all.starts_with(byte_order_mark)) all.remove_prefix(byte_order_mark.size());
   file->is_ended = all.empty() || all.back() == '\n';
   for (std::size_t begin = 0; begin < all.size();) {
     std::size_t end = all.find('\n', begin);

@@ -257,7 +257,7 @@ class Equations {
       return;
     }
     if (terms.empty()) throw CardError{"an equation has no factors"};
-    add_equation(model_.deck, terms);
+    add_equation(model_.deck, terms, model_.log.place(card.line()));
   }
 
   NastranModel& model_;

@@ -15,6 +15,7 @@
 
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/nastran/model.h"
+#include "structure/mesh/shell_shape.h"
 
 namespace blocklift::structure {
 
@@ -72,6 +73,10 @@ class Shells {
     shell.region = nastran_region(model_, property, material_of(shell));
     const auto place = static_cast<int>(mesh_.shells.size());
     if (!middles.empty()) curve(shell, place, corners, middles);
+    if (is_folded(mesh_, shell))
+      throw CardError{fmt::format(
+          "element {} is folded: its corners are not in turn about it, one turns inwards{}",
+          shell.label, middles.empty() ? "" : ", or middles of its edges lie far off")};
     if (shell.section >= 0 && mesh_.section_of(shell).laminate >= 0)
       shell.laminate_axis = axis_1(card, layout, corners);
     if (shell.section < 0) without_section_.insert(shell.region);

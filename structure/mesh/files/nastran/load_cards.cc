@@ -30,7 +30,9 @@ void write_loads_of_masses(const LoadSet& set, long label, const UnitSystem& uni
                            CardWriter& out) {
   constexpr std::size_t of_velocity = 3, of_acceleration = 8;
   Vector3 gravity = set.gravity;
+  if (!set.pulls.empty()) throw ModelError("gravity on a part of the masses: Nastran knows none");
   for (const Spin& spin : set.spins) {
+    if (spin.part) throw ModelError("rotation of a part of the masses: Nastran knows none");
     const Vector3& w = spin.velocity;
     gravity += w.cross(w.cross(spin.place)) - spin.acceleration.cross(spin.place);
     write_turning(label, w, of_velocity, out);

@@ -10,6 +10,7 @@
 
 #include "structure/index.h"
 #include "structure/mesh/directional.h"
+#include "structure/mesh/files/deck/given_solids.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/nastran/model.h"
 #include "structure/mesh/solid_shape.h"
@@ -47,13 +48,7 @@ class Solids {
         add(card, known);
       };
     model_.for_each(handlers);
-    // First those that tell their edges' middles, which others have in common with them.
-    Mesh& mesh = model_.deck.mesh;
-    model_.deck.own_vertices = static_cast<int>(mesh.vertices.size());
-    SolidEdgeMiddles middles(mesh);
-    for (const bool is_told : {true, false})
-      for (std::size_t s = 0; s < mesh.solids.size(); ++s)
-        if (tells_middles_[s] == is_told) complete_solid(mesh, mesh.solids[s], middles);
+    complete_solids(model_.deck, given_, model_.log);
     if (directional_ > 0)
       model_.log.remark(first_directional_, remark_on_directional_solids(directional_));
   }
@@ -92,7 +87,7 @@ class Solids {
     solid.region = nastran_region(model_, property, solid.material);
     model_.solids.insert(solid.label);
     model_.deck.mesh.solids.push_back(std::move(solid));
-    tells_middles_.push_back(tells_middles);
+    given_.push_back({card.name(), card.line(), tells_middles});
   }
 
   /// Of a property the place of its material in the mesh, and where that depends on the direction
@@ -162,7 +157,7 @@ class Solids {
   }
 
   NastranModel& model_;
-  std::vector<bool> tells_middles_;
+  std::vector<GivenSolid> given_;
   std::unordered_map<long, SolidProperty> properties_;
   std::unordered_map<long, int> directional_places_;  ///< by material
   std::unordered_map<long, int> straight_;            ///< elasticities by property

@@ -33,21 +33,24 @@ class Springs {
 
  private:
   // PELAS PID1 K1 GE1 S1 PID2 K2 GE2 S2
-  // PBUSH PID K K1 ... K6 / ...
+  // PBUSH PID K K1 ... K6 / B B1 ... B6 / GE GE1 ... GE6 / RCV SA ST EA ET / M M
   // PBUSH1D PID K C M blank SA SE / ...
   void keep(const CardView& card) {
     try {
+      const auto keep_once = [&](auto& all, std::size_t field, const auto& what) {
+        if (!all.emplace(card.label(field, "property"), what).second)
+          throw CardError{fmt::format("property {} is there twice", card.text(field))};
+      };
       if (card.name() == "PBUSH1D") {
-        line_bushes_.emplace(card.label(0, "property"), card);
+        keep_once(line_bushes_, 0, card);
         return;
       }
       if (card.name() == "PBUSH") {
-        bushes_.emplace(card.label(0, "property"), card);
+        keep_once(bushes_, 0, card);
         return;
       }
       for (const std::size_t first : {0U, 4U})
-        if (card.has(first))
-          springs_.emplace(card.label(first, "property"), card.real(first + 1, "stiffness"));
+        if (card.has(first)) keep_once(springs_, first, card.real(first + 1, "stiffness"));
     } catch (const CardError& error) {
       model_.log.complain(card.line(), card.name() + ": " + error.text);
     }
@@ -136,7 +139,7 @@ class Springs {
     const bool has_end = spring.vertices[1] >= 0;
     const Vector3 from = model_.place(spring.vertices[0]);
     const Vector3 to = from + line_of(spring);
-    const std::array<double, 6> stiffness = bush_stiffness(property);
+    const auto& [stiffness, mass] = bush_property(property);
     const bool is_along_line =
         stiffness[1] == 0 && stiffness[2] == 0 && stiffness[4] == 0 && stiffness[5] == 0;
     spring.axes[0] = spring.axes[1] = bush_axes(card, spring, from, to, is_along_line);
@@ -152,6 +155,7 @@ class Springs {
       spring.components = {i, i};
       add(card, spring, stiffness[i] * unit(i));
     }
+    add_masses(spring, mass * model_.units.mass() * model_.mass_factor);
   }
 
   /// Where it resists nothing but along and about its line, any vector across serves.
@@ -184,20 +188,47 @@ class Springs {
     return axes;
   }
 
-  std::array<double, 6> bush_stiffness(const CardView& property) {
+  /// In the deck's units.
+  struct BushProperty {
     std::array<double, 6> stiffness{};
-    for (std::size_t first = 1; first < property.size(); first += 8) {
-      if (property.is(first, "K")) {
+    double mass = 0;
+  };
+
+  BushProperty bush_property(const CardView& card) {
+    BushProperty property;
+    for (std::size_t first = 1; first < card.size(); first += 8) {
+      if (card.is(first, "K")) {
         for (std::size_t i = 0; i < 6; ++i)
-          stiffness[i] = property.is(first + 1 + i, "RIGID")
-                             ? throw CardError{"a RIGID component of PBUSH is not known"}
-                             : property.real(first + 1 + i, "stiffness", 0.0);
-      } else if (property.has(first)) {
-        model_.log.leave_out("PBUSH", "damping, stress coefficients and mass");
+          property.stiffness[i] = card.is(first + 1 + i, "RIGID")
+                                      ? throw CardError{"a RIGID component of PBUSH is not known"}
+                                      : card.real(first + 1 + i, "stiffness", 0.0);
+      } else if (card.is(first, "M")) {
+        property.mass = card.real(first + 1, "mass", 0.0);
+        if (property.mass < 0)
+          throw CardError{fmt::format("PBUSH {} has a negative mass", card.text(0))};
+      } else if (card.is(first, "B") || card.is(first, "GE") || card.is(first, "RCV") ||
+                 card.is(first, "T")) {
+        model_.log.leave_out("PBUSH", "damping, coefficients of stress and of heat");
+      } else {
+        refuse_line_of_bush(card, first);
       }
     }
     model_.log.use("PBUSH");
-    return stiffness;
+    return property;
+  }
+
+  /// A line whose word is another or missing; one without anything says nothing.
+  static void refuse_line_of_bush(const CardView& card, std::size_t first) {
+    if (card.has(first))
+      throw CardError{fmt::format(
+          "PBUSH {} has a line of \"{}\", which is not known; K, B, GE, RCV, T and M are",
+          card.text(0), card.text(first))};
+    for (std::size_t i = first + 1; i < first + 7; ++i)
+      if (card.has(i))
+        throw CardError{
+            fmt::format("PBUSH {} has \"{}\" without a word before it that tells what it is: K, B, "
+                        "GE, RCV, T or M",
+                        card.text(0), card.text(i))};
   }
 
   // CBUSH1D EID PID GA GB CID: along the line of its grids, or axis 1 of CID

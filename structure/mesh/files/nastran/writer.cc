@@ -40,6 +40,8 @@ class NastranText {
         elements_(element_labels(deck.mesh)) {}
 
   std::string write() {
+    for (const HoldingEquation& held : deck_.holding_equations)
+      mesh_.equations.push_back(held.equation);
     MiddleVertices middles(mesh_);
     for (const Shell& shell : mesh_.shells)
       middles_.push_back(shell.curvature >= 0 ? middles.of(shell) : std::vector<int>{});

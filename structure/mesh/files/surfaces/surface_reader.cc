@@ -40,6 +40,8 @@ class SurfaceReader {
     const EntityRegions regions = is_cad ? from_geometry(length) : from_mesh();
     if (!complaints_.empty()) throw DeckError(complaints_);
     collect_cells(regions, length, deck_);
+    if (deck_.mesh.vertices.empty())
+      throw ModelError("the file has neither plates nor bars: is it all there?");
     name_groups();
     return std::move(deck_);
   }

@@ -276,5 +276,32 @@ TEST(AbaqusData, LoadsThatAreLeftOutAreSaidAtTheirLine) {
   EXPECT_EQ(entry(deck, "*DLOAD").is_wish, false);
 }
 
+// CalculiX: the displacements of the second node are the body's rotations.
+TEST(AbaqusData, RotationNodesOfRigidBodies) {
+  const std::string body =
+      plate_of_two +
+      "*NODE\n100, 3., .5, 0.\n101, 3., .5, 0.\n*NSET, NSET=END\n5, 6\n"
+      "*EQUATION\n2\n101, 2, 1., 1, 5, -1.\n"
+      "*RIGID BODY, NSET=END, REF NODE=100, ROT NODE=101\n*BOUNDARY\n101, 1, 1, .02\n";
+  const Deck deck = abaqus(body + "*STEP\n*STATIC\n*CLOAD\n101, 3, 50.\n*END STEP\n");
+  constexpr int reference = 6;
+  ASSERT_EQ(deck.mesh.vertex_labels.at(reference), 100);
+  ASSERT_EQ(deck.mesh.rigid_links.size(), 1U);
+  EXPECT_EQ(deck.mesh.rigid_links[0].master, reference);
+  const Support& support = deck.support_sets.at(0).supports.at(0);
+  EXPECT_EQ(support.vertex, reference);
+  EXPECT_THAT(support.held, ElementsAre(false, false, false, true, false, false));
+  EXPECT_DOUBLE_EQ(support.value[3], 0.02);
+  const PointLoad& load = deck.load_sets.at(0).point_loads.at(0);
+  EXPECT_EQ(load.vertex, reference);
+  expect_near(load.moment, Vector3(0, 0, 50), 1e-12);
+  EXPECT_TRUE(load.force.isZero(0));
+  ASSERT_EQ(deck.mesh.equations.size(), 1U);
+  EXPECT_EQ(deck.mesh.equations[0].terms[0].vertex, reference);
+  expect_near(deck.mesh.equations[0].terms[0].of_rotation, Vector3(0, 1, 0), 1e-12);
+  EXPECT_THAT(complaints_of_abaqus(body + "*STEP\n*STATIC\n*CLOAD\n101, 4, 1.\n*END STEP\n"),
+              HasSubstr("freedom 4 of node 101, the ROT NODE of a rigid body"));
+}
+
 }  // namespace
 }  // namespace blocklift::structure::test

@@ -90,6 +90,24 @@ TEST(NastranLinks, BushesAlongTheirLine) {
               HasSubstr("CBUSH 2 has neither a coordinate system nor a vector"));
 }
 
+// Its mass is half at either end; a line without its word, or of another one, is refused.
+TEST(NastranLinks, LinesOfBushes) {
+  const std::string deck = "GRID,1,,0.,0.,0.\nGRID,2,,0.,0.,2.\nCBUSH,1,5,1,2\n";
+  const Mesh mesh = nastran(deck + "PBUSH,5,K,1000.\n,,GE,.02\n,,M,.4\n").mesh;
+  ASSERT_EQ(mesh.masses.size(), 2U);
+  EXPECT_DOUBLE_EQ(mesh.masses[0].mass, 0.2);
+  EXPECT_EQ(mesh.masses[1].vertex, 1);
+  EXPECT_THAT(complaints_of_nastran(deck + "PBUSH,5,K,1000.\n,,KMAG,5.\n"),
+              HasSubstr("PBUSH 5 has a line of \"KMAG\", which is not known"));
+  EXPECT_THAT(complaints_of_nastran(deck + "PBUSH,5,,1000.\n"),
+              HasSubstr("PBUSH 5 has \"1000.\" without a word before it"));
+  EXPECT_THAT(complaints_of_nastran(deck + "PBUSH,5,K,1000.\nPBUSH,5,K,10.\n"),
+              HasSubstr("deck.bdf:5: error: PBUSH: property 5 is there twice"));
+  EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nCELAS1,1,5,1,1\nPELAS,5,100.\n"
+                                    "PELAS,6,1.,,,5,2.\n"),
+              HasSubstr("deck.bdf:4: error: PELAS: property 5 is there twice"));
+}
+
 TEST(NastranLinks, MeansOfAnyComponents) {
   const Deck plain = nastran(grids + "RBE3,1,,4,123456,1.,123,1,2\n,2.,123,3\n", "mm-t-N");
   ASSERT_EQ(plain.mesh.distributing_links.size(), 1U);

@@ -357,8 +357,11 @@ TEST(SolidDecks, SaysWhatIsWrong) {
   without.erase(without.find("*SOLID SECTION"), 43);
   EXPECT_THAT(complaints_of_abaqus(without), HasSubstr("solids have no *SOLID SECTION"));
   // Flat as a sheet.
-  const Deck flat = nastran(grids + "CTETRA,103,6,1,2,3,4\nPSOLID,6,7\n" + material);
-  ASSERT_NE(diagnose(flat.mesh, {}).find("folded solids"), nullptr);
+  EXPECT_THAT(complaints_of_nastran(grids + "CTETRA,103,6,1,2,3,4\nPSOLID,6,7\n" + material),
+              HasSubstr("element 103 is folded or has no volume"));
+  Deck flat = nastran(grids + "CTETRA,103,6,2,12,3,6\nPSOLID,6,7\n" + material);
+  for (Vector3& vertex : flat.mesh.vertices) vertex.z() = 0;
+  EXPECT_NE(diagnose(flat.mesh, {}).find("folded solids"), nullptr);
 }
 
 }  // namespace

@@ -431,6 +431,11 @@ TEST_F(Surfaces, SaysWhatIsWrong) {
   const std::string cut = written("cut.step", text.substr(0, text.size() / 2));
   EXPECT_NE(reading_error(cut, reading_of("mm-t-N", 0.1)), "");
   EXPECT_NE(reading_error(written("empty.brep", ""), reading_of("mm-t-N", 0.1)), "");
+  for (const char* msh : {"", "\n",
+                          "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n"
+                          "$EndNodes\n$Elements\n0\n$EndElements\n"})
+    EXPECT_THAT(reading_error(written("empty.msh", msh), reading_of("mm-t-N")),
+                HasSubstr("neither plates nor bars"));
   const std::string twice = made("twice.msh", [] {
     draw_plate();
     for (const char* name : {"deck", "plate"})
