@@ -12,6 +12,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/simulation/linearisation.h"
+#include "dynamics/simulation/tension_peaks.h"
 #include "pipeline/build/held_heading.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "pipeline/lift/parallel_baskets.h"
@@ -115,8 +116,8 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   }
   settings.surface = model.marched.radiation.get();
   settings.surface_step = model.marched.step;
-  dynamics::IntegrationResult dynamic_result =
-      dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+  dynamics::IntegrationResult dynamic_result = dynamics::integrate_with_peaks(
+      system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
   const double dynamic_s = watch.lap();
   return {std::move(model),
           std::move(static_history),
