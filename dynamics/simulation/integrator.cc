@@ -214,9 +214,15 @@ void Integrator::seek_peaks(double begin, bool ends_at_corner) {
     calc_contact_loads(system_, &events_.contacts(), w_);
     return w_.rope_loads;
   };
-  if (time_ > begin)
-    peaks_->seek({begin, time_, ends_at_corner}, loads,
-                 [this](double t, Eigen::Index sample) { record_sample(sample, t); });
+  // Behind a jump of a motion the step begins a little later than the one before it ended.
+  const auto record = [this](double t, Eigen::Index sample) {
+    record_sample(sample, std::min(within_interval(t), time_));
+  };
+  double now = 0.0, length = 0.0;
+  sundials::check(CVodeGetCurrentTime(cvode_, &now), "CVodeGetCurrentTime");
+  sundials::check(CVodeGetLastStep(cvode_, &length), "CVodeGetLastStep");
+  const double first = std::max(begin, now - length);
+  if (time_ > first) peaks_->seek({first, time_, ends_at_corner}, loads, record);
 }
 
 // Where friction has slid over the ground it holds from there on; its force does not jump by that.

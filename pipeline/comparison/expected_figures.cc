@@ -106,7 +106,7 @@ Json scalar_json(const std::string& written) {
   return value.is_number() || value.is_boolean() ? value : Json(written);
 }
 
-Json figure_json(const ExpectedFigure& figure) {
+Json expected_figure_json(const ExpectedFigure& figure) {
   Json row{{"figure", figure.path}};
   const auto add = [&](const char* key, const std::optional<double>& value) {
     if (value) row[key] = *value;
@@ -195,11 +195,11 @@ FigureSyntax syntax_of_figures(const std::filesystem::path& file) {
 std::string expected_figures_text(const std::vector<ExpectedFigure>& figures, FigureSyntax syntax) {
   std::string text;
   if (syntax == FigureSyntax::yaml) {
-    for (const ExpectedFigure& figure : figures) text += yaml_text(figure_json(figure));
+    for (const ExpectedFigure& figure : figures) text += yaml_text(expected_figure_json(figure));
     return text;
   }
   for (const ExpectedFigure& figure : figures)
-    text += (text.empty() ? "" : ",\n") + ("  " + figure_json(figure).dump());
+    text += (text.empty() ? "" : ",\n") + ("  " + expected_figure_json(figure).dump());
   return "[\n" + text + (text.empty() ? "]\n" : "\n]\n");
 }
 
