@@ -42,6 +42,12 @@ try {
   const sheet = { left: 0, right: 10, top: 0, bottom: 10 };
   assert.deepEqual(placeLabels([[box(1, 1), box(1, 3)], [box(2, 1.5), box(2, 3)], [box(8, 1), box(5.5, 1)]], sheet), [0, 1, 1]);
   assert.deepEqual(placeLabels([[box(1, 1)], [box(1, 1.1), box(1, 1.5)]], sheet), [0, 1]);
+  // It keeps off lines where it can.
+  assert.deepEqual(placeLabels([[box(1, 1), box(1, 3)]], sheet, [[[0, 0], [3, 1.5], [3, 1.8]]]), [1]);
+  assert.deepEqual(placeLabels([[box(1, 1)]], sheet, [[[3, 0], [3, 9]]]), [0]);
+  // The two legs of a sling, seen from the side, have their names outside.
+  const legs = ropeLabels([{ name: "A", path: [[10, 2], [9, 6]] }, { name: "B", path: [[10, 2], [11, 6]] }], 1, { left: 0, right: 20, top: 0, bottom: 9 });
+  assert.ok(legs[0].box.right < 9.5 && legs[1].box.left > 10.5);
   // Slings that fan out from a hook, seen from the side: two fall onto each other, the others are near. At their middles the
   // names would lie on one another.
   const fan = [0, 0, 1, 2, 3, 4].map((x, i) => ({ name: `sling ${i + 1}`, path: [[10, 2], [8 + x, 12]] }));

@@ -9,14 +9,29 @@ const shared = (a: Box, b: Box): number => Math.max(0, Math.min(a.right, b.right
   * Math.max(0, Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top));
 const area = (box: Box): number => (box.right - box.left) * (box.bottom - box.top);
 
+/** Length of a line from a to b within a box: where it enters and leaves, as shares of it (Liang and Barsky 1984). */
+function lengthWithin([ax, ay]: Flat, [bx, by]: Flat, box: Box): number {
+  let [enters, leaves] = [0, 1];
+  for (const [from, along, low, high] of [[ax, bx - ax, box.left, box.right], [ay, by - ay, box.top, box.bottom]]) {
+    if (along === 0 && (from < low || from > high)) return 0;
+    if (along === 0) continue;
+    const ends = [(low - from) / along, (high - from) / along];
+    enters = Math.max(enters, Math.min(...ends));
+    leaves = Math.min(leaves, Math.max(...ends));
+  }
+  return Math.max(0, leaves - enters) * Math.hypot(bx - ax, by - ay);
+}
+
 /**
- * Which of its candidates each label takes, one label after another: the first that is within the drawing and on none
- * taken before, or else the one of which least is outside or on others.
+ * Which of its candidates each label takes, one label after another: the first that is within the drawing, on none taken
+ * before and on no line, or else the one of which least is. A line counts as a strip of a fourth of the label's height.
  */
-export function placeLabels(candidates: Box[][], within: Box): number[] {
+export function placeLabels(candidates: Box[][], within: Box, lines: Flat[][] = []): number[] {
   const taken: Box[] = [];
+  const onLines = (box: Box): number => lines.reduce((sum, line) => sum + line.slice(1).reduce((length, point, i) =>
+    length + lengthWithin(line[i], point, box), 0), 0) * (box.bottom - box.top) / 4;
   return candidates.map((boxes) => {
-    const costs = boxes.map((box) => taken.reduce((sum, other) => sum + shared(box, other), area(box) - shared(box, within)));
+    const costs = boxes.map((box) => taken.reduce((sum, other) => sum + shared(box, other), area(box) - shared(box, within) + onLines(box)));
     const best = costs.findIndex((cost) => cost <= 1e-9 * area(boxes[0]));
     const chosen = best >= 0 ? best : costs.indexOf(Math.min(...costs));
     taken.push(boxes[chosen]);
@@ -36,7 +51,7 @@ function along(path: Flat[], share: number): Flat {
   return path[path.length - 1];
 }
 
-/** Names beside the middle of their ropes, or further up or down these; ropes that fall onto each other share one. */
+/** Names beside the middle of their ropes, or further up or down these, on no rope where there is room; ropes that fall onto each other share one. */
 export function ropeLabels(ropes: { name: string; path: Flat[] }[], size: number, within: Box): Label[] {
   const near = (a: Flat, b: Flat): boolean => Math.hypot(a[0] - b[0], a[1] - b[1]) < size / 2;
   const groups: { names: string[]; path: Flat[] }[] = [];
@@ -56,5 +71,5 @@ export function ropeLabels(ropes: { name: string; path: Flat[] }[], size: number
         ({ left, right: left + width, top: y - 0.8 * size, bottom: y + 0.25 * size }));
     });
   });
-  return placeLabels(candidates, within).map((chosen, i) => ({ text: groups[i].names.join(", "), box: candidates[i][chosen] }));
+  return placeLabels(candidates, within, groups.map(({ path }) => path)).map((chosen, i) => ({ text: groups[i].names.join(", "), box: candidates[i][chosen] }));
 }
