@@ -94,7 +94,7 @@ std::pair<double, double> find_largest_within(const Vector4& values) {
                                     std::max(values[0], values[3]));
   const double discriminant = c * c - 3 * b * d;
   if (!(discriminant >= 0)) return largest;
-  // Roots of the derivative without cancellation; where one is none, it is not a number or infinite.
+  // Roots of the derivative without cancellation. What is none is not a number, or infinite.
   const double q = -(c + std::copysign(std::sqrt(discriminant), c));
   for (const double u : {q / (3 * d), b / q}) {
     if (!(u > 0 && u < 3)) continue;
