@@ -32,7 +32,7 @@ Eigen::VectorXd samples_of(const LiftSystem& system, const IntegrationSettings& 
 }  // namespace
 
 Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                       const IntegrationSettings& settings)
+                       const IntegrationSettings& settings, bool with_peaks)
     : system_(system),
       settings_(settings),
       w_(system),
@@ -42,12 +42,16 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
       roots_(static_cast<std::size_t>(events_.count())),
       sample_times_(samples_of(system, settings)),
       context_(sundials::make_context()),
-      result_{History(system, sample_times_.size(), settings.works, settings.recording),
+      result_{History(system,
+                      sample_times_.size() +
+                          (with_peaks ? static_cast<Eigen::Index>(system.ropes().size()) : 0),
+                      settings.works, settings.recording),
               {},
               {},
               {},
               {},
               {}} {
+  if (with_peaks) peaks_.emplace(result_.history);
   if (!system.operation().steerings().empty()) steersman_.emplace(system);
   if (!(settings.relative_tolerance > 0.0) || settings.relative_tolerance > 0.1) {
     throw ModelError("the relative tolerance is " + std::to_string(settings.relative_tolerance) +
@@ -165,29 +169,60 @@ void Integrator::evaluate_sample(double t, ConstVectorRef y) {
   rows.swap(w_.loop_rows);
 }
 
+// The state at a time within the last step, or at the beginning, into sample_.
+void Integrator::interpolate(double t) {
+  loaded_time_ = evaluated_time_ = foreseen_time_ = not_a_number;
+  if (time_ > begin_) {
+    sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");
+  } else {
+    sundials::view(sample_.get()) = sundials::view(y_.get());
+  }
+  project_state(t, sundials::view(sample_.get()));
+}
+
+void Integrator::record_sample(Eigen::Index sample, double t) {
+  interpolate(t);
+  evaluate_sample(within_interval(t), sundials::view(sample_.get()));
+  result_.history.record(system_, sample, t, w_);
+  if (!settings_.works) return;
+  sundials::view(sampled_work_.get()).setZero();
+  if (time_ > begin_)
+    sundials::check(CVodeGetQuadDky(cvode_, t, 0, sampled_work_.get()), "CVodeGetQuadDky");
+  result_.history.record_works(sample, sundials::view(sampled_work_.get()));
+}
+
 void Integrator::record_samples(double up_to) {
   while (next_sample_ < sample_times_.size() && sample_times_[next_sample_] <= up_to) {
-    loaded_time_ = evaluated_time_ = foreseen_time_ = not_a_number;
     const double t = sample_times_[next_sample_];
-    if (t > begin_) {
-      sundials::check(CVodeGetDky(cvode_, t, 0, sample_.get()), "CVodeGetDky");
-    } else {
-      sundials::view(sample_.get()) = sundials::view(y_.get());
-    }
-    auto y = sundials::view(sample_.get());
-    project_state(t, y);
-    evaluate_sample(within_interval(t), y);
-    result_.history.record(system_, next_sample_, t, w_);
+    record_sample(next_sample_, t);
     if (settings_.observe) settings_.observe(next_sample_, t, w_);
-    if (settings_.works) {
-      sundials::view(sampled_work_.get()).setZero();
-      if (t > begin_) {
-        sundials::check(CVodeGetQuadDky(cvode_, t, 0, sampled_work_.get()), "CVodeGetQuadDky");
-      }
-      result_.history.record_works(next_sample_, sundials::view(sampled_work_.get()));
-    }
+    if (peaks_) peaks_->note_sample(next_sample_);
     ++next_sample_;
   }
+}
+
+// Largest loads within the step that has just been taken.
+void Integrator::seek_peaks(double begin, bool ends_at_corner) {
+  const auto loads = [this](double t) -> const std::vector<RopeLoad>& {
+    if (t == time_) {
+      events_.load(t);
+      return w_.rope_loads;
+    }
+    interpolate(t);
+    set_state(system_, sundials::view(sample_.get()), w_);
+    set_drives(system_, within_interval(t), true, w_);
+    calc_contact_loads(system_, &events_.contacts(), w_);
+    return w_.rope_loads;
+  };
+  // Behind a jump of a motion the step begins a little later than the one before it ended.
+  const auto record = [this](double t, Eigen::Index sample) {
+    record_sample(sample, std::min(within_interval(t), time_));
+  };
+  double now = 0.0, length = 0.0;
+  sundials::check(CVodeGetCurrentTime(cvode_, &now), "CVodeGetCurrentTime");
+  sundials::check(CVodeGetLastStep(cvode_, &length), "CVodeGetLastStep");
+  const double first = std::max(begin, now - length);
+  if (time_ > first) peaks_->seek({first, time_, ends_at_corner}, loads, record);
 }
 
 // Where friction has slid over the ground it holds from there on; its force does not jump by that.
@@ -200,6 +235,7 @@ void Integrator::slide_pads(double t) {
 }
 
 void Integrator::step(double end) {
+  const double begin = time_;
   const int flag = CVode(cvode_, end, y_.get(), &time_, CV_ONE_STEP);
   if (flag < 0) fail(CVodeGetReturnFlagName(flag));
   if (settings_.works) {
@@ -207,6 +243,7 @@ void Integrator::step(double end) {
     sundials::check(CVodeGetQuad(cvode_, &t, work_.get()), "CVodeGetQuad");
   }
   record_samples(time_);
+  if (peaks_) seek_peaks(begin, flag == CV_ROOT_RETURN || time_ >= to_ - beside);
   if (on_ground_) slide_pads(time_);
   events_.carry_splits(time_);
   change_events(flag == CV_ROOT_RETURN);
@@ -370,6 +407,7 @@ IntegrationResult Integrator::run() {
   result_.v_end = w_.v;
   system_.mechanism().normalise(result_.q_end);
   if (steersman_) result_.courses = steersman_->courses();
+  if (peaks_) peaks_->arrange();
   return std::move(result_);
 }
 

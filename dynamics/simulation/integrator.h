@@ -12,6 +12,7 @@
 #include "dynamics/simulation/state_projection.h"
 #include "dynamics/simulation/steersman.h"
 #include "dynamics/simulation/sundials.h"
+#include "dynamics/simulation/tension_peaks.h"
 
 namespace blocklift::dynamics {
 
@@ -19,8 +20,9 @@ namespace blocklift::dynamics {
 /// integrator_callbacks.cc, the way through stages, samples and events in integrator.cc.
 class Integrator {
  public:
+  /// @param with_peaks Are largest loads sought between the samples (integrate_with_peaks)?
   Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-             const IntegrationSettings& settings);
+             const IntegrationSettings& settings, bool with_peaks = false);
   ~Integrator();
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
@@ -38,6 +40,9 @@ class Integrator {
   void restart(double t);
   void count_before_restart();
   void record_samples(double up_to);
+  void interpolate(double t);
+  void record_sample(Eigen::Index sample, double t);
+  void seek_peaks(double begin, bool ends_at_corner);
   void evaluate_sample(double t, ConstVectorRef y);
   void move_to(double t);
   void change_events(bool at_root);
@@ -100,6 +105,7 @@ class Integrator {
   std::exception_ptr exception_;
   std::string message_;
   IntegrationResult result_;
+  std::optional<TensionPeaks> peaks_;
   double reported_ = -1.0;  ///< fraction of the operation
   long steps_taken_ = 0;
   double time_of_portion_ = 0.0;  // when the last hundredth of the allowed steps was taken

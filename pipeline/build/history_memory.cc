@@ -13,7 +13,9 @@
 namespace blocklift::pipeline {
 
 double sample_count(const HistoryToCome& history) {
-  return std::floor(history.system->operation().duration() / history.interval - 1e-3) + 2;
+  const double peaks =
+      history.with_peaks ? static_cast<double>(history.system->ropes().size()) : 0.0;
+  return std::floor(history.system->operation().duration() / history.interval - 1e-3) + 2 + peaks;
 }
 
 double bytes_of_sample(const dynamics::LiftSystem& system, bool with_works) {
@@ -53,7 +55,8 @@ void require_memory(const std::vector<HistoryToCome>& histories) {
 void require_memory(const LiftCase& lift_case, const BuiltLift& model) {
   require_memory(
       {{&model.at_rest(), lift_case.dynamics.static_interval, "dynamics.static_interval"},
-       {&model.system, lift_case.dynamics.sample_interval, "dynamics.sample_interval", true}});
+       {&model.system, lift_case.dynamics.sample_interval, "dynamics.sample_interval", true,
+        true}});
 }
 
 }  // namespace blocklift::pipeline

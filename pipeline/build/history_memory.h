@@ -13,9 +13,11 @@ struct HistoryToCome {
   double interval = 0;      ///< between samples, s
   const char* key = "";     ///< of the input file that gives the interval
   bool with_works = false;  ///< of a motion: dynamics::EnergyHistory
+  bool with_peaks = false;  ///< of a motion: a sample more a rope, dynamics::integrate_with_peaks
 };
 
-/// Samples of a history from the start of the operation to its end, dynamics::sample_times.
+/// Samples of a history from the start of the operation to its end, dynamics::sample_times, and
+/// those of peaks.
 double sample_count(const HistoryToCome& history);
 
 /// What dynamics::History holds of each sample, bytes, and the time of it that the run keeps.

@@ -271,11 +271,16 @@ std::vector<PadeyeInstant> find_instants(PadeyeRun& run, const BlockAttachment& 
   return instants;
 }
 
-std::string ropes_at(const LiftCase& lift_case, const std::string& lug) {
+/// Names of the ropes that end at a lug; one from the lug to itself once.
+std::string ropes_at(int lug, const BlockAttachment& attachment, const dynamics::History& history) {
   std::string names;
-  for (const RopeInCase& rope : lift_case.ropes)
-    if (!rope.path.empty() && (rope.path.front().lug == lug || rope.lug() == lug))
-      names += (names.empty() ? "" : ", ") + rope.name.value;
+  int last = -1;
+  for (const LugRope& end : attachment.ropes) {
+    if (end.lug != lug || end.rope == last) continue;
+    last = end.rope;
+    const auto rope = static_cast<std::size_t>(end.rope);
+    names += (names.empty() ? "" : ", ") + history.ropes[rope].name;
+  }
   return names;
 }
 
@@ -296,7 +301,6 @@ PadeyesAssessment assess_at(const LiftCase& lift_case, const UnitResponses& resp
     std::vector<PadeyeInstant> instants = find_instants_of(run);
     if (instants.empty()) continue;
     run.add_rules();
-    run.result().rope = ropes_at(lift_case, run.result().lug);
     const int model = wanted.add(run.result().input, divisions_of(lift_case, run.result().padeye));
     all.push_back({std::move(run), std::move(instants), static_cast<std::size_t>(model)});
   }
@@ -327,9 +331,8 @@ PadeyesAssessment assess_padeyes(const LiftCase& lift_case, const UnitResponses&
                                  const BlockHistory& static_history,
                                  const BlockHistory& dynamic_history) {
   return assess_at(lift_case, responses, [&](PadeyeRun& run) -> std::vector<PadeyeInstant> {
-    const bool is_pulled = std::any_of(attachment.ropes.begin(), attachment.ropes.end(),
-                                       [&](const LugRope& rope) { return rope.lug == run.lug(); });
-    if (!is_pulled) return {};
+    run.result().rope = ropes_at(run.lug(), attachment, dynamic_history.motion);
+    if (run.result().rope.empty()) return {};
     return find_instants(run, attachment, static_history, dynamic_history,
                          responses.model().mass_properties());
   });

@@ -30,12 +30,8 @@
 #include "pipeline/formats/results_store.h"
 #include "pipeline/report/lift_frames.h"
 #include "pipeline/report/report.h"
-#include "pipeline/results/bounce_doubts.h"
-#include "pipeline/results/doubts.h"
 #include "pipeline/results/load_case_decks.h"
 #include "pipeline/results/mesh_error.h"
-#include "pipeline/results/radiation_summary.h"
-#include "pipeline/results/sling_summary.h"
 #include "pipeline/results/standard_summary.h"
 #include "pipeline/results/table_summary.h"
 #include "pipeline/terminal/run_log.h"
@@ -134,7 +130,6 @@ void print_motion(const LiftRun& lift) {
   const dynamics::IntegrationStatistics& cost = lift.dynamic_result.statistics;
   fmt::print("time integration: {} steps, {} right-hand sides, {} Jacobians\n", cost.steps,
              cost.right_hand_sides, cost.jacobians);
-  fmt::print("{}", misplacement_notice(record_radiation(lift.model, lift.dynamic_history())));
 }
 
 void print_block(const BlockAssessment& block, const HistoryAssessment* history) {
@@ -345,22 +340,12 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   line.finish();
 
   print_results(assessment);
-  if (const auto balances = find_table_balances(assessment))
-    for (const std::string& doubt : list_doubts(*balances)) say_warning(doubt);
-  if (assessment.lift) {
-    for (const std::string& doubt : list_doubts(assessment.lift_case, *assessment.lift))
-      say_warning(doubt);
-    for (const std::string& doubt : list_bounce_doubts(assessment.lift_case, *assessment.lift))
-      say_warning(doubt);
-    if (assessment.sling_lengths)
-      for (const std::string& doubt :
-           list_doubts(assessment.lift_case, *assessment.lift, *assessment.sling_lengths))
-        say_warning(doubt);
-  }
+  const nlohmann::ordered_json summary = read_summary(folder / layout::summary_file);
+  for (const auto& warning : summary.value("warnings", nlohmann::ordered_json::array()))
+    say_warning(warning.get<std::string>());
   print_checks(assessment);
   if (decks) print_decks(files, folder);
-  const bool as_expected =
-      !expect || figures_are_held(expected, read_summary(folder / layout::summary_file));
+  const bool as_expected = !expect || figures_are_held(expected, summary);
   if (!is_quiet()) fmt::print("report: {}\n", report.string());
   return assessment.pass() && as_expected ? exit_code::done : exit_code::lift_fails;
 }

@@ -20,7 +20,7 @@ int renew_file(const ExpectOptions& options) {
   std::vector<ExpectedFigure> figures = read_expected_figures(*options.file);
   const ComparedResult result = read_compared_result(options.result);
   const std::vector<BrokenFigure> renewed = renew_figures(figures, result.summary);
-  write_file(*options.file, expected_figures_text(figures));
+  write_file(*options.file, expected_figures_text(figures, syntax_of_figures(*options.file)));
   for (const BrokenFigure& broken : renewed)
     fmt::print("renewed: {} {}\n", figures[broken.index].path, broken.complaint);
   // What is required cannot be renewed.

@@ -17,7 +17,7 @@
 #include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/results_layout.h"
-#include "pipeline/results/doubts.h"
+#include "pipeline/formats/results/summary_file.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
@@ -125,8 +125,6 @@ void print_lift(const LiftSimulation& simulation) {
   if (!simulation.run.natural_modes.empty()) {
     print_wrapped(describe_natural_periods(simulation.run.natural_modes.front()));
   }
-  fmt::print("{}", misplacement_notice(
-                       record_radiation(simulation.run.model, simulation.run.dynamic_history())));
   print_statistics(simulation.run.dynamic_result.statistics, simulation.run.dynamic_s);
 }
 
@@ -151,8 +149,9 @@ int simulate_lift_case(const SimulateOptions& options) {
     const HeldSignals until_all_is_in_place;
     write_lift_simulation(simulation, folder, options.csv);
   }
-  for (const std::string& doubt : list_doubts(simulation.lift_case, simulation.run))
-    say_warning(doubt);
+  const nlohmann::ordered_json summary = read_summary(folder / layout::summary_file);
+  for (const auto& warning : summary.value("warnings", nlohmann::ordered_json::array()))
+    say_warning(warning.get<std::string>());
   print_lift(simulation);
   print_files(folder, options.csv);
   return exit_code::done;

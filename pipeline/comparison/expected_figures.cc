@@ -8,6 +8,7 @@
 #include "pipeline/comparison/summary_figures.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/table.h"
+#include "pipeline/declaration/text_file.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -105,6 +106,30 @@ Json scalar_json(const std::string& written) {
   return value.is_number() || value.is_boolean() ? value : Json(written);
 }
 
+Json expected_figure_json(const ExpectedFigure& figure) {
+  Json row{{"figure", figure.path}};
+  const auto add = [&](const char* key, const std::optional<double>& value) {
+    if (value) row[key] = *value;
+  };
+  add("value", figure.value);
+  if (figure.equals) row["equals"] = scalar_json(*figure.equals);
+  add("at_least", figure.at_least);
+  add("at_most", figure.at_most);
+  add("magnitude_at_most", figure.magnitude_at_most);
+  add("tolerance", figure.tolerance);
+  add("absolute_tolerance", figure.absolute_tolerance);
+  row["reason"] = figure.reason;
+  return row;
+}
+
+/// Scalars of JSON are scalars of YAML.
+std::string yaml_text(const Json& row) {
+  std::string text;
+  for (const auto& [key, value] : row.items())
+    text += fmt::format("{} {}: {}\n", text.empty() ? "-" : " ", key, value.dump());
+  return text;
+}
+
 }  // namespace
 
 std::vector<ExpectedFigure> read_expected_figures(const std::filesystem::path& file) {
@@ -160,25 +185,22 @@ std::vector<BrokenFigure> renew_figures(std::vector<ExpectedFigure>& figures, co
   return renewed;
 }
 
-std::string expected_figures_text(const std::vector<ExpectedFigure>& figures) {
-  std::string text = "[\n";
-  for (std::size_t i = 0; i < figures.size(); ++i) {
-    const ExpectedFigure& figure = figures[i];
-    Json row{{"figure", figure.path}};
-    const auto add = [&](const char* key, const std::optional<double>& value) {
-      if (value) row[key] = *value;
-    };
-    add("value", figure.value);
-    if (figure.equals) row["equals"] = scalar_json(*figure.equals);
-    add("at_least", figure.at_least);
-    add("at_most", figure.at_most);
-    add("magnitude_at_most", figure.magnitude_at_most);
-    add("tolerance", figure.tolerance);
-    add("absolute_tolerance", figure.absolute_tolerance);
-    row["reason"] = figure.reason;
-    text += "  " + row.dump() + (i + 1 < figures.size() ? ",\n" : "\n");
+FigureSyntax syntax_of_figures(const std::filesystem::path& file) {
+  Diagnostics diagnostics;
+  const std::optional<TextFile> read = load_text(file, diagnostics);
+  if (!read) throw InputError(diagnostics);
+  return Json::accept(read->text) ? FigureSyntax::json : FigureSyntax::yaml;
+}
+
+std::string expected_figures_text(const std::vector<ExpectedFigure>& figures, FigureSyntax syntax) {
+  std::string text;
+  if (syntax == FigureSyntax::yaml) {
+    for (const ExpectedFigure& figure : figures) text += yaml_text(expected_figure_json(figure));
+    return text;
   }
-  return text + "]\n";
+  for (const ExpectedFigure& figure : figures)
+    text += (text.empty() ? "" : ",\n") + ("  " + expected_figure_json(figure).dump());
+  return "[\n" + text + (text.empty() ? "]\n" : "\n]\n");
 }
 
 }  // namespace blocklift::pipeline

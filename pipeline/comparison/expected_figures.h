@@ -46,7 +46,15 @@ std::vector<ExpectedFigure> expect_figures(const nlohmann::ordered_json& summary
 std::vector<BrokenFigure> renew_figures(std::vector<ExpectedFigure>& figures,
                                         const nlohmann::ordered_json& summary);
 
-/// The file of these figures: JSON, one figure a line, so that a change reads well.
-std::string expected_figures_text(const std::vector<ExpectedFigure>& figures);
+/// How a file of figures is written.
+enum class FigureSyntax { json, yaml };
+
+/// The syntax of a file of figures as it stands. @throws InputError if it cannot be read.
+FigureSyntax syntax_of_figures(const std::filesystem::path& file);
+
+/// The file of these figures: JSON, one figure a line, so that a change reads well; or YAML, one
+/// key a line.
+std::string expected_figures_text(const std::vector<ExpectedFigure>& figures,
+                                  FigureSyntax syntax = FigureSyntax::json);
 
 }  // namespace blocklift::pipeline

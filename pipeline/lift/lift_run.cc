@@ -12,6 +12,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/simulation/linearisation.h"
+#include "dynamics/simulation/tension_peaks.h"
 #include "pipeline/build/held_heading.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "pipeline/lift/parallel_baskets.h"
@@ -40,11 +41,12 @@ void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorksp
   }
 }
 
-/// The equilibrium at the start from a guess. Where there is none, what the case says against one
-/// goes with the message.
-void find_start(const LiftCase& lift_case, const BuiltLift& model, Eigen::VectorXd& q) {
+/// What a search for equilibria or a time integration finds. Where it fails, at whatever instant,
+/// what the case says against equilibria goes with the message.
+template <typename Find>
+auto find_or_say_why(const LiftCase& lift_case, const Find& find) {
   try {
-    solver_at_rest(model).solve(0, q);
+    return find();
   } catch (const dynamics::SimulationError& error) {
     const std::string why = doubt_about_baskets(lift_case);
     if (why.empty()) throw;
@@ -82,7 +84,7 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
         dynamics::sample_times(system.operation().duration(), lift_case.dynamics.static_interval);
   // Both histories begin at the same equilibrium.
   Eigen::VectorXd q = system.q_start();
-  find_start(lift_case, model, q);
+  find_or_say_why(lift_case, [&] { solver_at_rest(model).solve(0, q); });
   Eigen::VectorXd righting_height =
       Eigen::VectorXd::Constant(times.size(), std::numeric_limits<double>::quiet_NaN());
   std::function<void(Eigen::Index, double, dynamics::LiftWorkspace&)> observe;
@@ -92,9 +94,10 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
       righting_height[sample] = dynamics::calc_righting_height(
           at_rest, time, w, model.load, tangent, model.held_heading.has_value());
     };
-  dynamics::History static_history =
-      dynamics::static_sweep(at_rest, times, q, settings_at_rest(model), report("static sweep"),
-                             observe, extent.recording());
+  dynamics::History static_history = find_or_say_why(lift_case, [&] {
+    return dynamics::static_sweep(at_rest, times, q, settings_at_rest(model),
+                                  report("static sweep"), observe, extent.recording());
+  });
   std::vector<NaturalModes> natural_modes;
   if (extent.natural_modes)
     natural_modes =
@@ -115,8 +118,10 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   }
   settings.surface = model.marched.radiation.get();
   settings.surface_step = model.marched.step;
-  dynamics::IntegrationResult dynamic_result =
-      dynamics::integrate(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+  dynamics::IntegrationResult dynamic_result = find_or_say_why(lift_case, [&] {
+    return dynamics::integrate_with_peaks(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()),
+                                          settings);
+  });
   const double dynamic_s = watch.lap();
   return {std::move(model),
           std::move(static_history),
@@ -151,16 +156,19 @@ BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Pr
     const std::optional<std::size_t> steered = model.schedule.steered_stage();
     if (!waiting && !steered) {
       if (!fault_at_worst(lift_case)) return model;
-      const WorstInstant worst = find_worst_instant(lift_case, build, progress);
+      const WorstInstant worst = find_or_say_why(
+          lift_case, [&] { return find_worst_instant(lift_case, build, progress); });
       BuiltLift disturbed = build(worst.worst.time);
       disturbed.worst = worst;
       return disturbed;
     }
     if (steered && (!waiting || *steered < *waiting)) {
-      for (dynamics::Course& course : find_courses(lift_case, model, progress))
+      for (dynamics::Course& course :
+           find_or_say_why(lift_case, [&] { return find_courses(lift_case, model, progress); }))
         found.courses.push_back(std::move(course));
     } else {
-      found.met.push_back(find_stage_end(lift_case, model, *waiting, progress));
+      found.met.push_back(find_or_say_why(
+          lift_case, [&] { return find_stage_end(lift_case, model, *waiting, progress); }));
     }
   }
 }

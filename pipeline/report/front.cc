@@ -250,6 +250,13 @@ std::string block_figures(const Json& summary) {
     if (!way.is_object()) continue;
     const Json& still = at(way, "static");
     const Json& moving = at(way, "dynamic");
+    // An increase compares two instants, where it is one of instants.
+    const auto instants = [&](const char* key) -> std::string {
+      if (at(still, key).is_number() && at(moving, key).is_number())
+        return fmt::format(", each at its worst instant: {} and {} s", f::fixed(at(still, key), 1),
+                           f::fixed(at(moving, key), 1));
+      return i == 1 && !is_table ? ", each at its worst instant" : "";
+    };
     const auto lines = [](const std::string& first, const std::string& second) {
       return second.empty() ? first : fmt::format("{}<br>{}", first, second);
     };
@@ -257,14 +264,16 @@ std::string block_figures(const Json& summary) {
         std::string("Block stress increase") + of_names[i],
         f::change(at(way, "stress_increase_percent")), "",
         lines(lines(fmt::format("{} to {} MPa", f::megapascals(at(still, "checked_von_mises_Pa")),
-                                f::megapascals(at(moving, "checked_von_mises_Pa"))),
+                                f::megapascals(at(moving, "checked_von_mises_Pa"))) +
+                        instants("time_s"),
                     beside(summary, "stress_increase_percent")),
               band_text(structure)));
     html += figure_html(
         std::string("Block deformation increase") + of_names[i],
         f::change(at(way, "deformation_increase_percent")), "",
         lines(fmt::format("{} to {} mm", f::millimetres(at(still, "max_displacement_m")),
-                          f::millimetres(at(moving, "max_displacement_m"))),
+                          f::millimetres(at(moving, "max_displacement_m"))) +
+                  instants("max_displacement_time_s"),
               beside(summary, "deformation_increase_percent")));
     return html;
   }

@@ -152,8 +152,9 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
       "Drives and winches follow their motion profiles exactly, whatever force that takes.");
   list.push_back(fmt::format(
       "Static: equilibrium at the same winch lengths and crane positions, every {:g} s, with the "
-      "mean wind. Dynamic: time integration with relative tolerance {:g}; largest loads are those "
-      "of samples every {:g} s.",
+      "mean wind. Dynamic: time integration with relative tolerance {:g}. Largest loads of single "
+      "ropes and hoists are those of all its steps; other figures are sought among samples every "
+      "{:g} s and at those loads.",
       lift_case.dynamics.static_interval, lift_case.dynamics.relative_tolerance,
       lift_case.dynamics.sample_interval));
   if (lift_case.has_structure()) {

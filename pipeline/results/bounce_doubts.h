@@ -8,10 +8,9 @@
 
 namespace blocklift::pipeline {
 
-/// What may be wrong with the motions in which the load swings on its stretched ropes: samples so
-/// far apart that a largest load falls between two of them, and ropes that damp more than any do.
-/// Each a sentence with what was found and what is usual. Nothing where no natural modes are known,
-/// nor of a load that rests on pads at times.
+/// What may be wrong with the motions in which the load swings on its stretched ropes: ropes that
+/// damp more than any do. Each a sentence with what was found and what is usual. Nothing where no
+/// natural modes are known, nor of a load that rests on pads at times.
 std::vector<std::string> list_bounce_doubts(const LiftCase& lift_case, const LiftRun& lift);
 
 }  // namespace blocklift::pipeline

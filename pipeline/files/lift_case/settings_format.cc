@@ -45,9 +45,8 @@ Format<DynamicsSettings> dynamics_format() {
       .by_default(
           "sample_interval", &DynamicsSettings::sample_interval,
           quantity(Dimension::time, Range::between(1e-4, 0.2)), "0.05 s",
-          "between two recorded samples of the motion, among which the largest loads are "
-          "sought: at most a sixteenth of the period of the load's bounce on its ropes, or it "
-          "is warned of")
+          "between two recorded samples of the motion. Largest loads of ropes and hoists are "
+          "found between them, too, and are samples besides; other figures are sought among them")
       .by_default("static_interval", &DynamicsSettings::static_interval,
                   quantity(Dimension::time, Range::between(1e-3, 30)), "1 s",
                   "between two static equilibria")

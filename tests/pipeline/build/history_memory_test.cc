@@ -73,6 +73,9 @@ TEST_F(HistoryMemory, IsThatOfTheHistoriesColumns) {
   for (const double interval : {0.05, 0.07, 1.0})
     EXPECT_EQ(sample_count({&lift_->system, interval}),
               static_cast<double>(dynamics::sample_times(duration, interval).size()));
+  const auto ropes = static_cast<double>(lift_->system.ropes().size());
+  EXPECT_EQ(sample_count({&lift_->system, 1.0, "", true, true}),
+            sample_count({&lift_->system, 1.0, "", true}) + ropes);
 }
 
 TEST_F(HistoryMemory, IsRefusedWithFiguresWhereItIsTooMuch) {
@@ -83,7 +86,8 @@ TEST_F(HistoryMemory, IsRefusedWithFiguresWhereItIsTooMuch) {
     require_memory(lift_case_, *lift_);
     FAIL() << "1,000,000,001 samples do not fit in 20 GB";
   } catch (const dynamics::SimulationError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("and 1000000001 samples every "));
+    EXPECT_THAT(error.what(), HasSubstr(std::to_string(1000000001 + lift_->system.ropes().size()) +
+                                        " samples every "));
     EXPECT_THAT(error.what(),
                 HasSubstr(" GB may be used: sample less often by "
                           "`dynamics.static_interval` or `dynamics.sample_interval`"));

@@ -65,6 +65,27 @@ TEST_F(CompareCommand, HoldsALiftToWhatItWasAndFindsWhatMoved) {
   EXPECT_EQ(renewed.exit_code, 0) << renewed.err;
   EXPECT_THAT(renewed.out, HasSubstr("renewed: ropes.R1.max_static_tension_N is "));
   EXPECT_NE(text_of_file("figures.json"), first_figures);
+  folder_.write(
+      "figures.yaml",
+      "- {figure: ropes.R1.max_static_tension_N, value: 1, tolerance: 0.01, reason: r}\n");
+  ASSERT_EQ(run("expect heavier -o figures.yaml --renew").exit_code, 0);
+  EXPECT_THAT(text_of_file("figures.yaml"),
+              ::testing::StartsWith("- figure: \"ropes.R1.max_static_tension_N\"\n  value: "));
+}
+
+// The small lift's bounce is damped too much.
+TEST_F(CompareCommand, WarnsOfWhatTheSummaryWarnsOf) {
+  const Outcome outcome = run("assess lift -o out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto warnings = nlohmann::json::parse(text_of_file("out/summary.json"))["warnings"];
+  ASSERT_FALSE(warnings.empty());
+  std::size_t said = 0;
+  for (auto at = outcome.out.find("warning: "); at != std::string::npos;
+       at = outcome.out.find("warning: ", at + 1))
+    ++said;
+  EXPECT_EQ(said, warnings.size()) << outcome.out;
+  for (const auto& warning : warnings)
+    EXPECT_THAT(outcome.out, HasSubstr("warning: " + warning.get<std::string>().substr(0, 20)));
 }
 
 TEST_F(CompareCommand, SetsKeysOfTheCaseAndOfItsModels) {

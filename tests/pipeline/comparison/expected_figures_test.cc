@@ -15,6 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 std::vector<ExpectedFigure> read_text(const std::string& text) {
   const test::TemporaryFolder folder;
@@ -131,6 +132,19 @@ TEST(ExpectedFigures, OfALiftAreHeldByItAndSurviveTheirFile) {
   const auto broken = find_broken_figures(figures, other);
   ASSERT_EQ(broken.size(), 1u);
   EXPECT_EQ(figures[broken[0].index].path, "ropes.R1.max_dynamic_tension_N");
+}
+
+TEST(ExpectedFigures, AreWrittenInTheSyntaxOfTheirFile) {
+  const test::TemporaryFolder folder;
+  const auto figures = expect_figures(test::sample_summary());
+  const std::string yaml = expected_figures_text(figures, FigureSyntax::yaml);
+  EXPECT_THAT(yaml, StartsWith("- figure: \"verdict\"\n  equals: \"pass\"\n  reason: "));
+  EXPECT_EQ(expected_figures_text(read_text(yaml)), expected_figures_text(figures));
+  folder.write("figures.yaml", "# by hand\n" + yaml);
+  folder.write("figures.json", expected_figures_text(figures));
+  EXPECT_EQ(syntax_of_figures(folder.path() / "figures.yaml"), FigureSyntax::yaml);
+  EXPECT_EQ(syntax_of_figures(folder.path() / "figures.json"), FigureSyntax::json);
+  EXPECT_THROW(syntax_of_figures(folder.path() / "none.json"), InputError);
 }
 
 TEST(ExpectedFigures, AreRenewedWhereTheyAreOffAndNowhereElse) {

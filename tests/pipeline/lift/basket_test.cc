@@ -136,6 +136,19 @@ TEST(Basket, ParallelOnesDoNotHoldALoadAlongTheirEdges) {
   }
 }
 
+// With its centre of mass below the hook it rests at the start, and slides when the crane travels.
+TEST(Basket, ParallelOnesAreTheHintWhereTheLiftFailsLater) {
+  test::SampleLift balanced = parallel_baskets();
+  balanced.block = test::basket_lift().block;
+  try {
+    const OverEdges lift(balanced);
+    FAIL() << "the load hangs in baskets that slide";
+  } catch (const dynamics::SimulationError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the time integration failed at t = "));
+    EXPECT_THAT(error.what(), HasSubstr("Nothing holds the load along its edges aft, fore"));
+  }
+}
+
 TEST(Basket, NothingIsDoubtedWhereALoadIsHeldAlongItsEdges) {
   const auto doubt_of = [](const test::SampleLift& lift) {
     const test::TemporaryFolder folder;

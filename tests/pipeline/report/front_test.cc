@@ -95,9 +95,16 @@ TEST(Front, SpeaksOfInstantsOnlyWhereThereAreSome) {
   Json data = page(checks());
   data["summary"]["structure"]["simultaneous"] = {{"stress_increase_percent", 18.5}};
   EXPECT_THAT(front_html(data), HasSubstr("increase, worst instant of a rope's maximum"));
+  EXPECT_THAT(front_html(data), HasSubstr(" mm, each at its worst instant<"));
   data["summary"]["structure"]["load_table"] = {{"weight_N", 1.0}};
   EXPECT_THAT(front_html(data), HasSubstr("increase, loads of the table"));
   EXPECT_THAT(front_html(data), Not(HasSubstr("instant")));
+  // An increase is from one instant to another, of the stress to others than of the deformation.
+  data["summary"]["structure"]["history"] = {
+      {"static", {{"time_s", 12.0}, {"max_displacement_time_s", 13.5}}},
+      {"dynamic", {{"time_s", 20.5}, {"max_displacement_time_s", 21.0}}}};
+  EXPECT_THAT(front_html(data), HasSubstr("MPa, each at its worst instant: 12.0 and 20.5 s"));
+  EXPECT_THAT(front_html(data), HasSubstr("mm, each at its worst instant: 13.5 and 21.0 s"));
 }
 
 TEST(Front, SaysThatTheVerdictIsIndicativeAndWhy) {

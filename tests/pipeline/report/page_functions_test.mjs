@@ -36,6 +36,26 @@ try {
   assert.deepEqual([0, 15, 20, 25, 35, 50].map((time) => stageAt(stages, time)), ["up", "up", "up", "down", "down", "down"]);
   assert.equal(stageAt([], 3), "");
 
+  // A label gives way to those before it, and stays within the drawing.
+  const { placeLabels, ropeLabels } = await load("labels");
+  const box = (left, top) => ({ left, right: left + 4, top, bottom: top + 1 });
+  const sheet = { left: 0, right: 10, top: 0, bottom: 10 };
+  assert.deepEqual(placeLabels([[box(1, 1), box(1, 3)], [box(2, 1.5), box(2, 3)], [box(8, 1), box(5.5, 1)]], sheet), [0, 1, 1]);
+  assert.deepEqual(placeLabels([[box(1, 1)], [box(1, 1.1), box(1, 1.5)]], sheet), [0, 1]);
+  // It keeps off lines where it can.
+  assert.deepEqual(placeLabels([[box(1, 1), box(1, 3)]], sheet, [[[0, 0], [3, 1.5], [3, 1.8]]]), [1]);
+  assert.deepEqual(placeLabels([[box(1, 1)]], sheet, [[[3, 0], [3, 9]]]), [0]);
+  // The two legs of a sling, seen from the side, have their names outside.
+  const legs = ropeLabels([{ name: "A", path: [[10, 2], [9, 6]] }, { name: "B", path: [[10, 2], [11, 6]] }], 1, { left: 0, right: 20, top: 0, bottom: 9 });
+  assert.ok(legs[0].box.right < 9.5 && legs[1].box.left > 10.5);
+  // Slings that fan out from a hook, seen from the side: two fall onto each other, the others are near. At their middles the
+  // names would lie on one another.
+  const fan = [0, 0, 1, 2, 3, 4].map((x, i) => ({ name: `sling ${i + 1}`, path: [[10, 2], [8 + x, 12]] }));
+  const names = ropeLabels(fan, 0.6, { left: 0, right: 20, top: 0, bottom: 14 });
+  assert.deepEqual(names.map(({ text }) => text), ["sling 1, sling 2", "sling 3", "sling 4", "sling 5", "sling 6"]);
+  const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+  names.forEach((a, i) => names.slice(i + 1).forEach((b) => assert.ok(apart(a.box, b.box), `${a.text} lies on ${b.text}`)));
+
   const { kilonewtons, significant } = await load("numbers");
   assert.deepEqual([99964, 99940, 103000].map(kilonewtons), ["100", "99.9", "103"]);
   assert.equal(significant(0.09996, 3), "0.100");

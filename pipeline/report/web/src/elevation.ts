@@ -1,10 +1,10 @@
 // Elevations of the lift as line drawings: for print, for browsers without WebGL, and as buttons for the stages.
 import { Scene } from "./data";
 import { svg } from "./dom";
+import { Flat, ropeLabels } from "./labels";
 import { Bodies, boxCorners, inWorld, ropePath, Vector } from "./motion";
 
 export type Side = "side" | "front";  // side: along x, y to the right; front: along y, x to the right
-type Flat = [number, number];
 
 export interface Frame { left: number; right: number; bottom: number; top: number }
 
@@ -72,28 +72,12 @@ export function elevation(
   }
   if (labelled) {
     const size = height / 42;
-    const label = (point: Flat, name: string): SVGElement => svg("text", {
-      x: x(point) + size * 0.4, y: y(point), "font-size": size, fill: "#1d2730", stroke: "#fff", "stroke-width": size / 5, "paint-order": "stroke",
-    }, name);
-    const seen = new Set<string>();
-    for (const rope of scene.ropes.filter((one) => one.kind === "sling")) {
-      const path = ropePath(rope, bodies, time).map(flat);
-      const middle: Flat = [(path[0][0] + path[path.length - 1][0]) / 2, (path[0][1] + path[path.length - 1][1]) / 2];
-      const place = `${Math.round(middle[0] / size / 2)} ${Math.round(middle[1] / size)}`;
-      if (!seen.has(place)) shapes.push(label(middle, namesAt(scene, bodies, time, flat, middle, size)));
-      seen.add(place);
-    }
+    const ropes = scene.ropes.filter((one) => one.kind === "sling").map((one) => ({ name: one.name,
+      path: ropePath(one, bodies, time).map(flat).map((point): Flat => [x(point), y(point)]) }));
+    for (const { text: names, box } of ropeLabels(ropes, size, { left: 0, right: width, top: 0, bottom: height }))
+      shapes.push(svg("text", { x: box.left, y: box.bottom - 0.25 * size, "font-size": size, fill: "#1d2730", stroke: "#fff",
+        "stroke-width": size / 5, "paint-order": "stroke" }, names));
   }
   return svg("svg", { viewBox: `0 0 ${width.toFixed(2)} ${height.toFixed(2)}`, role: "img", "aria-label": `${side} elevation`, class: "elevation" },
     svg("line", { x1: 0, x2: width, y1: y([0, 0]), y2: y([0, 0]), stroke: "#93a0ac", "vector-effect": "non-scaling-stroke" }), shapes);
-}
-
-/** Ropes that fall onto each other in this view share a label. */
-function namesAt(scene: Scene, bodies: Bodies, time: number, flat: (p: Vector) => Flat, middle: Flat, size: number): string {
-  return scene.ropes.filter((rope) => {
-    if (rope.kind !== "sling") return false;
-    const path = ropePath(rope, bodies, time).map(flat);
-    const own: Flat = [(path[0][0] + path[path.length - 1][0]) / 2, (path[0][1] + path[path.length - 1][1]) / 2];
-    return Math.round(own[0] / size / 2) === Math.round(middle[0] / size / 2) && Math.round(own[1] / size) === Math.round(middle[1] / size);
-  }).map((rope) => rope.name).join(", ");
 }

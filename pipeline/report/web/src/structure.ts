@@ -34,9 +34,12 @@ function waysTable(data: PageData, structure: Structure): Child {
     rows.push([h("i", {}, "Published, per-rope maxima"), missing, missing, change(published.stress_increase_percent, 2),
       missing, missing, change(published.deformation_increase_percent, 2)]);
   }
-  return table("Checked stress and largest deformation of the block", [left("Loads"),
-    { head: "Static, MPa" }, { head: "Dynamic, MPa" }, { head: "Increase" },
-    { head: "Static, mm" }, { head: "Dynamic, mm" }, { head: "Increase" }], rows);
+  return [
+    table("Checked stress and largest deformation of the block", [left("Loads"),
+      { head: "Static, MPa" }, { head: "Dynamic, MPa" }, { head: "Increase" },
+      { head: "Static, mm" }, { head: "Dynamic, mm" }, { head: "Increase" }], rows),
+    structure.load_table ? null : h("p", { class: "source" },
+      "An increase compares the worst instant at rest with the worst in motion, wherever on the block each is.")];
 }
 
 /** The instants of each rope's largest load, one by one. */

@@ -3,6 +3,7 @@ import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import { h, svg } from "./dom";
+import { Box, placeLabels } from "./labels";
 
 export const background = 0xfafbfc;
 
@@ -27,6 +28,20 @@ export interface Pane {
 
 /** Panes in rows and columns, in pixels. */
 interface Grid { columns: number; rows: number; width: number; height: number }
+
+/** How far labels move from where style puts them beside their points, so that none lies on another; those of maxima stay. */
+function labelShifts(elements: HTMLElement[], points: [number, number][], within: Box): [number, number][] {
+  const shifts = elements.map((element): [number, number][] => {
+    const { offsetWidth: width, offsetHeight: height, offsetLeft: beside } = element;
+    if (element.classList.contains("maximum")) return [[element.classList.contains("leftwards") ? -width : 0, 0]];
+    return [0, -1, 1, -2, 2].flatMap((rows) => [0, -width - 2 * beside].map((across): [number, number] => [across, rows * height]));
+  });
+  const boxes = elements.map(({ offsetLeft, offsetTop, offsetWidth, offsetHeight }, i) => shifts[i].map(([across, down]): Box => {
+    const [left, top] = [points[i][0] + offsetLeft + across, points[i][1] + offsetTop + down];
+    return { left, right: left + offsetWidth, top, bottom: top + offsetHeight };
+  }));
+  return placeLabels(boxes, within).map((chosen, i) => elements[i].classList.contains("maximum") ? [0, 0] : shifts[i][chosen]);
+}
 
 /** A canvas with one or more panes side by side, or in several rows, that share camera and orbit. */
 export class Viewer {
@@ -239,12 +254,21 @@ export class Viewer {
     this.panes.forEach(({ labels, frame }, i) => {
       const [left, top] = [(i % grid.columns) * grid.width, Math.floor(i / grid.columns) * grid.height];
       frame?.setAttribute("style", `left:${left}px;top:${top}px;width:${grid.width}px;height:${grid.height}px`);
-      for (const { point, element } of labels) {
-        const { x, y, inside } = this.place(point);
+      const shown = labels.filter(({ point, element }) => {
+        const { x, inside } = this.place(point);
         element.classList.toggle("leftwards", x > 0.75);
         element.style.visibility = inside ? "visible" : "hidden";
-        element.style.transform = `translate(${left + x * grid.width}px, ${top + y * grid.height}px)`;
-      }
+        return inside;
+      });
+      const places = shown.map(({ point }): [number, number] => {
+        const { x, y } = this.place(point);
+        return [left + x * grid.width, top + y * grid.height];
+      });
+      const shifts = labelShifts(shown.map(({ element }) => element), places,
+        { left, right: left + grid.width, top, bottom: top + grid.height });
+      shown.forEach(({ element }, k) => {
+        element.style.transform = `translate(${places[k][0] + shifts[k][0]}px, ${places[k][1] + shifts[k][1]}px)`;
+      });
     });
   }
 }
