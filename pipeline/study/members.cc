@@ -18,6 +18,7 @@
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/study/asked_figures.h"
+#include "pipeline/study/block_variables.h"
 #include "pipeline/study/member_cases.h"
 #include "pipeline/version.h"
 
@@ -173,11 +174,34 @@ Member member_of_text(int number, const std::string& text) {
   return member;
 }
 
+namespace {
+
+/// The members of a study, those that have the same block one after another.
+std::vector<Eigen::Index> in_order_of_blocks(const StudyFile& study, const Eigen::MatrixXd& design,
+                                             const std::string& block) {
+  const std::vector<int> changing = find_block_variables(study, block);
+  std::vector<std::string> keys;
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index member = 0; member < design.rows(); ++member) {
+    keys.push_back(block_key(study, changing, design.row(member)));
+    order.push_back(member);
+  }
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index member) -> const std::string& {
+    return keys[static_cast<std::size_t>(member)];
+  });
+  return order;
+}
+
+}  // namespace
+
 void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
                    const std::function<void(double fraction)>& progress) {
   MemberCases cases(study);
-  for (Eigen::Index member = 0; member < design.rows(); ++member) {
-    progress(static_cast<double>(member) / static_cast<double>(design.rows()));
+  cases.hold_block_masses();
+  const std::string block = cases.of(design.row(0)).load.model_name.value;
+  double read = 0;
+  for (const Eigen::Index member : in_order_of_blocks(study, design, block)) {
+    progress(read++ / static_cast<double>(design.rows()));
     const LiftCase lift_case = cases.of(design.row(member));
     Diagnostics diagnostics;
     if (lift_case.load_table)

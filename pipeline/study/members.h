@@ -15,8 +15,9 @@
 
 namespace blocklift::pipeline {
 
-/// Reads the cases of all members, so that nothing runs if one of them is impossible.
-/// @throws InputError as MemberCases, of the first that is.
+/// Reads the cases of all members and holds what their blocks state of their mass against their
+/// plates, so that nothing runs if one of them is impossible.
+/// @throws InputError as MemberCases, of the first that is, a block after another.
 void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
                    const std::function<void(double fraction)>& progress);
 

@@ -37,6 +37,8 @@ OT::Distribution law_of(const SpreadLaw& law) {
       return OT::ParametrizedDistribution(OT::GumbelMuSigma(mean, deviation));
     case Kind::weibull:
       return OT::ParametrizedDistribution(OT::WeibullMinMuSigma(mean, deviation, 0));
+    case Kind::unknown:
+      break;
   }
   throw std::logic_error("a law that nobody knows");
 }
