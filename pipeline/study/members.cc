@@ -1,7 +1,9 @@
 #include "pipeline/study/members.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -38,7 +40,10 @@ std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
     const Json* value = find_figure(summary, path);
     const bool is_known = std::any_of(figures.begin(), figures.end(),
                                       [&](const auto& figure) { return figure.first == path; });
-    if (value && value->is_number() && !is_known) figures.emplace_back(path, value->get<double>());
+    if (!value || !value->is_number() || is_known) return;
+    // What is not a number its file does not have either.
+    const double figure = value->get<double>();
+    if (std::isfinite(figure)) figures.emplace_back(path, figure);
   };
   for (const Located<std::string>* path : figures_of_search(study)) take(path->value);
   for (const Located<std::string>& path : study.figures) take(path.value);
@@ -331,7 +336,12 @@ void MemberStore::write(const Member& member) const {
 std::optional<Member> MemberStore::read(int number) const {
   std::error_code ignored;
   if (!fs::exists(file_of(number), ignored)) return std::nullopt;
-  return member_of_text(number, read_file(file_of(number)));
+  try {
+    return member_of_text(number, read_file(file_of(number)));
+  } catch (const Json::exception&) {
+    throw std::runtime_error(fmt::format(
+        "{} is damaged: remove it, and its member is computed again", file_of(number).string()));
+  }
 }
 
 std::vector<int> MemberStore::find_missing(int members) const {

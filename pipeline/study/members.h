@@ -80,6 +80,7 @@ class MemberStore {
               StudyPart part = {});
 
   void write(const Member& member) const;
+  /// @throws std::runtime_error if its file is damaged.
   std::optional<Member> read(int number) const;
   /// Of the first `members` those that are still to be computed, in order.
   std::vector<int> find_missing(int members) const;

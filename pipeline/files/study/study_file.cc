@@ -369,6 +369,27 @@ void check_repeated_values(const StudyVariable& variable, Reading& reading) {
       }
 }
 
+/// What draws nothing at random would read a seed and do nothing with it.
+void check_seed(const StudyFile& study, Reading& reading) {
+  const StudyDesign design = study.design;
+  if (study.seed && (design == StudyDesign::grid || design == StudyDesign::search ||
+                     design == StudyDesign::low_discrepancy))
+    reading.error(study.seed->mark,
+                  "this design draws nothing at random: seed goes with design: random, latin "
+                  "hypercube and sensitivity");
+}
+
+void check_sensitivity(const StudyFile& study, Reading& reading, const Mark& mark) {
+  if (study.design != StudyDesign::sensitivity) return;
+  for (const StudyVariable& variable : study.variables)
+    if (!variable.law) reading.error(variable.place, "Sobol' indices need a spread and no values");
+  if (study.members && *study.members > 0 && *study.members < fewest_for_sobol_indices)
+    reading.error(mark,
+                  fmt::format("Sobol' indices need {} members at least; some hundred make them "
+                              "sharp",
+                              fewest_for_sobol_indices));
+}
+
 void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   const bool is_grid = study.design == StudyDesign::grid;
   if (is_grid && study.members)
@@ -380,13 +401,13 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   check_limits(study, reading);
   check_search(study, reading, mark);
   check_correlations(study, reading);
+  check_seed(study, reading);
+  check_sensitivity(study, reading, mark);
   double size = 1;
   for (const StudyVariable& variable : study.variables) {
     if (is_grid) check_repeated_values(variable, reading);
     if (is_grid && variable.law) reading.error(variable.place, "a grid takes values and no spread");
     size *= static_cast<double>(variable.values.size());
-    if (study.design == StudyDesign::sensitivity && !variable.law)
-      reading.error(variable.place, "Sobol' indices need a spread and no values");
   }
   if (is_grid && size > most_members)
     reading.error(mark,
@@ -429,8 +450,10 @@ Format<StudyFile> study_file_format() {
                   "indices, members (n + 2) of n variables; towards the best of a figure")
       .optional("members", &StudyFile::members, integer(Range::between(1, most_members)),
                 "how many lifts; of a sensitivity, the size of its samples; of a search, at most")
-      .by_default("seed", &StudyFile::seed, integer(Range::between(0, 2'000'000'000)), "1",
-                  "of the random numbers")
+      .optional(
+          "seed", &StudyFile::seed, located(integer(Range::between(0, 2'000'000'000))),
+          "of the random numbers of a random design, a Latin hypercube or a sensitivity: 1 if "
+          "left out")
       .required("vary", &StudyFile::variables, named_tables(variable_format()), "by name")
       .optional("correlations", &StudyFile::correlations, list_of(correlation_format(), 1),
                 "of values with a spread; others are drawn independently")

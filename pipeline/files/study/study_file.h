@@ -46,6 +46,10 @@ enum class StudyDesign {
   search
 };
 
+/// Of fewer base members Sobol' indices say nothing: the interval of a correlation of 8 independent
+/// pairs is 1.4 wide.
+inline constexpr int fewest_for_sobol_indices = 8;
+
 /// What is computed of each member.
 enum class StudyRun { simulate, stress, assess };
 
@@ -93,8 +97,8 @@ struct StudyFile {
   Located<std::string> case_name;
   StudyRun run = StudyRun::simulate;
   StudyDesign design = StudyDesign::latin_hypercube;
-  std::optional<int> members;  ///< none of a grid: as many as its values give
-  int seed = 1;
+  std::optional<int> members;        ///< none of a grid: as many as its values give
+  std::optional<Located<int>> seed;  ///< of what is drawn at random; 1 if there is none
   std::vector<StudyVariable> variables;
   std::vector<StudyCorrelation> correlations;
   std::vector<Located<std::string>> figures;  ///< paths of summary.json; empty: the usual ones

@@ -64,6 +64,13 @@ TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
               HasSubstr("a grid takes values and no spread"));
   EXPECT_THAT(complaints("design: sensitivity\nmembers: 4\nvary: {a: {keys: [x], values: [1]}}\n"),
               HasSubstr("Sobol' indices need a spread"));
+  const std::string uniform =
+      "vary: {a: {keys: [x], spread: {law: uniform, lowest: 3, highest: 4}}}\n";
+  EXPECT_THAT(complaints("design: sensitivity\nmembers: 7\n" + uniform),
+              HasSubstr("Sobol' indices need 8 members at least"));
+  EXPECT_EQ(complaints("design: sensitivity\nmembers: 8\nseed: 3\n" + uniform), "");
+  EXPECT_THAT(complaints("design: low discrepancy\nmembers: 8\nseed: 3\n" + uniform),
+              HasSubstr("study.yaml:5:7: error: this design draws nothing at random"));
   EXPECT_THAT(complaints("members: 4\nvary: {a: {keys: [x]}}\n"),
               HasSubstr("one of values, spread and between is due"));
 }
