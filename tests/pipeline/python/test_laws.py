@@ -197,10 +197,9 @@ class LawTest(InATemporaryFolder):
         case.simulate("outer", laws={"go": lambda time, seen: 0.0})
 
     def test_failed_members_are_warned_of_as_the_program_does(self):
-        study = ("study: late\ncase: lift\nfigures: [ropes.R1.max_static_tension_N]\n"
-                 "vary: {late: {keys: [settle], values: [1 s, 1000000000 s]}}\n")
+        study = self.set_down()
         Path("grid.yaml").write_text(study + "design: grid\n", encoding="utf-8")
-        with self.assertWarnsRegex(blocklift.LiftWarning, "^member 1 failed: .* GB of memory"):
+        with self.assertWarnsRegex(blocklift.LiftWarning, "^member 1 failed: stage .* waits for R1"):
             blocklift.sweep("grid.yaml", "grid", laws={})
         Path("half.yaml").write_text(study + "members: 4\n", encoding="utf-8")
         with self.assertRaisesRegex(blocklift.RunError, "2 of 4 members failed"):
