@@ -166,21 +166,13 @@ bool write_whole(const SweepOptions& options, const fs::path& folder, int member
   return run_this_program(std::move(arguments), [&] { bar.show(0); });
 }
 
-void warn_of_failures(const StudyResults& results) {
-  for (const Member& member : results.members)
-    if (!member.failure.empty())
-      say_warning(fmt::format("member {} failed: {}", member.number, member.failure));
-  if (const std::string warning = survivors_warning(results); !warning.empty())
-    say_warning(warning);
-}
-
 void print_count(const StudyResults& results) {
   fmt::print("\n{} member{}, {} failed\n", results.members.size(),
              results.members.size() == 1 ? "" : "s", results.failed());
 }
 
 void print_study(const StudyResults& results, const fs::path& folder, std::optional<int> worst) {
-  warn_of_failures(results);
+  for (const std::string& warning : study_warnings(results)) say_warning(warning);
   if (is_quiet()) return;
   const StudyFile& study = results.study;
   fmt::print("{}\n\n{}", study.title.empty() ? study.name : study.title, study_text(results));
@@ -254,7 +246,7 @@ int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
   StudyBlocks blocks(results.study, folder / "members");
   const Member whole =
       run_member(results.study, results.design.row(best.number), best.number, blocks, best.folder);
-  warn_of_failures(results);
+  for (const std::string& warning : study_warnings(results)) say_warning(warning);
   if (!is_quiet()) {
     fmt::print("{}\n\n{}", results.study.title.empty() ? results.study.name : results.study.title,
                search_text(results));

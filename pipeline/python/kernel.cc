@@ -58,8 +58,8 @@ void simulate_mechanism(const std::string& path, const std::string& folder, cons
 /// @param program beside which models are sought.
 void simulate(const std::string& path, const std::string& folder, const std::string& program,
               const py::dict& laws) {
-  take_models_of(program);
   run_beside_python([&, laws = laws_of(laws)] {
+    take_models_of(program);
     if (kind_of_file(path) == FileKind::mechanism) {
       simulate_mechanism(path, folder, laws);
       return;
@@ -75,8 +75,8 @@ void simulate(const std::string& path, const std::string& folder, const std::str
 // What the laws do is not known: nothing is kept of a run that was stopped.
 void assess_case(const std::string& path, const std::string& folder, const std::string& program,
                  const py::dict& laws, bool decks) {
-  take_models_of(program);
   run_beside_python([&, laws = laws_of(laws)] {
+    take_models_of(program);
     LiftCase lift_case = read_steered_case(path, laws);
     require_writable(folder);
     const Assessment assessment = assess(std::move(lift_case), see_to_signals);
@@ -86,10 +86,11 @@ void assess_case(const std::string& path, const std::string& folder, const std::
 }
 
 // Functions cannot be handed to other processes: members run here, one after another.
-void sweep(const std::string& path, const std::string& folder, const std::string& program,
-           const py::dict& laws) {
-  take_models_of(program);
+py::list sweep(const std::string& path, const std::string& folder, const std::string& program,
+               const py::dict& laws) {
+  std::vector<std::string> doubts;
   run_beside_python([&, laws = laws_of(laws)] {
+    take_models_of(program);
     StudyFile study = read_study(path);
     study.laws = laws;
     require_writable(folder);
@@ -107,6 +108,7 @@ void sweep(const std::string& path, const std::string& folder, const std::string
     const StudyResults results =
         run_study(std::move(study), std::move(design), folder, store, crew);
     write_study(results, folder);
+    doubts = study_warnings(results);
     const std::optional<ShownMember> shown = shown_member(results, folder);
     if (!shown) return;
     const std::filesystem::path members = std::filesystem::path(folder) / "members";
@@ -114,7 +116,11 @@ void sweep(const std::string& path, const std::string& folder, const std::string
     const Member whole = run_member(results.study, results.design.row(shown->number), shown->number,
                                     blocks, shown->folder);
     if (!whole.failure.empty()) throw std::runtime_error(whole.failure);
+    if (has_too_many_failures(results)) throw std::runtime_error(survivors_warning(results));
   });
+  py::list list;
+  for (const std::string& doubt : doubts) list.append(doubt);
+  return list;
 }
 
 /// Exceptions of the rooms as those of the package. Python's own pass unchanged.
@@ -148,6 +154,8 @@ PYBIND11_MODULE(_kernel, module) {
              "Simulates a case and writes its results into a folder.");
   module.def("assess", &assess_case, arg("case"), arg("folder"), arg("program"), arg("laws"),
              arg("decks"), "Assesses a case and writes its results into a folder.");
-  module.def("sweep", &sweep, arg("study"), arg("folder"), arg("program"), arg("laws"),
-             "Runs a study, a member after another, and writes its results into a folder.");
+  module.def(
+      "sweep", &sweep, arg("study"), arg("folder"), arg("program"), arg("laws"),
+      "Runs a study, a member after another, and writes its results into a folder; gives what is "
+      "doubtful about them.");
 }

@@ -1,7 +1,10 @@
 #include "pipeline/python/python_laws.h"
 
+#include <chrono>
 #include <memory>
+#include <mutex>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,10 +26,20 @@ Kept keep(py::object object) {
           }};
 }
 
+/// How deep this thread is in calls into Python, on the way of a lift.
+thread_local int calls_on_the_way = 0;
+
 /// Calls into Python, with its lock.
 template <class Call>
 auto call(const Call& what) {
   const py::gil_scoped_acquire lock;
+  struct OnTheWay {
+    OnTheWay() { ++calls_on_the_way; }
+    ~OnTheWay() { --calls_on_the_way; }
+    OnTheWay(const OnTheWay&) = delete;
+    OnTheWay& operator=(const OnTheWay&) = delete;
+  };
+  const OnTheWay until_it_returns;
   try {
     return what();
   } catch (...) {
@@ -72,8 +85,14 @@ OwnLaws laws_of(const py::dict& functions) {
 }
 
 void run_beside_python(const std::function<void()>& compute) {
+  if (calls_on_the_way > 0)
+    throw std::runtime_error("a law cannot begin a lift: one lift runs in a process at a time");
+  static std::timed_mutex one_at_a_time;
+  constexpr std::chrono::milliseconds between_looks(100);
   try {
     const py::gil_scoped_release without_lock;
+    std::unique_lock turn(one_at_a_time, std::defer_lock);
+    while (!turn.try_lock_for(between_looks)) see_to_signals("", 0, "");
     compute();
   } catch (const RaisedInPython& raised) {
     std::rethrow_exception(raised.what);
@@ -81,6 +100,13 @@ void run_beside_python(const std::function<void()>& compute) {
 }
 
 void see_to_signals(const std::string&, double, const std::string&) {
+  // Another thread of Python's may hold its lock for 5 ms, and steps are many.
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds between_looks(50);
+  thread_local Clock::time_point last;
+  const Clock::time_point now = Clock::now();
+  if (now - last < between_looks) return;
+  last = now;
   call([] {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   });

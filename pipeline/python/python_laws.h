@@ -21,8 +21,10 @@ struct RaisedInPython {
 /// drive.
 OwnLaws laws_of(const pybind11::dict& functions);
 
-/// Calls what computes lifts, without Python's lock.
-/// @throws pybind11::error_already_set, pybind11::type_error what Python raised on the way.
+/// Calls what computes lifts, without Python's lock. The rooms and their libraries (HDF5, Gmsh,
+/// OpenTURNS' random numbers) take one lift at a time: other threads wait for their turn.
+/// @throws pybind11::error_already_set, pybind11::type_error what Python raised on the way;
+///   std::runtime_error if a law, or what sees to a signal, begins another lift.
 void run_beside_python(const std::function<void()>& compute);
 
 /// Lets Python see to signals, of which Ctrl-C raises KeyboardInterrupt. For a run's progress.

@@ -143,16 +143,12 @@ std::string limits_of_period(const LimitingSeas& seas, std::size_t period, const
 }  // namespace
 
 std::string limiting_contours(const LimitingSeas& seas) {
-  if (seas.headings.size() < 2 || seas.periods.size() < 2) {
+  if (seas.periods.size() < 2) return "";  // a point a curve, which no line shows
+  if (seas.headings.size() < 2) {
     LineChart chart{"Limiting significant height", "peak period, s", "m", {}};
-    for (std::size_t h = 0; h < seas.headings.size(); ++h) {
-      Curve curve{
-          seas.headings.size() > 1 ? fmt::format("{:.4g} deg", seas.headings[h] / degree) : "",
-          seas.periods,
-          {}};
-      for (std::size_t p = 0; p < seas.periods.size(); ++p) curve.y.push_back(seas.at(p, h).height);
-      chart.curves.push_back(std::move(curve));
-    }
+    Curve curve{"", seas.periods, {}};
+    for (std::size_t p = 0; p < seas.periods.size(); ++p) curve.y.push_back(seas.at(p, 0).height);
+    chart.curves.push_back(std::move(curve));
     return to_svg(chart);
   }
   const std::vector<double> headings = headings_of(seas);

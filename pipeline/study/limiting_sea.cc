@@ -348,12 +348,14 @@ Operability find_operability(const LimitingSeas& seas, const std::vector<SeaStat
   for (std::size_t i = 0; i < states.size(); ++i) {
     const SeaState& state = states[i];
     const double share = is_forecast ? 1 : state.share;
-    const bool is_allowed = state.height <= alpha * seas.height_at(state.period, state.heading);
+    const double limit = seas.height_at(state.period, state.heading);
+    const bool is_allowed = limit > 0 && state.height <= alpha * limit;
     result.sum += share;
     if (is_allowed) result.share += share;
     if (!seas.has_period(state.period)) result.beyond_periods += share;
     if (!seas.has_heading(state.heading)) result.beyond_headings += share;
     if (!is_forecast) continue;
+    result.last = state.time;
     const bool is_behind_hole = std::ranges::any_of(
         result.holes, [&](const Operability::Window& hole) { return hole.end == state.time; });
     if (is_allowed && (!open || is_behind_hole)) result.windows.push_back({state.time, state.time});

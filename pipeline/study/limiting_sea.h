@@ -84,12 +84,13 @@ std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is
 bool varies_heading(const StudyFile& study);
 
 /// A lift's share of the time, or of the forecast its windows, with heights up to alpha times the
-/// limit.
+/// limit. Where the limit is zero or not known no sea is allowed, be it calm.
 struct Operability {
   double share = 0;            ///< of the table's shares, or of the forecast's instants
   double beyond_periods = 0;   ///< of them with a period that the study did not run: not allowed
   double beyond_headings = 0;  ///< the same of headings
   double sum = 0;              ///< of the table's shares, or number of instants
+  double last = 0;             ///< instant of a forecast, h
   struct Window {
     double begin = 0, end = 0;  ///< h
   };
@@ -109,7 +110,8 @@ std::vector<std::string> sentences_of_failures(const LimitingSeas& seas);
 std::vector<std::string> sentences_of_scatter(const Operability& operability, double alpha);
 std::vector<std::string> sentences_of_forecast(const Operability& operability, double alpha);
 
-/// Contours of the limit over period and heading; of one heading the limit over the period. SVG.
+/// Contours of the limit over period and heading; of one heading the limit over the period. SVG;
+/// empty of one period.
 std::string limiting_contours(const LimitingSeas& seas);
 /// The limit round the compass, a curve a period: SVG; empty of one heading.
 std::string limiting_polar(const LimitingSeas& seas);

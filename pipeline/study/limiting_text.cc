@@ -104,6 +104,11 @@ std::vector<std::string> sentences_of_forecast(const Operability& operability, d
                                   percent_text(operability.share), alpha, beyond_text(operability));
   if (!operability.windows.empty()) first += "; windows: " + windows_text(operability.windows);
   std::vector<std::string> sentences{std::move(first)};
+  if (!operability.windows.empty() && operability.windows.back().end == operability.last)
+    sentences.push_back(fmt::format(
+        "the last window reaches the end of the forecast, {:.6g} h: how long it lasts is "
+        "not known",
+        operability.last));
   if (!operability.holes.empty())
     sentences.push_back(
         fmt::format("the forecast has no instants in {}, more than twice its usual step: the sea "

@@ -1,7 +1,9 @@
 #include "pipeline/study/members.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +20,7 @@
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/study/asked_figures.h"
+#include "pipeline/study/block_variables.h"
 #include "pipeline/study/member_cases.h"
 #include "pipeline/version.h"
 
@@ -37,7 +40,10 @@ std::vector<std::pair<std::string, double>> figures_of(const StudyFile& study,
     const Json* value = find_figure(summary, path);
     const bool is_known = std::any_of(figures.begin(), figures.end(),
                                       [&](const auto& figure) { return figure.first == path; });
-    if (value && value->is_number() && !is_known) figures.emplace_back(path, value->get<double>());
+    if (!value || !value->is_number() || is_known) return;
+    // What is not a number its file does not have either.
+    const double figure = value->get<double>();
+    if (std::isfinite(figure)) figures.emplace_back(path, figure);
   };
   for (const Located<std::string>* path : figures_of_search(study)) take(path->value);
   for (const Located<std::string>& path : study.figures) take(path.value);
@@ -173,11 +179,34 @@ Member member_of_text(int number, const std::string& text) {
   return member;
 }
 
+namespace {
+
+/// The members of a study, those that have the same block one after another.
+std::vector<Eigen::Index> in_order_of_blocks(const StudyFile& study, const Eigen::MatrixXd& design,
+                                             const std::string& block) {
+  const std::vector<int> changing = find_block_variables(study, block);
+  std::vector<std::string> keys;
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index member = 0; member < design.rows(); ++member) {
+    keys.push_back(block_key(study, changing, design.row(member)));
+    order.push_back(member);
+  }
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index member) -> const std::string& {
+    return keys[static_cast<std::size_t>(member)];
+  });
+  return order;
+}
+
+}  // namespace
+
 void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
                    const std::function<void(double fraction)>& progress) {
   MemberCases cases(study);
-  for (Eigen::Index member = 0; member < design.rows(); ++member) {
-    progress(static_cast<double>(member) / static_cast<double>(design.rows()));
+  cases.hold_block_masses();
+  const std::string block = cases.of(design.row(0)).load.model_name.value;
+  double read = 0;
+  for (const Eigen::Index member : in_order_of_blocks(study, design, block)) {
+    progress(read++ / static_cast<double>(design.rows()));
     const LiftCase lift_case = cases.of(design.row(member));
     Diagnostics diagnostics;
     if (lift_case.load_table)
@@ -307,7 +336,12 @@ void MemberStore::write(const Member& member) const {
 std::optional<Member> MemberStore::read(int number) const {
   std::error_code ignored;
   if (!fs::exists(file_of(number), ignored)) return std::nullopt;
-  return member_of_text(number, read_file(file_of(number)));
+  try {
+    return member_of_text(number, read_file(file_of(number)));
+  } catch (const Json::exception&) {
+    throw std::runtime_error(fmt::format(
+        "{} is damaged: remove it, and its member is computed again", file_of(number).string()));
+  }
 }
 
 std::vector<int> MemberStore::find_missing(int members) const {

@@ -15,8 +15,9 @@
 
 namespace blocklift::pipeline {
 
-/// Reads the cases of all members, so that nothing runs if one of them is impossible.
-/// @throws InputError as MemberCases, of the first that is.
+/// Reads the cases of all members and holds what their blocks state of their mass against their
+/// plates, so that nothing runs if one of them is impossible.
+/// @throws InputError as MemberCases, of the first that is, a block after another.
 void check_members(const StudyFile& study, const Eigen::MatrixXd& design,
                    const std::function<void(double fraction)>& progress);
 
@@ -79,6 +80,7 @@ class MemberStore {
               StudyPart part = {});
 
   void write(const Member& member) const;
+  /// @throws std::runtime_error if its file is damaged.
   std::optional<Member> read(int number) const;
   /// Of the first `members` those that are still to be computed, in order.
   std::vector<int> find_missing(int members) const;

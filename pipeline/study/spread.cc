@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include <openturns/OT.hxx>
@@ -21,11 +22,18 @@ OT::Sample sample_of(const std::vector<double>& values) {
   return sample;
 }
 
+/// A law of the family does not fit most samples of itself.
+class UnsteadyFit : public std::runtime_error {
+ public:
+  UnsteadyFit() : std::runtime_error("most samples of a law cannot be fitted again") {}
+};
+
 /// The value below which the share of the law lies, with its interval over samples that are drawn
 /// from the law and fitted again. As many of these samples as differ more from their own fit than
 /// the given one are the p-value: a law that was fitted to a sample is nearer to it than the tables
 /// of Kolmogorov's statistic have it, which are for a law that is known (Lilliefors 1967). The
 /// library's own test of that kind would draw and fit samples once more.
+/// @throws UnsteadyFit, OT::Exception if there is no such law.
 ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
                const OT::Sample& sample, double share) {
   const OT::Distribution law = factory.build(sample);
@@ -43,13 +51,12 @@ ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
       continue;  // a sample that no law of the family fits
     }
   }
+  if (2 * again.size() < std::size_t{bootstrap_samples}) throw UnsteadyFit();
   std::sort(again.begin(), again.end());
   // The given sample is one of them.
   result.p_value = (1.0 + farther) / (1.0 + static_cast<double>(again.size()));
   const auto at = [&](double part) {
-    return again.empty()
-               ? std::numeric_limits<double>::quiet_NaN()
-               : again[static_cast<std::size_t>(part * static_cast<double>(again.size() - 1))];
+    return again[static_cast<std::size_t>(part * static_cast<double>(again.size() - 1))];
   };
   result.low = at((1 - covered) / 2);
   result.high = at((1 + covered) / 2);
@@ -59,23 +66,28 @@ ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
 std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
   std::vector<ExtremeFit> fits;
   if (values.size() < fewest_for_a_fit) return fits;
+  if (!values_vary(values)) return fits;
   std::sort(values.begin(), values.end());
-  const double scale = std::max(std::abs(values.front()), std::abs(values.back()));
-  if (!(values.back() - values.front() > 1e-9 * scale)) return fits;
   OT::RandomGenerator::SetSeed(1);  // of the bootstrap
   constexpr double share = 0.999;
-  try {
-    fits.push_back(fit("Gumbel", OT::GumbelFactory(), sample_of(values), share));
-  } catch (const OT::Exception&) {
-    // A law that cannot be fitted is not shown.
-  }
+  // A law that cannot be fitted is not shown.
+  const auto try_to = [](const auto& add_fit) {
+    try {
+      add_fit();
+    } catch (const UnsteadyFit&) {
+      return;
+    } catch (const OT::Exception&) {
+      return;
+    }
+  };
+  try_to([&] { fits.push_back(fit("Gumbel", OT::GumbelFactory(), sample_of(values), share)); });
   constexpr double tail = 0.1;
   const auto first = static_cast<std::size_t>((1 - tail) * static_cast<double>(values.size()));
   if (values.size() - first < fewest_for_a_fit) return fits;
   const double threshold = values[first - 1];
   std::vector<double> excesses;
   for (std::size_t i = first; i < values.size(); ++i) excesses.push_back(values[i] - threshold);
-  try {
+  try_to([&] {
     ExtremeFit above =
         fit("generalised Pareto above the 90 % quantile", OT::GeneralizedParetoFactory(),
             sample_of(excesses), 1 - (1 - share) / tail);
@@ -84,9 +96,7 @@ std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
     above.low += threshold;
     above.high += threshold;
     fits.push_back(std::move(above));
-  } catch (const OT::Exception&) {
-    // As above.
-  }
+  });
   return fits;
 }
 
@@ -128,6 +138,21 @@ double correlation(Eigen::VectorXd a, Eigen::VectorXd b) {
 
 }  // namespace
 
+double rounding_of_values(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return 1e-9 * largest;
+}
+
+bool values_vary(const std::vector<double>& values) {
+  const auto [least, most] = std::ranges::minmax_element(values);
+  return least != values.end() && *most - *least > rounding_of_values(values);
+}
+
+int fewest_for_interval(double share) {
+  return static_cast<int>(std::ceil(std::log((1 - covered) / 2) / std::log(share)));
+}
+
 const Quantile& Spread::quantile_of_better(double share) const {
   const double wanted = worse_when_smaller ? 1 - share : share;
   return *std::min_element(quantiles.begin(), quantiles.end(),
@@ -164,10 +189,11 @@ Spread find_spread(std::string path, const std::vector<double>& values,
   spread.path = std::move(path);
   const Eigen::Map<const Eigen::VectorXd> all(values.data(),
                                               static_cast<Eigen::Index>(values.size()));
+  spread.varies = values_vary(values);
   spread.mean = all.mean();
-  if (all.size() > 1)
-    spread.deviation =
-        std::sqrt((all.array() - spread.mean).square().sum() / static_cast<double>(all.size() - 1));
+  spread.deviation = all.size() > 1 ? std::sqrt((all.array() - spread.mean).square().sum() /
+                                                static_cast<double>(all.size() - 1))
+                                    : std::numeric_limits<double>::quiet_NaN();
   Eigen::Index smallest = 0, largest = 0;
   spread.smallest = all.minCoeff(&smallest);
   spread.largest = all.maxCoeff(&largest);
@@ -177,7 +203,8 @@ Spread find_spread(std::string path, const std::vector<double>& values,
     spread.quantiles.push_back(find_quantile(values, share));
   spread.extremes = worse_when_smaller ? fit_minima(values) : fit_extremes(values);
   const Eigen::VectorXd ranks = ranks_of(all);
-  spread.rank_correlation.resize(design.cols());
+  spread.rank_correlation.setZero(design.cols());
+  if (!spread.varies) return spread;
   for (Eigen::Index v = 0; v < design.cols(); ++v) {
     Eigen::VectorXd inputs(all.size());
     for (Eigen::Index i = 0; i < all.size(); ++i) inputs[i] = design(members[i], v);

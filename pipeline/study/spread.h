@@ -22,16 +22,28 @@ struct ExtremeFit {
   double p_value = 0;  ///< Kolmogorov and Smirnov's: below 0.05 the law does not fit
 };
 
+/// What is taken for rounding between values of a figure: a thousandth of a millionth of the
+/// largest.
+double rounding_of_values(const std::vector<double>& values);
+/// Do values differ by more than that?
+bool values_vary(const std::vector<double>& values);
+
+/// The fewest independent values of which the largest lies beyond a quantile of their population at
+/// 97.5 %, so that find_quantile knows both ends of its interval: share^n <= 0.025.
+int fewest_for_interval(double share);
+
 /// What a figure's values over all members say.
 struct Spread {
   std::string path;
   bool worse_when_smaller = false;  ///< a clearance, a margin: its extremes are at the low end
-  double mean = 0, deviation = 0;
+  bool varies = true;               ///< false: its values are alike, but for rounding
+  double mean = 0, deviation = 0;   ///< the deviation of one value is not a number
   double smallest = 0, largest = 0;
   int member_of_smallest = 0, member_of_largest = 0;
   std::vector<Quantile> quantiles;   ///< 1 %, 5 %, 50 %, 95 % and 99 %
   std::vector<ExtremeFit> extremes;  ///< none of fewer than 30 values, or of values all alike
-  Eigen::VectorXd rank_correlation;  ///< with each variable (Spearman)
+  /// With each variable (Spearman); zero of what does not vary.
+  Eigen::VectorXd rank_correlation;
 
   double worst() const { return worse_when_smaller ? smallest : largest; }
   int member_of_worst() const {
@@ -41,8 +53,8 @@ struct Spread {
   const Quantile& quantile_of_better(double share) const;
 };
 
-/// Quantile of a sample with its interval by order statistics, which holds for any law (David and
-/// Nagaraja 2003, section 7.1).
+/// Quantile of a sample with its interval by order statistics, which holds for any law of values
+/// that are independent (David and Nagaraja 2003, section 7.1).
 Quantile find_quantile(std::vector<double> values, double share);
 
 /// @param values of the members. @param members their numbers. @param design a member a row.

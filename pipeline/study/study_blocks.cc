@@ -5,7 +5,6 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -25,8 +24,7 @@
 #include "pipeline/lift/history_assessment.h"
 #include "pipeline/lift/kept_stages.h"
 #include "pipeline/results/lift_scene.h"
-#include "pipeline/study/members.h"
-#include "pipeline/study/study_design.h"
+#include "pipeline/study/block_variables.h"
 #include "structure/accuracy/accuracy.h"
 #include "structure/system/mass_distribution.h"
 
@@ -54,17 +52,6 @@ using structure::MassProperties;
 using structure::Vector3;
 
 constexpr std::size_t most_kept = 3;  // of blocks that members take in turn
-
-/// Does a key of a study change a block's stiffness, or only its mass or nothing of it?
-bool changes_block(const std::string& key, const std::string& block) {
-  const std::size_t colon = key.find(':');
-  const std::string_view inside =
-      colon == std::string::npos ? std::string_view(key) : std::string_view(key).substr(colon + 1);
-  if (colon == std::string::npos)
-    return inside.starts_with("structure") || inside.starts_with("load.model");
-  if (std::string_view(key).substr(0, colon) != block) return false;
-  return inside != "mass" && !inside.starts_with("centre_of_mass");
-}
 
 std::unique_ptr<structure::ElasticModel> model_of(const LiftCase& lift_case) {
   Diagnostics diagnostics;
@@ -157,22 +144,17 @@ void find_largest(const structure::StressBasis& basis, const BlockAttachment& at
 }  // namespace
 
 StudyBlocks::StudyBlocks(const StudyFile& study, fs::path folder, Progress progress)
-    : study_(study), cases_(study), folder_(std::move(folder)), progress_(std::move(progress)) {
-  const LiftCase as_written = read_lift_case(study.case_path());
-  for (std::size_t v = 0; v < study.variables.size(); ++v)
-    for (const Located<std::string>& key : study.variables[v].keys)
-      if (changes_block(key.value, as_written.load.model_name.value)) {
-        changing_.push_back(static_cast<int>(v));
-        break;
-      }
-}
+    : study_(study),
+      cases_(study),
+      folder_(std::move(folder)),
+      progress_(std::move(progress)),
+      changing_(
+          find_block_variables(study, read_lift_case(study.case_path()).load.model_name.value)) {}
 
 StudyBlocks::~StudyBlocks() = default;
 
 std::string StudyBlocks::key_of(const Eigen::VectorXd& values) const {
-  std::string key;
-  for (const int v : changing_) key += value_text(study_.variables[v], values[v]) + "\n";
-  return key;
+  return block_key(study_, changing_, values);
 }
 
 fs::path StudyBlocks::file_of(const std::string& key) const {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -37,6 +36,8 @@ OT::Distribution law_of(const SpreadLaw& law) {
       return OT::ParametrizedDistribution(OT::GumbelMuSigma(mean, deviation));
     case Kind::weibull:
       return OT::ParametrizedDistribution(OT::WeibullMinMuSigma(mean, deviation, 0));
+    case Kind::unknown:
+      break;
   }
   throw std::logic_error("a law that nobody knows");
 }
@@ -143,7 +144,8 @@ Eigen::MatrixXd make_design(const StudyFile& study) {
   if (study.design == StudyDesign::grid) return grid_of(study);
   OT::ComposedDistribution::DistributionCollection laws;
   for (const StudyVariable& variable : study.variables) laws.add(distribution_of(variable));
-  OT::RandomGenerator::SetSeed(static_cast<OT::UnsignedInteger>(study.seed));
+  OT::RandomGenerator::SetSeed(
+      static_cast<OT::UnsignedInteger>(study.seed ? study.seed->value : 1));
   OT::Sample sample = sample_of(study, OT::ComposedDistribution(laws));
   join_values(study, laws, sample);
   Eigen::MatrixXd design(static_cast<Eigen::Index>(sample.getSize()),
@@ -169,41 +171,6 @@ std::string unit_text(const StudyVariable& variable) { return unit_of(exponents_
 std::string value_text(const StudyVariable& variable, double value, int digits) {
   const std::string unit = unit_text(variable);
   return fmt::format("{:.{}g}{}{}", value, digits, unit.empty() ? "" : " ", unit);
-}
-
-Sensitivity find_sensitivity(const Eigen::MatrixXd& design, const Eigen::VectorXd& figure,
-                             int members) {
-  if (figure.size() > 0 && figure.minCoeff() == figure.maxCoeff()) {
-    const Eigen::VectorXd none =
-        Eigen::VectorXd::Constant(design.cols(), std::numeric_limits<double>::quiet_NaN());
-    return {none, none, none, none, none, none};
-  }
-  const auto rows = static_cast<OT::UnsignedInteger>(design.rows());
-  const auto columns = static_cast<OT::UnsignedInteger>(design.cols());
-  OT::Sample inputs(rows, columns), outputs(rows, 1);
-  for (OT::UnsignedInteger i = 0; i < rows; ++i) {
-    for (OT::UnsignedInteger j = 0; j < columns; ++j)
-      inputs(i, j) = design(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    outputs(i, 0) = figure[i];
-  }
-  OT::RandomGenerator::SetSeed(1);  // of the bootstrap
-  OT::MartinezSensitivityAlgorithm algorithm(inputs, outputs,
-                                             static_cast<OT::UnsignedInteger>(members));
-  algorithm.setUseAsymptoticDistribution(false);
-  const auto as_vector = [](const OT::Point& point) {
-    Eigen::VectorXd vector(static_cast<Eigen::Index>(point.getSize()));
-    for (Eigen::Index i = 0; i < vector.size(); ++i)
-      vector[i] = point[static_cast<OT::UnsignedInteger>(i)];
-    return vector;
-  };
-  const OT::Interval first = algorithm.getFirstOrderIndicesInterval();
-  const OT::Interval total = algorithm.getTotalOrderIndicesInterval();
-  return {as_vector(algorithm.getFirstOrderIndices()),
-          as_vector(first.getLowerBound()),
-          as_vector(first.getUpperBound()),
-          as_vector(algorithm.getTotalOrderIndices()),
-          as_vector(total.getLowerBound()),
-          as_vector(total.getUpperBound())};
 }
 
 }  // namespace blocklift::pipeline

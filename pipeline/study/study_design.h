@@ -22,16 +22,22 @@ std::string value_text(const StudyVariable& variable, double value, int digits =
 std::string unit_text(const StudyVariable& variable);
 
 /// Sobol' indices of a figure: how much of its variance each variable has by itself, and with all
-/// others together, with intervals of 95 % by the bootstrap. With y of sample A, of B, and of A
-/// with the variable's column of B (E): first = corr(yB, yE), total = 1 - corr(yA, yE) (Martinez
-/// 2011, "Analyse de sensibilite globale par decomposition de la variance"). A variable that does
-/// nothing has the total 0. Of a figure that does not vary they are not numbers.
+/// others together. With y of sample A, of B, and of A with the variable's column of B (E): first =
+/// corr(yB, yE), total = 1 - corr(yA, yE) (Martinez 2011, "Analyse de sensibilite globale par
+/// decomposition de la variance"). A variable that does nothing has the total 0.
+///
+/// The intervals of 95 % are those between the percentiles of a bootstrap of base members (Archer,
+/// Saltelli and Sobol 1997), so that they lie where a correlation can. An index, or an end of its
+/// interval, is not a number where figures do not vary: all of them, one of the samples, or those of
+/// most resamples; all are of fewer base members than fewest_for_sobol_indices.
 struct Sensitivity {
   Eigen::VectorXd first, first_low, first_high;
   Eigen::VectorXd total, total_low, total_high;
+  int members = 0;  ///< base members of which all lifts have the figure: the others are left out
 };
 
-/// @param design as make_design gives it for a sensitivity. @param figure of its members.
+/// @param design as make_design gives it for a sensitivity. @param figure of its members; not a
+/// number of those that failed. @param members the size of a sample.
 Sensitivity find_sensitivity(const Eigen::MatrixXd& design, const Eigen::VectorXd& figure,
                              int members);
 

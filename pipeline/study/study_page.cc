@@ -43,9 +43,12 @@ std::string cells(const std::vector<std::string>& texts, const char* tag) {
   return row + "</tr>\n";
 }
 
-/// An index of Sobol' with its interval: "0.67 (0.61 to 0.74)".
+/// An index of Sobol' with its interval: "0.67 (0.61 to 0.74)"; "-" and "?" where figures do not
+/// vary.
 std::string index_text(double value, double low, double high) {
-  return fmt::format("{:.2f} ({:.2f} to {:.2f})", value, low, high);
+  if (std::isnan(value)) return "-";
+  const auto end = [](double x) { return std::isfinite(x) ? fmt::format("{:.2f}", x) : "?"; };
+  return fmt::format("{:.2f} ({} to {})", value, end(low), end(high));
 }
 
 /// "1.23 (1.20 to 1.27)"; an end that the sample is too small for is left open.
@@ -69,6 +72,29 @@ std::string deviation_text(double scale, const Spread& spread) {
   return format_figure(deviation, std::max(3, 4 - more));
 }
 
+std::string worst_text(double scale, const Spread& spread) {
+  return format_figure(scale * spread.worst()) + (spread.worse_when_smaller ? " (smallest)" : "");
+}
+
+/// Of members that are no sample.
+std::string leading_of_grid(const StudyResults& results) {
+  std::string text = "<h2>Leading figures</h2>\n<div class=\"scroll\"><table>\n" +
+                     cells({"figure", "mean", "deviation", "worst", "in member"}, "th");
+  for (const std::size_t i : results.leading) {
+    const Spread& spread = results.spreads[i];
+    const double scale = results.shown(spread.path).scale;
+    text += cells({name_with_unit(results, spread.path), format_figure(scale * spread.mean),
+                   deviation_text(scale, spread), worst_text(scale, spread),
+                   std::to_string(spread.member_of_worst())},
+                  "td");
+  }
+  return text +
+         "</table></div>\n<p class=\"note\">Each value of a grid is run as often as the others: "
+         "these lifts are no sample, and have no quantiles and no extremes. Of a figure whose "
+         "small "
+         "values are bad the worst is the smallest.</p>\n";
+}
+
 std::string leading_table(const StudyResults& results) {
   std::string text =
       "<div class=\"scroll\"><table>\n" +
@@ -80,17 +106,17 @@ std::string leading_table(const StudyResults& results) {
       const Quantile& one = spread.quantile_of_better(share);
       return with_interval(scale * one.value, scale * one.low, scale * one.high);
     };
-    text += cells(
-        {name_with_unit(results, spread.path), format_figure(scale * spread.mean),
-         deviation_text(scale, spread), quantile(0.5), quantile(0.95), quantile(0.99),
-         format_figure(scale * spread.worst()) + (spread.worse_when_smaller ? " (smallest)" : ""),
-         std::to_string(spread.member_of_worst())},
-        "td");
+    text += cells({name_with_unit(results, spread.path), format_figure(scale * spread.mean),
+                   deviation_text(scale, spread), quantile(0.5), quantile(0.95), quantile(0.99),
+                   worst_text(scale, spread), std::to_string(spread.member_of_worst())},
+                  "td");
   }
   return text +
          "</table></div>\n<p class=\"note\">In brackets the intervals that hold the "
          "quantiles of all such lifts at 95 %, by order statistics; \"?\": the sample is "
-         "too small for that end. Of a figure whose small values are bad, a clearance, a margin, a "
+         "too small for that end. They are those of independent lifts, whose chance a Latin "
+         "hypercube and Sobol's sequence leave in part only. Of a figure whose small values are "
+         "bad, a clearance, a margin, a "
          "righting height, the worst is the smallest, and 95 % of the lifts lie above what stands "
          "under 95 %.</p>\n";
 }
@@ -217,15 +243,20 @@ std::string tornado(const StudyResults& results, const Spread& spread) {
     text +=
         cells({escape_html(results.study.variables[v].name.value), bar(spread.rank_correlation[v])},
               "td");
-  return text + "</table>\n";
+  text += "</table>\n";
+  if (!spread.varies) text += "<p class=\"note\">It is the same in all lifts.</p>\n";
+  return text;
 }
 
 std::string sensitivities(const StudyResults& results) {
-  if (results.sensitivities.empty()) return "";
+  if (results.sensitivities.empty() ||
+      results.sensitivities.front().members < fewest_for_sobol_indices)
+    return "";
   std::string text =
       "<h2>Sobol' indices</h2>\n<p class=\"note\">Share of the variance that a variable has by "
       "itself, and with all others together; in brackets intervals of 95 %. What lies below 0 or "
-      "above 1 does so by chance: more members narrow the intervals.</p>\n";
+      "above 1 does so by chance: more members narrow the intervals. \"-\" and \"?\": the figure, "
+      "or most of it, is the same in all lifts.</p>\n";
   for (std::size_t i = 0; i < results.sensitivities.size(); ++i) {
     const Sensitivity& one = results.sensitivities[i];
     text += "<div class=\"scroll\"><table class=\"even\">\n" +
@@ -328,7 +359,7 @@ std::string by_chance(const StudyResults& results) {
       std::count_if(results.members.begin(), results.members.end(), [&](const Member& member) {
         return member.failure.empty() && member.number < results.independent();
       }));
-  if (results.study.design == StudyDesign::grid || count < 4) return "";
+  if (!results.is_sample() || count < 4) return "";
   return fmt::format(" With {:g} lifts what lies within ±{:.2f} may be chance.", count,
                      std::min(1.0, 1.96 / std::sqrt(count - 1)));
 }
@@ -351,9 +382,13 @@ std::string study_page(const StudyResults& results) {
            "</body></html>\n";
   if (const std::string warning = survivors_warning(results); !warning.empty())
     page += "<p><strong>Warning:</strong> " + escape_html(warning) + ".</p>\n";
+  for (const std::string& sentence : left_out_warnings(results))
+    page += "<p><strong>Warning:</strong> " + escape_html(sentence) + ".</p>\n";
   page += limiting_seas(results);
-  // Nor are seas that were laid out on a grid: each is run as often as the others.
-  if (!results.limits) page += spreads(results);
+  if (results.is_sample())
+    page += spreads(results);
+  else if (!results.limits)
+    page += leading_of_grid(results);
   page += sensitivities(results);
   page +=
       "<h2>What they depend on</h2>\n<p class=\"note\">Rank correlation (Spearman) of each "

@@ -47,6 +47,19 @@ std::vector<std::string> common_paths(const std::vector<Member>& members) {
   return paths;
 }
 
+/// The figures asked for that some of the members that ran do not have.
+std::vector<std::pair<std::string, int>> find_left_out(const StudyFile& study,
+                                                       const std::vector<Member>& members) {
+  std::vector<std::pair<std::string, int>> left_out;
+  for (const Located<std::string>& path : study.figures) {
+    const auto lacking = std::ranges::count_if(members, [&](const Member& member) {
+      return member.failure.empty() && std::isnan(member.figure(path.value));
+    });
+    if (lacking > 0) left_out.emplace_back(path.value, static_cast<int>(lacking));
+  }
+  return left_out;
+}
+
 /// Those that were asked for, or those that spread most for their size.
 std::vector<std::size_t> choose_leading(const StudyFile& study,
                                         const std::vector<Spread>& spreads) {
@@ -55,7 +68,7 @@ std::vector<std::size_t> choose_leading(const StudyFile& study,
   if (study.figures.empty()) {
     const auto relative = [&](std::size_t i) {
       const double size = std::max(std::abs(spreads[i].smallest), std::abs(spreads[i].largest));
-      return size > 0 ? spreads[i].deviation / size : 0;
+      return size > 0 && spreads[i].varies ? spreads[i].deviation / size : 0;
     };
     std::stable_sort(chosen.begin(), chosen.end(),
                      [&](std::size_t a, std::size_t b) { return relative(a) > relative(b); });
@@ -85,7 +98,7 @@ Json spread_json(const StudyFile& study, const Spread& spread) {
   return {{"name", spread.path},
           {"worse_when", spread.worse_when_smaller ? "smaller" : "larger"},
           {"mean", spread.mean},
-          {"deviation", spread.deviation},
+          {"deviation", number_or_null(spread.deviation)},
           {"smallest", spread.smallest},
           {"member_of_smallest", spread.member_of_smallest},
           {"largest", spread.largest},
@@ -215,14 +228,15 @@ std::string csv_text(const StudyResults& results) {
     text += "," + quoted(unit.empty() ? variable.name.value
                                       : fmt::format("{} ({})", variable.name.value, unit));
   }
-  for (const Spread& spread : results.spreads) text += "," + quoted(spread.path);
+  const std::vector<std::string> columns = results.columns();
+  for (const std::string& path : columns) text += "," + quoted(path);
   text += ",failure\n";
   for (const Member& member : results.members) {
     text += fmt::format("{}", member.number);
     for (const double value : results.design.row(member.number)) text += fmt::format(",{}", value);
-    for (const Spread& spread : results.spreads) {
+    for (const std::string& path : columns) {
       const auto found = std::find_if(member.figures.begin(), member.figures.end(),
-                                      [&](const auto& one) { return one.first == spread.path; });
+                                      [&](const auto& one) { return one.first == path; });
       text += found == member.figures.end() ? std::string(",") : fmt::format(",{}", found->second);
     }
     text += "," + quoted(on_one_line(member.failure)) + "\n";
@@ -232,29 +246,30 @@ std::string csv_text(const StudyResults& results) {
 
 void write_arrays(const StudyResults& results, const std::filesystem::path& path) {
   ResultsWriter file(path);
-  std::vector<std::string> variables, units, paths;
+  std::vector<std::string> variables, units;
+  const std::vector<std::string> paths = results.columns();
   for (const StudyVariable& variable : results.study.variables) {
     variables.push_back(variable.name.value);
     units.push_back(unit_text(variable));
   }
   RowMajorMatrix figures(static_cast<Eigen::Index>(results.members.size()),
-                         static_cast<Eigen::Index>(results.spreads.size()));
+                         static_cast<Eigen::Index>(paths.size()));
   figures.setConstant(std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t f = 0; f < results.spreads.size(); ++f) {
-    paths.push_back(results.spreads[f].path);
+  for (std::size_t f = 0; f < paths.size(); ++f)
     for (std::size_t m = 0; m < results.members.size(); ++m)
       for (const auto& [name, value] : results.members[m].figures)
-        if (name == paths.back())
+        if (name == paths[f])
           figures(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(f)) = value;
-  }
   file.write_text("/study/yaml", results.study.yaml, "the study's file");
   file.write_texts("/variables/names", variables, "what varies, a column each");
   file.write_texts("/variables/units", units, "of the columns, SI");
   file.write_matrix("/variables/values", results.design, {"1", "a member a row; SI units"});
   file.write_texts("/figures/names", paths, "places in summary.json, a column each");
   if (figures.size() > 0)
-    file.write_matrix("/figures/values", figures,
-                      {"1", "a member a row, units as the names say; nan: the member failed"});
+    file.write_matrix(
+        "/figures/values", figures,
+        {"1",
+         "a member a row, units as the names say; nan: the member failed, or has no such figure"});
   file.finish();
 }
 
@@ -282,6 +297,17 @@ ShownFigure StudyResults::shown(const std::string& path) const {
   for (const Member& member : members)
     if (member.failure.empty()) return shown_figure(path, member.unit(path));
   return shown_figure(path, std::string(unit_of_path(path)));
+}
+
+std::vector<std::string> StudyResults::columns() const {
+  std::vector<std::string> paths;
+  for (const Spread& spread : spreads) paths.push_back(spread.path);
+  for (const auto& [path, lacking] : left_out) paths.push_back(path);
+  return paths;
+}
+
+bool StudyResults::is_sample() const {
+  return study.design != StudyDesign::grid && study.design != StudyDesign::search;
 }
 
 int StudyResults::failed() const {
@@ -344,6 +370,15 @@ Spread spread_of(const StudyResults& results, const std::string& path) {
   return spread;
 }
 
+/// A figure of all members; not a number of those that failed.
+Eigen::VectorXd figure_of_all(const StudyResults& results, const std::string& path) {
+  Eigen::VectorXd figure(static_cast<Eigen::Index>(results.members.size()));
+  for (const Member& member : results.members)
+    figure[member.number] =
+        member.failure.empty() ? member.figure(path) : std::numeric_limits<double>::quiet_NaN();
+  return figure;
+}
+
 }  // namespace
 
 StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector<Member> members) {
@@ -352,20 +387,16 @@ StudyResults evaluate_study(StudyFile study, Eigen::MatrixXd design, std::vector
   if (results.failed() == static_cast<int>(results.members.size()))
     throw std::runtime_error("no member of the study ran; the first says: " +
                              (results.members.empty() ? "" : results.members.front().failure));
+  results.left_out = find_left_out(results.study, results.members);
   for (const std::string& path : common_paths(results.members))
     results.spreads.push_back(spread_of(results, path));
   find_limits(results);
   results.leading = choose_leading(results.study, results.spreads);
-  if (results.study.design == StudyDesign::sensitivity && results.failed() == 0) {
-    for (const std::size_t i : results.leading) {
-      const std::vector<double> values = results.values_of(results.spreads[i].path);
+  if (results.study.design == StudyDesign::sensitivity)
+    for (const std::size_t i : results.leading)
       results.sensitivities.push_back(
-          find_sensitivity(results.design,
-                           Eigen::Map<const Eigen::VectorXd>(
-                               values.data(), static_cast<Eigen::Index>(values.size())),
+          find_sensitivity(results.design, figure_of_all(results, results.spreads[i].path),
                            results.study.members.value()));
-    }
-  }
   return results;
 }
 
@@ -379,8 +410,7 @@ Json study_json(const StudyResults& results) {
   Json figures = Json::array(), sensitivities = Json::object(), failures = Json::array();
   for (const Spread& spread : results.spreads) {
     figures.push_back(spread_json(results.study, spread));
-    // Seas on a grid are no sample.
-    if (!results.limits) continue;
+    if (results.is_sample()) continue;
     figures.back()["quantiles"] = Json::array();
     figures.back()["extremes"] = Json::array();
   }
@@ -395,6 +425,8 @@ Json study_json(const StudyResults& results) {
             {"failures", std::move(failures)},       {"figures", std::move(figures)}};
   if (const std::string warning = survivors_warning(results); !warning.empty())
     json["warning"] = warning;
+  if (const auto left_out = left_out_warnings(results); !left_out.empty())
+    json["left_out"] = left_out;
   if (!results.sensitivities.empty()) json["sobol_indices"] = std::move(sensitivities);
   if (results.limits) json["limits"] = limits_json(results);
   if (results.search) json["search"] = search_json(results);
@@ -402,12 +434,43 @@ Json study_json(const StudyResults& results) {
 }
 
 std::string survivors_warning(const StudyResults& results) {
-  const StudyDesign design = results.study.design;
   const int failed = results.failed();
-  if (failed == 0 || design == StudyDesign::grid || design == StudyDesign::search) return "";
+  if (failed == 0 || !results.is_sample()) return "";
   return fmt::format(
       "{} of {} members failed: all statistics are of those that ran, which may be the kinder ones",
       failed, results.members.size());
+}
+
+std::vector<std::string> left_out_warnings(const StudyResults& results) {
+  std::vector<std::string> sentences;
+  for (const auto& [path, lacking] : results.left_out)
+    sentences.push_back(
+        fmt::format("{} of {} members that ran have no figure {}: it has no statistics", lacking,
+                    static_cast<int>(results.members.size()) - results.failed(), path));
+  if (results.sensitivities.empty()) return sentences;
+  const int complete = results.sensitivities.front().members;
+  const int asked = results.study.members.value();
+  if (complete < fewest_for_sobol_indices)
+    sentences.push_back(
+        fmt::format("there are no Sobol' indices: all lifts of {} of {} base members ran, and {} "
+                    "are needed",
+                    complete, asked, fewest_for_sobol_indices));
+  else if (complete < asked)
+    sentences.push_back(
+        fmt::format("Sobol' indices are of {} of {} base members: of the others a lift failed",
+                    complete, asked));
+  return sentences;
+}
+
+std::vector<std::string> study_warnings(const StudyResults& results) {
+  std::vector<std::string> warnings;
+  for (const Member& member : results.members)
+    if (!member.failure.empty())
+      warnings.push_back(fmt::format("member {} failed: {}", member.number, member.failure));
+  if (std::string warning = survivors_warning(results); !warning.empty())
+    warnings.push_back(std::move(warning));
+  std::ranges::move(left_out_warnings(results), std::back_inserter(warnings));
+  return warnings;
 }
 
 bool has_too_many_failures(const StudyResults& results) {
@@ -435,24 +498,35 @@ std::string study_text(const StudyResults& results) {
       text += wrapped_sentence(sentence);
     return text;
   }
-  TextTable table({{"figure"},
-                   {"", 0},
-                   {"mean", 1},
-                   {"deviation", 1},
-                   {"95 %", 1},
-                   {"worst", 1},
-                   {"member", 6}});
+  const bool is_sample = results.is_sample();
+  std::vector<TableColumn> columns{{"figure"}, {"", 0}, {"mean", 1}, {"deviation", 1}};
+  if (is_sample) columns.push_back({"95 %", 1});
+  columns.insert(columns.end(), {{"worst", 1}, {"member", 6}});
+  TextTable table(std::move(columns));
+  bool is_too_small = false;
   for (const std::size_t i : results.leading) {
     const Spread& spread = results.spreads[i];
     const ShownFigure figure = results.shown(spread.path);
     const auto shown = [&](double value, int digits) {
       return format_figure(figure.scale * value, digits);
     };
-    table.add_row({figure.name, figure.unit, shown(spread.mean, 4), shown(spread.deviation, 3),
-                   shown(spread.quantile_of_better(0.95).value, 4), shown(spread.worst(), 4),
-                   std::to_string(spread.member_of_worst())});
+    std::vector<TextTable::Cell> row{figure.name, figure.unit, shown(spread.mean, 4),
+                                     shown(spread.deviation, 3)};
+    const Quantile& quantile = spread.quantile_of_better(0.95);
+    if (is_sample) row.emplace_back(shown(quantile.value, 4));
+    row.emplace_back(shown(spread.worst(), 4));
+    row.emplace_back(std::to_string(spread.member_of_worst()));
+    table.add_row(std::move(row));
+    is_too_small |=
+        is_sample && !std::isfinite(spread.worse_when_smaller ? quantile.low : quantile.high);
   }
-  return table.text();
+  std::string text = table.text();
+  if (is_too_small)
+    text += wrapped_sentence(
+        fmt::format("so few lifts say little of their 95 % values: that of all such lifts may be "
+                    "worse than the worst here; {} lifts or more give it an interval",
+                    fewest_for_interval(0.95)));
+  return text;
 }
 
 void write_study(const StudyResults& results, const std::filesystem::path& folder) {

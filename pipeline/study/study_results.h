@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -40,7 +41,15 @@ struct StudyResults {
   std::optional<Operability> in_scatter, in_forecast;
   std::optional<SearchResults> search;  ///< of a search, with the design and the members of it
 
+  /// Figures that the study asks for and some members that ran do not have, with their number: they
+  /// have no spread.
+  std::vector<std::pair<std::string, int>> left_out = {};
+
   ShownFigure shown(const std::string& path) const;
+  /// The figures of which study.csv and study.h5 have a column.
+  std::vector<std::string> columns() const;
+  /// Are the members drawn from laws? Those of a grid and of a search are no sample.
+  bool is_sample() const;
   int failed() const;
   /// Whether any member says so of a figure.
   bool is_worse_when_smaller(const std::string& path) const;
@@ -65,6 +74,11 @@ nlohmann::ordered_json study_json(const StudyResults& results);
 /// Where members of a sample failed: that its statistics are of the others. Empty where none did,
 /// and of a grid and a search, which are no samples.
 std::string survivors_warning(const StudyResults& results);
+/// What is to be said of members and figures that are left out beside that, in sentences.
+std::vector<std::string> left_out_warnings(const StudyResults& results);
+/// All that is doubtful about a study, in sentences: each member that failed, and what both of these
+/// say.
+std::vector<std::string> study_warnings(const StudyResults& results);
 /// Did more than 5 % of a sample's members fail? Their run is taken as failed then.
 bool has_too_many_failures(const StudyResults& results);
 

@@ -24,6 +24,10 @@ using LawKind = SpreadLaw::Kind;
 
 constexpr int most_members = 1'000'000;
 
+/// What could not be read has been complained of, and no rule has anything to say of it.
+bool is_read(const Located<Measure>& value) { return !std::isnan(value.value.value); }
+bool is_read(const std::optional<Located<Measure>>& key) { return key && is_read(*key); }
+
 /// What a law needs beside what it may have.
 struct Needs {
   bool moments, bounds, mode;
@@ -36,6 +40,7 @@ Needs needs_of(LawKind kind) {
 }
 
 void check_law(const SpreadLaw& law, Reading& reading, const Mark& mark) {
+  if (law.kind == LawKind::unknown) return;
   const Needs needs = needs_of(law.kind);
   const auto require = [&](bool is_due, const auto& key, const char* name) {
     if (is_due && !key) reading.error(mark, fmt::format("the law lacks its {}", name));
@@ -55,23 +60,24 @@ void check_law(const SpreadLaw& law, Reading& reading, const Mark& mark) {
   refuse(needs.mode, law.mode, "mode");
   const Measure* first = nullptr;
   for (const auto* key : {&law.mean, &law.deviation, &law.lowest, &law.highest, &law.mode}) {
-    if (!*key) continue;
+    if (!is_read(*key)) continue;
     if (!first) first = &(*key)->value;
     if (!((*key)->value.exponents == first->exponents))
       reading.error((*key)->mark, "the values of a law are not all of one dimension");
   }
-  if (law.deviation && !(law.deviation->value.value > 0))
+  if (is_read(law.deviation) && !(law.deviation->value.value > 0))
     reading.error(law.deviation->mark, "the deviation is not above zero");
-  if (law.lowest && law.highest && !(law.lowest->value.value < law.highest->value.value))
+  const bool has_bounds = is_read(law.lowest) && is_read(law.highest);
+  if (has_bounds && !(law.lowest->value.value < law.highest->value.value))
     reading.error(law.highest->mark, "highest is not above lowest");
   const auto is_between = [&](const std::optional<Located<Measure>>& key, const char* name) {
-    if (!key || !law.lowest || !law.highest) return;
+    if (!is_read(key) || !has_bounds) return;
     if (key->value.value < law.lowest->value.value || key->value.value > law.highest->value.value)
       reading.error(key->mark, fmt::format("{} is not between lowest and highest", name));
   };
   is_between(law.mode, "mode");
   is_between(law.mean, "mean");
-  if (law.kind == LawKind::lognormal && law.mean && !(law.mean->value.value > 0))
+  if (law.kind == LawKind::lognormal && is_read(law.mean) && !(law.mean->value.value > 0))
     reading.error(law.mean->mark, "the mean of a lognormal value is not above zero");
 }
 
@@ -96,8 +102,14 @@ void check_variable(const StudyVariable& variable, Reading& reading, const Mark&
   const int told = (variable.values.empty() ? 0 : 1) + (variable.law ? 1 : 0) +
                    (variable.between.empty() ? 0 : 1);
   if (told != 1) reading.error(mark, "one of values, spread and between is due");
+  // The first one's unit is that of all: "3 m" behind "8 t" would be 3 kg.
+  for (const Located<Measure>& value : variable.values)
+    if (is_read(value) && is_read(variable.values.front()) &&
+        !(value.value.exponents == variable.values.front().value.exponents))
+      reading.error(value.mark, "the values of a variable are not all of one dimension");
   if (variable.between.size() != 2) return;
   const Located<Measure>&low = variable.between[0], &high = variable.between[1];
+  if (!is_read(low) || !is_read(high)) return;
   if (!(low.value.exponents == high.value.exponents))
     reading.error(high.mark, "the two bounds are not of one dimension");
   else if (!(low.value.value < high.value.value))
@@ -195,10 +207,11 @@ void check_named_variable(const StudyFile& study, const std::optional<Located<st
   if (!name) return;
   for (const StudyVariable& variable : study.variables) {
     if (variable.name.value != name->value) continue;
-    for (const Located<Measure>& value : variable.values)
-      if (!(value.value.exponents == exponents))
-        reading.error(value.mark, fmt::format("{} is due, for {} of the limits", text_of(exponents),
-                                              name->value));
+    // All its values have one dimension: see check_variable.
+    if (!variable.values.empty() && is_read(variable.values.front()) &&
+        !(variable.values.front().value.exponents == exponents))
+      reading.error(variable.values.front().mark, fmt::format("{} is due, for {} of the limits",
+                                                              text_of(exponents), name->value));
     return;
   }
   reading.error(name->mark, fmt::format("no variable is called {}", name->value));
@@ -207,7 +220,8 @@ void check_named_variable(const StudyFile& study, const std::optional<Located<st
 void check_limits(const StudyFile& study, Reading& reading) {
   if (!study.limits) return;
   const SeaLimits& limits = *study.limits;
-  if (study.design != StudyDesign::grid) reading.error(limits.place, "limits need design: grid");
+  if (study.design != StudyDesign::grid && study.design != StudyDesign::unknown)
+    reading.error(limits.place, "limits need design: grid");
   check_named_variable(study, limits.height, {1, 0, 0, 0}, reading);
   check_named_variable(study, limits.period, {0, 0, 1, 0}, reading);
   check_named_variable(study, limits.heading, {0, 0, 0, 1}, reading);
@@ -219,6 +233,7 @@ void check_limits(const StudyFile& study, Reading& reading) {
 }
 
 void check_search(const StudyFile& study, Reading& reading, const Mark& mark) {
+  if (study.design == StudyDesign::unknown) return;
   const bool is_search = study.design == StudyDesign::search;
   const bool has_goal = study.minimise || study.maximise;
   if (is_search && study.minimise.has_value() == study.maximise.has_value())
@@ -242,6 +257,7 @@ void check_correlation(const StudyCorrelation& correlation, Reading& reading, co
   if (correlation.of.size() == 2 && correlation.of[0].value == correlation.of[1].value)
     reading.error(mark, "a value is not correlated with itself");
   const CopulaKind kind = correlation.copula;
+  if (kind == CopulaKind::unknown) return;
   const bool is_elliptical = kind == CopulaKind::normal || kind == CopulaKind::student;
   if (is_elliptical && correlation.is.has_value() == correlation.kendall.has_value())
     reading.error(mark, "either is or kendall is due");
@@ -325,12 +341,17 @@ void check_correlated_variables(const StudyFile& study, Reading& reading) {
 void check_correlations(const StudyFile& study, Reading& reading) {
   if (study.correlations.empty()) return;
   const Mark& mark = study.correlations.front().place;
-  if (study.design != StudyDesign::random && study.design != StudyDesign::latin_hypercube &&
-      study.design != StudyDesign::low_discrepancy)
+  if (study.design == StudyDesign::grid || study.design == StudyDesign::sensitivity ||
+      study.design == StudyDesign::search)
     reading.error(mark, "correlations go with design: random, latin hypercube or low discrepancy");
   for (const StudyCorrelation& correlation : study.correlations)
     if (correlation.of.size() != 2) return;
   check_correlated_variables(study, reading);
+  // What lies beyond its range has been complained of.
+  if (std::ranges::any_of(study.correlations, [](const StudyCorrelation& one) {
+        return std::abs(one.is.value_or(0)) >= 1 || std::abs(one.kendall.value_or(0)) >= 1;
+      }))
+    return;
   if (!algebra::CholeskyFactors(study.correlation_matrix()).is_positive())
     reading.error(mark,
                   "these correlations contradict each other: their matrix is not positive "
@@ -348,23 +369,45 @@ void check_repeated_values(const StudyVariable& variable, Reading& reading) {
       }
 }
 
+/// What draws nothing at random would read a seed and do nothing with it.
+void check_seed(const StudyFile& study, Reading& reading) {
+  const StudyDesign design = study.design;
+  if (study.seed && (design == StudyDesign::grid || design == StudyDesign::search ||
+                     design == StudyDesign::low_discrepancy))
+    reading.error(study.seed->mark,
+                  "this design draws nothing at random: seed goes with design: random, latin "
+                  "hypercube and sensitivity");
+}
+
+void check_sensitivity(const StudyFile& study, Reading& reading, const Mark& mark) {
+  if (study.design != StudyDesign::sensitivity) return;
+  for (const StudyVariable& variable : study.variables)
+    if (!variable.law) reading.error(variable.place, "Sobol' indices need a spread and no values");
+  if (study.members && *study.members > 0 && *study.members < fewest_for_sobol_indices)
+    reading.error(mark,
+                  fmt::format("Sobol' indices need {} members at least; some hundred make them "
+                              "sharp",
+                              fewest_for_sobol_indices));
+}
+
 void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   const bool is_grid = study.design == StudyDesign::grid;
   if (is_grid && study.members)
     reading.error(mark, "a grid has as many members as its values give; members goes with samples");
-  if (!is_grid && !study.members) reading.error(mark, "the number of members is missing");
+  if (!is_grid && study.design != StudyDesign::unknown && !study.members)
+    reading.error(mark, "the number of members is missing");
   if (study.variables.empty()) reading.error(mark, "nothing varies");
   check_keys(study, reading);
   check_limits(study, reading);
   check_search(study, reading, mark);
   check_correlations(study, reading);
+  check_seed(study, reading);
+  check_sensitivity(study, reading, mark);
   double size = 1;
   for (const StudyVariable& variable : study.variables) {
     if (is_grid) check_repeated_values(variable, reading);
     if (is_grid && variable.law) reading.error(variable.place, "a grid takes values and no spread");
     size *= static_cast<double>(variable.values.size());
-    if (study.design == StudyDesign::sensitivity && !variable.law)
-      reading.error(variable.place, "Sobol' indices need a spread and no values");
   }
   if (is_grid && size > most_members)
     reading.error(mark,
@@ -407,8 +450,10 @@ Format<StudyFile> study_file_format() {
                   "indices, members (n + 2) of n variables; towards the best of a figure")
       .optional("members", &StudyFile::members, integer(Range::between(1, most_members)),
                 "how many lifts; of a sensitivity, the size of its samples; of a search, at most")
-      .by_default("seed", &StudyFile::seed, integer(Range::between(0, 2'000'000'000)), "1",
-                  "of the random numbers")
+      .optional(
+          "seed", &StudyFile::seed, located(integer(Range::between(0, 2'000'000'000))),
+          "of the random numbers of a random design, a Latin hypercube or a sensitivity: 1 if "
+          "left out")
       .required("vary", &StudyFile::variables, named_tables(variable_format()), "by name")
       .optional("correlations", &StudyFile::correlations, list_of(correlation_format(), 1),
                 "of values with a spread; others are drawn independently")

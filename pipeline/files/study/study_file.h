@@ -16,7 +16,8 @@ namespace blocklift::pipeline {
 
 /// How a value is spread. Moments and bounds are values with the dimension of the key.
 struct SpreadLaw {
-  enum class Kind { normal, lognormal, uniform, triangular, gumbel, weibull };
+  /// A file that was read names one that is known, here and in the enumerations below.
+  enum class Kind { unknown, normal, lognormal, uniform, triangular, gumbel, weibull };
   /// The kinds by the words that name them in a file.
   static const std::vector<std::pair<std::string, Kind>>& kinds();
   Kind kind = Kind::normal;
@@ -35,7 +36,19 @@ struct StudyVariable {
 };
 
 /// How values are put together to members.
-enum class StudyDesign { random, latin_hypercube, low_discrepancy, grid, sensitivity, search };
+enum class StudyDesign {
+  unknown,
+  random,
+  latin_hypercube,
+  low_discrepancy,
+  grid,
+  sensitivity,
+  search
+};
+
+/// Of fewer base members Sobol' indices say nothing: the interval of a correlation of 8 independent
+/// pairs is 1.4 wide.
+inline constexpr int fewest_for_sobol_indices = 8;
 
 /// What is computed of each member.
 enum class StudyRun { simulate, stress, assess };
@@ -62,7 +75,7 @@ struct FigureBound {
 };
 
 /// How two values are joined.
-enum class CopulaKind { normal, student, clayton, gumbel, frank };
+enum class CopulaKind { unknown, normal, student, clayton, gumbel, frank };
 
 /// Two values that are not drawn independently of each other.
 struct StudyCorrelation {
@@ -84,8 +97,8 @@ struct StudyFile {
   Located<std::string> case_name;
   StudyRun run = StudyRun::simulate;
   StudyDesign design = StudyDesign::latin_hypercube;
-  std::optional<int> members;  ///< none of a grid: as many as its values give
-  int seed = 1;
+  std::optional<int> members;        ///< none of a grid: as many as its values give
+  std::optional<Located<int>> seed;  ///< of what is drawn at random; 1 if there is none
   std::vector<StudyVariable> variables;
   std::vector<StudyCorrelation> correlations;
   std::vector<Located<std::string>> figures;  ///< paths of summary.json; empty: the usual ones

@@ -13,7 +13,7 @@ the files that it writes; lifts whose drives are steered by laws of Python run i
 """
 
 from .case import Case
-from .errors import Complaint, InputError, RunError
+from .errors import Complaint, InputError, LiftWarning, RunError
 from .hydrodynamics import Hydrodynamics, hydro
 from .keys import describe
 from .kernel import Law
@@ -28,6 +28,7 @@ __all__ = [
     "Hydrodynamics",
     "InputError",
     "Law",
+    "LiftWarning",
     "Measured",
     "Result",
     "RunError",

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from ruamel.yaml import YAML
 
 from . import kernel
@@ -20,10 +21,16 @@ from .keys import describe
 from .program import run
 from .results import Result
 
-_yaml: Any = YAML()
-_yaml.preserve_quotes = True
-_yaml.width = 4096
+_PIECE = re.compile(r"([^\[\]]*)((?:\[\d+\])*)")
 _INDEX = re.compile(r"\[(\d+)\]")
+
+
+def _yaml() -> Any:
+    """Of its own for each use: it has a state, and threads may read cases side by side."""
+    yaml = YAML()
+    yaml.preserve_quotes = True
+    yaml.width = 4096
+    return yaml
 
 
 class Case:
@@ -40,12 +47,15 @@ class Case:
         """
         self.file = _file_of(Path(path))
         try:
-            self.data: dict[str, Any] = _yaml.load(self.file.read_text(encoding="utf-8"))
+            data = _yaml().load(self.file.read_text(encoding="utf-8"))
         except Exception as error:  # of ruamel's many
             mark = getattr(error, "problem_mark", None)
             raise InputError([Complaint(str(self.file), mark.line + 1 if mark else None,
                                         mark.column + 1 if mark else None,
                                         str(getattr(error, "problem", error)))]) from error
+        if not isinstance(data, dict):
+            raise InputError([Complaint(str(self.file), None, None, "the file has no keys")])
+        self.data: dict[str, Any] = data
         self._begun_with = _text_of(self.data)
 
     @property
@@ -65,9 +75,10 @@ class Case:
 
     def set(self, key: str, value: Any) -> None:
         """Changes a value, or adds a key to a part that is there. Quantities are texts with their
-        unit: `case.set("ropes.R1.length", "10.05 m")`.
+        unit: `case.set("ropes.R1.length", "10.05 m")`. Numbers may be NumPy's.
 
-        Raises KeyError, with near names, if a part before the last is not there.
+        Raises KeyError, with near names, if a part before the last is not there, or if the key is
+        none.
         """
         *way, last = _parts(key)
         place: Any = self.data
@@ -77,7 +88,7 @@ class Case:
             _step(place, last, key)
         elif not isinstance(place, dict):
             raise KeyError(f'{key}: there are no keys in what stands before "{last}"')
-        place[last] = value
+        place[last] = _plain(value)
 
     def describe(self, key: str) -> str:
         """What the manual says of a key, with unit, limits and default, from the declaration by
@@ -169,10 +180,17 @@ class Case:
         try:
             yield
         except InputError as error:
-            # Complaints name the case's own file and not the copy that was run.
-            own = [Complaint(str(self.file) if Path(one.file) == file else one.file, one.line,
-                             one.column, one.message, one.hints) for one in error.complaints]
-            raise InputError(own) from None
+            # Complaints name the case's own files and not those of the copy that was run.
+            if file == self.file:
+                raise
+
+            def own(text: str) -> str:
+                return text.replace(str(file.parent), str(self.file.parent))
+
+            raise InputError([
+                Complaint(str(self.file) if Path(one.file) == file else own(one.file), one.line,
+                          one.column, own(one.message), [own(hint) for hint in one.hints])
+                for one in error.complaints]) from None
 
     @contextlib.contextmanager
     def _on_disk(self) -> Iterator[Path]:
@@ -201,19 +219,38 @@ def _text_of(data: Any) -> str:
     import io
 
     text = io.StringIO()
-    _yaml.dump(data, text)
+    _yaml().dump(data, text)
     return text.getvalue()
+
+
+def _plain(value: Any) -> Any:
+    """A value as YAML knows it: scalars and arrays of NumPy, paths and tuples are none."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return _plain(value.tolist())
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, tuple):
+        return [_plain(one) for one in value]
+    # In place: what ruamel keeps of comments stays.
+    places = range(len(value)) if isinstance(value, list) else value
+    if isinstance(value, (list, dict)):
+        for place in places:
+            plain = _plain(value[place])
+            if plain is not value[place]:
+                value[place] = plain
+    return value
 
 
 def _parts(key: str) -> list[str | int]:
     parts: list[str | int] = []
     for piece in key.split("."):
-        name = piece.split("[", 1)[0]
-        if name:
-            parts.append(name)
-        parts.extend(int(index) for index in _INDEX.findall(piece))
-    if not parts:
-        raise KeyError("the key is empty")
+        found = _PIECE.fullmatch(piece)
+        if not piece or found is None:
+            raise KeyError(f'"{key}" is no key: names with dots between them are, and places in '
+                           "lists from 0 on: operation[2].moves[0].speed")
+        if found[1]:
+            parts.append(found[1])
+        parts.extend(int(index) for index in _INDEX.findall(found[2]))
     return parts
 
 

@@ -31,9 +31,33 @@ class InputError(ValueError):
         super().__init__("\n".join(str(complaint) for complaint in complaints))
         self.complaints = complaints
 
+    def __reduce__(self) -> tuple[type[InputError], tuple[list[Complaint]]]:
+        # On its way from another process it is made again: of complaints, and not of their text.
+        return type(self), (self.complaints,)
+
 
 class RunError(RuntimeError):
     """The input is right, but the run failed."""
+
+
+class LiftWarning(UserWarning):
+    """What the program warns of: the run goes on, and something in it is doubtful."""
+
+
+def warnings_of(text: str) -> list[str]:
+    """The warnings that the program wrote to its standard output, each in one line."""
+    found: list[str] = []
+    is_within = False
+    for line in text.splitlines():
+        if line.startswith("warning: "):
+            found.append(line[len("warning: "):])
+        elif is_within and line.startswith("    "):
+            found[-1] += " " + line.strip()
+        else:
+            is_within = False
+            continue
+        is_within = True
+    return found
 
 
 def complaints_of(text: str) -> list[Complaint]:

@@ -6,11 +6,14 @@ import importlib.util
 import os
 import sys
 import sysconfig
+import threading
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import ModuleType
 from typing import Union
 
+from .errors import LiftWarning
 from .program import executable
 
 #: Gives the speed (m/s or rad/s) that a drive is asked for, of a winch positive where it lets rope
@@ -21,13 +24,15 @@ Law = Callable[[float, dict[str, float]], float]
 LawOrClass = Union[Law, Callable[[], Law]]
 
 _NAME = "blocklift._kernel"
+_loading = threading.Lock()
 
 
 def simulate(case: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
     """Simulates a case file in this process and writes its results into a folder.
 
-    Raises ImportError if the module is not built, InputError, RunError, TypeError if a law cannot
-    be called or gives no number, and whatever a law raises. So do the others.
+    One lift runs in a process at a time: other threads that begin one wait. Raises ImportError if
+    the module is not built, InputError, RunError, also where a law begins a lift itself, TypeError
+    if a law cannot be called or gives no number, and whatever a law raises. So do the others.
     """
     load().simulate(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws))
 
@@ -38,8 +43,11 @@ def assess(case: Path, folder: Path, laws: Mapping[str, LawOrClass], decks: bool
 
 
 def sweep(study: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
-    """Runs a study in this process, a member after another, and writes its results."""
-    load().sweep(os.fspath(study), os.fspath(folder), os.fspath(executable()), _checked(laws))
+    """Runs a study in this process, a member after another, and writes its results. What is doubtful
+    about them is a LiftWarning."""
+    for doubt in load().sweep(os.fspath(study), os.fspath(folder), os.fspath(executable()),
+                              _checked(laws)):
+        warnings.warn(doubt, LiftWarning, stacklevel=2)
 
 
 def _checked(laws: Mapping[str, LawOrClass]) -> dict[str, LawOrClass]:
@@ -54,8 +62,11 @@ def load() -> ModuleType:
 
     Raises ImportError, with what to install, if there is none for this Python.
     """
-    if _NAME in sys.modules:
-        return sys.modules[_NAME]
+    with _loading:
+        return sys.modules[_NAME] if _NAME in sys.modules else _load()
+
+
+def _load() -> ModuleType:
     spec = importlib.util.find_spec(_NAME)
     if spec is None:
         file = f"_kernel{sysconfig.get_config_var('EXT_SUFFIX')}"

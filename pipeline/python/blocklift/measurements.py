@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from .program import run
 from .results import Result
 
@@ -48,7 +50,11 @@ class Measured:
 
 
 def _window(name: str, window: tuple[float, float] | None) -> list[str]:
-    return [name, f"{window[0]!r}:{window[1]!r}"] if window else []
+    if window is None:
+        return []
+    begin, end = window
+    # In one word: a window may begin with a minus, as options do.
+    return [f"{name}={float(begin)!r}:{float(end)!r}"]
 
 
 def measured(result: Result | str | os.PathLike[str],
@@ -72,10 +78,10 @@ def measured(result: Result | str | os.PathLike[str],
     files = [records] if isinstance(records, (str, os.PathLike)) else list(records)
     arguments: list[str | os.PathLike[str]] = ["measured", Path(folder), *map(Path, files), "--json"]
     if shifts is not None:
-        values = [shifts] if isinstance(shifts, (int, float)) else list(shifts)
-        arguments.append("--shift=" + ",".join(repr(float(value)) for value in values))
+        values = np.atleast_1d(np.asarray(shifts, dtype=float)).tolist()
+        arguments.append("--shift=" + ",".join(repr(value) for value in values))
     arguments += _window("--window", window) + _window("--decay", decay) + _window("--rest", rest)
-    arguments += ["--cell-accuracy", f"{100 * cell_accuracy!r}%"]
+    arguments += ["--cell-accuracy", f"{100 * float(cell_accuracy)!r}%"]
     if page is not None:
         arguments += ["--output", page]
     return Measured(json.loads(run(arguments)))

@@ -7,11 +7,12 @@ import os
 import shutil
 import signal
 import subprocess
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from .errors import InputError, RunError, complaints_of
+from .errors import InputError, LiftWarning, RunError, complaints_of, warnings_of
 
 _DONE, _RUN_FAILED, _WRONG_INPUT, _LIFT_FAILS = range(4)
 
@@ -41,7 +42,8 @@ def run(arguments: Sequence[str | os.PathLike[str]],
         environment: dict[str, str] | None = None) -> str:
     """Runs the program to its end.
 
-    Returns what it printed; a lift that fails its checks is no error here.
+    Returns what it printed; a lift that fails its checks is no error here. What it warns of is a
+    LiftWarning.
 
     Raises InputError for wrong input, RunError if the run fails. Ctrl-C ends the program as on a
     terminal before KeyboardInterrupt goes on.
@@ -59,14 +61,19 @@ def run(arguments: Sequence[str | os.PathLike[str]],
         except BaseException:
             process.kill()
             raise
+    doubts = warnings_of(said)
     if process.returncode in (_DONE, _LIFT_FAILS):
+        for doubt in doubts:
+            warnings.warn(doubt, LiftWarning, stacklevel=2)
         return said
     if process.returncode == _WRONG_INPUT:
         complaints = complaints_of(complained)
         if complaints:
             raise InputError(complaints)
         raise ValueError(complained.strip())
-    raise RunError(complained.strip() or f"blocklift ended by signal {-process.returncode}")
+    if process.returncode < 0:  # what it said last has nothing to do with it
+        complained += f"\nblocklift was ended by signal {-process.returncode}"
+    raise RunError("\n".join([complained.strip(), *doubts]).strip() or said.strip())
 
 
 def version() -> str:

@@ -46,8 +46,10 @@ class Study:
         """A figure a row: mean, deviation, smallest, largest and in which members."""
         import pandas
 
-        table = pandas.DataFrame(self.summary["figures"]).set_index("name")
-        return table.drop(columns=["quantiles", "extremes", "rank_correlation"])
+        table = pandas.DataFrame(self.summary["figures"])
+        if table.empty:  # no figure that all members have
+            return table
+        return table.set_index("name").drop(columns=["quantiles", "extremes", "rank_correlation"])
 
     @property
     def worst(self) -> Result:
@@ -59,13 +61,15 @@ class Study:
 
     @property
     def quantiles(self) -> pandas.DataFrame:
-        """Quantiles by figure and share: value, and low and high, the bounds of its confidence."""
+        """Quantiles by figure and share: value, and low and high, the bounds of its confidence.
+        Empty of a grid and of a search, which are no samples."""
         return self._table_of("quantiles", ["figure", "share"])
 
     @property
     def extremes(self) -> pandas.DataFrame:
         """Extremes by figure, law and share, fitted to the members' largest: value, low, high, and
-        how well the law fits (p_value). Empty if there are too few members."""
+        how well the law fits (p_value). Empty if there are too few members, or they are no
+        sample."""
         return self._table_of("extremes", ["figure", "law", "share"])
 
     @property
@@ -130,6 +134,8 @@ class Study:
         Raises KeyError if there is no such figure.
         """
         correlations = self.correlations
+        if figure is None and correlations.empty:
+            raise KeyError(f"{self.folder}: the study has no figure that all its members have")
         name = figure if figure is not None else correlations.index[0]
         row = correlations.loc[name]
         if ax is None:
@@ -161,13 +167,14 @@ def sweep(study: str | os.PathLike[str], output: str | os.PathLike[str], *,
     other processes: members run in this one, one after another, and what an earlier run left is
     not gone on with, since nobody knows whether its laws were the same.
 
-    Raises InputError, also where the folder has members of an earlier run with laws; RunError; with
-    laws what :meth:`Case.simulate` raises.
+    Raises InputError, also where the folder has members of an earlier run with laws; RunError, also
+    where more than 5 % of a sample's members failed: all results are written then, and
+    `Study(output)` has them; with laws what :meth:`Case.simulate` raises.
     """
     if laws is None:
         run(["sweep", study, "--output", output,
-             *(["--workers", str(workers)] if workers else [])])
-    elif workers is not None and workers > 1:
+             *(["--workers", str(workers)] if workers is not None else [])])
+    elif workers not in (None, 1):
         raise ValueError("laws are functions of this process, in which one member runs at a time; "
                          "leave workers out")
     else:

@@ -225,6 +225,163 @@ TEST_F(SweepCommand, RunsNothingIfAMemberIsImpossible) {
   EXPECT_FALSE(fs::exists("out"));
 }
 
+// One cause, one complaint, at the value: what it does to the block's file stands below.
+TEST_F(SweepCommand, SaysOneThingOfOneImpossibleValue) {
+  for (const std::string& lines :
+       {std::string("design: grid\nvary: {w: {keys: ['block:mass'], values: [8 t, -2 t]}}\n"),
+        std::string("design: search\nmembers: 8\nminimise: ropes.R1.max_static_tension_N\n"
+                    "vary: {w: {keys: ['block:mass'], between: [-9 t, -8 t]}}\n")}) {
+    write_study(lines);
+    const Outcome outcome = run("sweep study.yaml -o out");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err,
+                testing::ContainsRegex("study.yaml:[46]:[0-9]+: error: a member of the "
+                                       "study is impossible: w = -[0-9]+ kg\n    "));
+    EXPECT_THAT(outcome.err, HasSubstr("must be greater than 0"));
+    EXPECT_THAT(outcome.err, HasSubstr("\n1 error\n"));
+    EXPECT_FALSE(fs::exists("out"));
+  }
+}
+
+// A block that weighs less than its plates is found before anything runs, by validate as well.
+TEST_F(SweepCommand, RunsNothingIfAMemberWeighsLessThanItsPlates) {
+  write_study("design: grid\nvary: {w: {keys: ['block:mass'], values: [8 t, 3 t]}}\n");
+  for (const char* command : {"sweep study.yaml -o out", "validate study.yaml"}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command;
+    EXPECT_THAT(outcome.err, HasSubstr("study.yaml:4:48: error: a member of the study is "
+                                       "impossible: w = 3000 kg\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("its plates alone weigh"));
+    EXPECT_THAT(outcome.err, HasSubstr("\n1 error\n"));
+    EXPECT_FALSE(fs::exists("out"));
+  }
+}
+
+// The lift is set down: a member whose sling is not slack in time fails when it runs.
+TEST_F(SweepCommand, FailsWhereTooManyMembersDo) {
+  std::string text = text_of_file("lift/case.yaml");
+  const std::size_t begin = text.find("operation:"), end = text.find("settle:");
+  text.replace(begin, end - begin,
+               "operation:\n  - stage: set down\n"
+               "    moves: [{drives: [C1.left, C1.right], by: 1.5 m}]\n"
+               "    until: {slack: R1, within: 30 s}\n"
+               "ground: 0 m\nground_contact: {stiffness: 5 MN/m, damping: 200 kN s/m}\n");
+  folder_.write("lift/case.yaml",
+                test::with(text, "left: 5 m, right: 5 m", "left: 6.4 m, right: 6.4 m"));
+  const auto study = [&](const std::string& design, const std::string& values) {
+    write_study(design +
+                "figures: [ropes.R1.max_dynamic_tension_N]\n"
+                "vary: {within: {keys: ['operation[1].until.within'], values: [" +
+                values + "]}}\n");
+  };
+  // Of a Latin hypercube each of two values is that of half the members.
+  study("members: 6\n", "30 s, 0.5 s");
+  const Outcome half = run("sweep study.yaml -o half");
+  EXPECT_EQ(half.exit_code, 1);
+  EXPECT_THAT(half.out, HasSubstr("6 members, 3 failed\n"));
+  EXPECT_THAT(half.out, HasSubstr("warning: 3 of 6 members failed"));
+  EXPECT_THAT(half.out, testing::ContainsRegex("warning: member [0-5] failed: stage \"set down\""));
+  for (const char* file :
+       {"study.csv", "study.h5", "study.json", "study.html", "worst/report.html"})
+    EXPECT_TRUE(fs::is_regular_file(fs::path("half") / file)) << file;
+  // Gone on with, the failed ones are not tried again, nor forgotten.
+  const std::string before = text_of_file("half/study.csv");
+  EXPECT_THAT(before, HasSubstr("waits for R1 to go slack"));
+  fs::remove("half/study.csv");
+  EXPECT_EQ(run("sweep study.yaml -o half -q").exit_code, 1);
+  EXPECT_EQ(text_of_file("half/study.csv"), before);
+
+  // One of 20 is 5 % and no more; of a grid all are asked for by name.
+  std::string values = "0.5 s";
+  for (int i = 0; i < 19; ++i) values += ", 30." + std::to_string(10 + i) + " s";
+  study("members: 20\n", values);
+  const Outcome one = run("sweep study.yaml -o one");
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_THAT(one.out, HasSubstr("warning: 1 of 20 members failed"));
+  study("design: grid\n", "30 s, 0.5 s");
+  const Outcome grid = run("sweep study.yaml -o grid");
+  EXPECT_EQ(grid.exit_code, 0) << grid.err;
+  EXPECT_THAT(grid.out, HasSubstr("warning: member 1 failed"));
+  study("design: grid\n", "0.5 s");
+  const Outcome none = run("sweep study.yaml -o none");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("no member of the study ran; the first says: stage"));
+}
+
+TEST_F(SweepCommand, SaysWhichMemberIsDamaged) {
+  write_study(
+      "design: grid\nfigures: [ropes.R1.max_static_tension_N]\n"
+      "vary: {w: {keys: ['block:mass'], values: [8 t, 8.1 t]}}\n");
+  ASSERT_EQ(run("sweep study.yaml -o out -q").exit_code, 0);
+  folder_.write("out/members/000001.json", "{\"member\": 1, \"figu");
+  const Outcome damaged = run("sweep study.yaml -o out");
+  EXPECT_EQ(damaged.exit_code, 1);
+  EXPECT_THAT(damaged.err, HasSubstr("000001.json is damaged"));
+  fs::remove("out/members/000001.json");
+  EXPECT_EQ(run("sweep study.yaml -o out -q").exit_code, 0);
+}
+
+// "Heights" and "periods" are any lengths and times to the study. Between two heights the limit is
+// where the line between their figures passes it, here half way; the time changes nothing at rest.
+TEST_F(SweepCommand, FindsLimitsOnAGrid) {
+  const std::string load = "ropes.R3.max_static_tension_N";
+  const std::string seas = "design: grid\nfigures: [" + load +
+                           "]\nvary:\n"
+                           "  Hs: {keys: [ropes.R1.length], values: [2.98 m, 3.02 m]}\n"
+                           "  Tp: {keys: [settle], values: [1 s, 2 s]}\n";
+  write_study(seas);
+  ASSERT_EQ(run("sweep study.yaml -o figures -q").exit_code, 0);
+  const auto found = figure("figures", load);
+  // R1 is longer: R3 of the same hook takes what it leaves.
+  ASSERT_GE(found["member_of_largest"], 2);
+  const double middle = (found["smallest"].get<double>() + found["largest"].get<double>()) / 2;
+
+  const std::string limits =
+      "limits: {height: Hs, period: Tp, scatter: scatter.csv, forecast: "
+      "forecast.csv, of: [{figure: " +
+      load + ", at: " + std::to_string(middle) + " N}]}\n";
+  folder_.write("scatter.csv",
+                "significant_height_m,peak_period_s,share\n2.99,1.5,50\n3.01,1.5,30\n0,9,20\n");
+  folder_.write("forecast.csv",
+                "significant_height_m,peak_period_s,time_h\n2.99,1.5,0\n2.99,2,3\n3.01,1.5,6\n"
+                "2.99,1,9\n");
+  write_study(seas + limits);
+  const Outcome outcome = run("sweep study.yaml -o out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("\n1 +3\\.00\n2 +3\\.00\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("scatter table: 50.0 % is workable with alpha 1; 20.0 % has"));
+  EXPECT_THAT(outcome.out, HasSubstr("the last window reaches the end of the forecast, 9 h"));
+  const auto json = nlohmann::json::parse(text_of_file("out/study.json"));
+  for (const auto& state : json["limits"]["sea_states"]) {
+    EXPECT_NEAR(state["significant_height_m"].get<double>(), 3, 1e-6);
+    EXPECT_EQ(state["known_as"], "found");
+    EXPECT_EQ(state["governed_by"], load);
+  }
+  ASSERT_EQ(json["limits"]["forecast"]["windows"].size(), 2U);
+  EXPECT_EQ(json["limits"]["forecast"]["windows"][0]["end_h"], 3);
+  EXPECT_TRUE(json["figures"][0]["quantiles"].empty());
+  EXPECT_THAT(text_of_file("out/study.html"), HasSubstr("Limiting sea states"));
+
+  // A table that cannot be read is found before anything runs.
+  const auto refused = [&](const std::string& text) {
+    const Outcome wrong = run("sweep study.yaml -o wrong");
+    EXPECT_EQ(wrong.exit_code, 2) << wrong.out;
+    EXPECT_THAT(wrong.err, HasSubstr(text));
+    EXPECT_FALSE(fs::exists("wrong"));
+  };
+  folder_.write("forecast.csv", "significant_height_m,peak_period_s,time_h\n1,1,0\n1,1,6\n1,1,3\n");
+  refused("forecast.csv:4:1: error: the times of a forecast ascend");
+  folder_.write("forecast.csv", "significant_height_m,peak_period_s,time_h\n1,1,0\n1,1\n");
+  refused("forecast.csv:3: 2 values; 3 are due");
+  folder_.write("forecast.csv", "significant_height_m,peak_period_s,time_h\n");
+  refused("the file has no rows");
+  folder_.write("forecast.csv", "significant_height_m,peak_period_s,time_h\n1,1,0\n");
+  write_study(seas + test::with(limits, std::to_string(middle) + " N", "3 m"));
+  refused("its limit has another dimension");
+  write_study(seas + test::with(limits, "R3.max", "R33.max"));
+  refused("the figure is limited, but not among figures");
+}
+
 // What is wrong with the case itself is no member's fault.
 TEST_F(SweepCommand, SaysWhatIsWrongWithTheCaseItselfAlone) {
   folder_.write("study.yaml", std::string("study: spread\ncase: elsewhere\n") + weight);

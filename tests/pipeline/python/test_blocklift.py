@@ -2,11 +2,13 @@
 
 import json
 import os
+import pickle
 import shutil
 import signal
 import threading
 import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +56,56 @@ class CaseTest(InATemporaryFolder):
         Path("lift/case.yaml").write_text("case: [", encoding="utf-8")
         with self.assertRaises(blocklift.InputError):
             blocklift.Case("lift")
+
+    def test_a_key_that_is_none_changes_nothing(self):
+        case = blocklift.Case("lift")
+        before = list(case.data["operation"])
+        for key in ("operation[-1]", "operation[x].stage", "operation[0", "ropes..R1", "", "."):
+            with self.assertRaisesRegex(KeyError, "is no key"):
+                case.set(key, "1 m")
+            with self.assertRaisesRegex(KeyError, "is no key"):
+                case.get(key)
+        self.assertEqual(list(case.data["operation"]), before)
+
+    def test_numbers_of_numpy_are_numbers(self):
+        case = blocklift.Case("lift")
+        case.set("checks.rope_safety_factor", np.linspace(4, 6, 3)[1])
+        case.set("title", np.str_("Another"))
+        case.set("load.position", tuple(f"{x} m" for x in np.array([-2.0, 4.5, 1.5])))
+        case.set("operation[0]", {"stage": "hoist", "pause": "1 s", "moves": [
+            {"drives": ["C1.left"], "by": "-1 m"}]})
+        case.validate()
+        self.assertEqual(blocklift.Case(case.save("lift/other.yaml")).get(
+            "checks.rope_safety_factor"), 5)
+
+    def test_a_file_without_keys(self):
+        for text in ("", "- a\n- b\n", "word\n"):
+            Path("lift/case.yaml").write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(blocklift.InputError, "the file has no keys"):
+                blocklift.Case("lift")
+
+    def test_complaints_name_the_models_of_the_case_and_not_those_of_a_copy(self):
+        block = Path("lift/block.yaml")
+        block.write_text(block.read_text().replace("mass: 8 t", "mass: -8 t"), encoding="utf-8")
+        case = blocklift.Case("lift")
+        case.set("title", "changed, so that a copy of its folder is run")
+        with self.assertRaises(blocklift.InputError) as caught:
+            case.validate()
+        self.assertEqual(caught.exception.complaints[0].file, str(block))
+        self.assertTrue(Path(caught.exception.complaints[0].file).is_file())
+
+    def test_complaints_come_over_from_other_processes(self):
+        error = blocklift.InputError([blocklift.Complaint("case.yaml", 3, 7, "wrong", ["a", "b"])])
+        again = pickle.loads(pickle.dumps(error))
+        self.assertIsInstance(again, blocklift.InputError)
+        self.assertEqual(again.complaints, error.complaints)
+        self.assertEqual(str(again), str(error))
+
+    def test_threads_read_cases_side_by_side(self):
+        alone = blocklift.Case("lift").data
+        with ThreadPoolExecutor(8) as threads:
+            for data in threads.map(lambda _: blocklift.Case("lift").data, range(40)):
+                self.assertEqual(data, alone)
 
     def test_ctrl_c_ends_the_program(self):
         case = blocklift.Case("lift")
@@ -245,6 +297,27 @@ class StudyTest(InATemporaryFolder):
             with self.assertRaises(KeyError):
                 getattr(study, other)
 
+    def test_failed_members_are_warned_of(self):
+        study = self.set_down()
+        Path("grid.yaml").write_text(study + "design: grid\n", encoding="utf-8")
+        with self.assertWarnsRegex(blocklift.LiftWarning, "^member 1 failed: stage .* waits for R1"):
+            grid = blocklift.sweep("grid.yaml", "grid", workers=1)
+        self.assertEqual(len(grid.summary["failures"]), 1)
+        self.assertEqual(len(grid.quantiles), 0)
+        Path("half.yaml").write_text(study + "members: 4\n", encoding="utf-8")
+        with self.assertRaisesRegex(blocklift.RunError, "2 of 4 members failed"):
+            blocklift.sweep("half.yaml", "half", workers=1)
+        self.assertEqual(len(blocklift.Study("half").members), 4)
+
+    def test_a_study_without_a_common_figure(self):
+        Path("study.json").write_text(json.dumps({"study": "s", "members": 2, "failures": [],
+                                                  "figures": []}))
+        study = blocklift.Study(".")
+        for table in (study.spreads, study.quantiles, study.extremes, study.correlations):
+            self.assertEqual(len(table), 0)
+        with self.assertRaisesRegex(KeyError, "no figure"):
+            study.plot_tornado()
+
     def test_sobol_indices(self):
         Path("study.yaml").write_text(
             "study: two\ncase: lift\ndesign: sensitivity\nmembers: 8\n"
@@ -306,6 +379,10 @@ class MeasuredTest(InATemporaryFolder):
         given = blocklift.measured("out", ["cells.csv"], shifts=-36000, window=(2, 10))
         self.assertEqual(given.shifts["cells.csv"], -36000)
         self.assertIsNone(given.weight)
+        # A window that begins before the lift is none of the program's options.
+        early = blocklift.measured("out", "cells.csv", shifts=np.float32(-36000),
+                                   window=(-5, np.float64(10)))
+        self.assertEqual(early.shifts["cells.csv"], -36000)
         with self.assertRaises(blocklift.InputError):
             blocklift.measured("out", "missing.csv")
 

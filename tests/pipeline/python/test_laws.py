@@ -166,6 +166,48 @@ class LawTest(InATemporaryFolder):
             done.set()
             thread.join()
 
+    def test_threads_take_turns(self):
+        case = self.hoist()
+        lengths = {}
+
+        def lift(name, speed):
+            motion = case.simulate(name, laws={"go": lambda time, seen: speed}).history("dynamic")
+            lengths[name] = float(motion.hoist_length.sel(hoist="C1.left")[-1])
+
+        threads = [threading.Thread(target=lift, args=(f"out-{k}", k / 1000)) for k in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(sorted(lengths), ["out-0", "out-1", "out-2"])
+        self.assertAlmostEqual(lengths["out-0"], 5, places=9)
+        self.assertAlmostEqual(lengths["out-2"] - 5, 2 * (lengths["out-1"] - 5), places=3)
+
+    def test_a_law_cannot_begin_a_lift(self):
+        case = self.hoist()
+
+        def law(time, seen):
+            case.simulate("inner", laws={"go": lambda time, seen: 0.0})
+            return 0.0
+
+        with self.assertRaisesRegex(blocklift.RunError, "a law cannot begin a lift"):
+            case.simulate("outer", laws={"go": law})
+        self.assertFalse(Path("inner").exists())
+        # The next one runs.
+        case.simulate("outer", laws={"go": lambda time, seen: 0.0})
+
+    def test_failed_members_are_warned_of_as_the_program_does(self):
+        study = self.set_down()
+        Path("grid.yaml").write_text(study + "design: grid\n", encoding="utf-8")
+        with self.assertWarnsRegex(blocklift.LiftWarning, "^member 1 failed: stage .* waits for R1"):
+            blocklift.sweep("grid.yaml", "grid", laws={})
+        Path("half.yaml").write_text(study + "members: 4\n", encoding="utf-8")
+        with self.assertRaisesRegex(blocklift.RunError, "2 of 4 members failed"):
+            blocklift.sweep("half.yaml", "half", laws={})
+        self.assertEqual(len(blocklift.Study("half").members), 4)
+        with self.assertRaisesRegex(ValueError, "leave workers out"):
+            blocklift.sweep("grid.yaml", "other", laws={}, workers=0)
+
     def test_wrong_names_have_their_place_and_a_guess(self):
         def message(case, laws):
             with self.assertRaises(blocklift.InputError) as caught:

@@ -166,6 +166,35 @@ TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
   EXPECT_EQ(ahead.windows[1].end, 12);
 }
 
+// A calm sea that was not run, or beside a limit that is not known, is told as not workable: it does
+// not count as workable.
+TEST_F(LinearLift, ACalmSeaThatWasNotRunIsNotAllowed) {
+  LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  const std::vector<SeaState> calm = {{0, 8, 0, 60, 0}, {0, 12, 0, 40, 0}};
+  const Operability found = find_operability(seas, calm, 1, false);
+  EXPECT_NEAR(found.share, 0.6, 1e-12);
+  EXPECT_NEAR(found.beyond_periods, 0.4, 1e-12);
+  seas.heights[1 * 4 + 0] = {0, LimitKind::unknown};
+  EXPECT_EQ(find_operability(seas, calm, 1, false).share, 0);
+  seas.heights[1 * 4 + 0] = {0, LimitKind::below_grid};
+  EXPECT_EQ(find_operability(seas, calm, 1, false).share, 0);
+}
+
+// What a window that reaches the last instant does behind it nobody knows.
+TEST_F(LinearLift, SaysWhereAForecastEndsInAWindow) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  const auto sentences = [&](double last_height) {
+    const std::vector<SeaState> forecast = {
+        {1, 8, 0, 0, 0}, {1, 8, 0, 3, 3}, {last_height, 8, 0, 6, 6}};
+    return sentences_of_forecast(find_operability(seas, forecast, 1, true), 1);
+  };
+  EXPECT_THAT(sentences(1), ::testing::ElementsAre(
+                                ::testing::HasSubstr("windows: 0 h to 6 h"),
+                                "the last window reaches the end of the forecast, 6 h: how long it "
+                                "lasts is not known"));
+  EXPECT_THAT(sentences(2), ::testing::ElementsAre(::testing::HasSubstr("windows: 0 h to 3 h")));
+}
+
 // Half a day without a forecast is no part of a window, whatever the sea is before and behind.
 TEST_F(LinearLift, WindowsEndWhereAForecastHasAHole) {
   const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
@@ -183,6 +212,7 @@ TEST_F(LinearLift, WindowsEndWhereAForecastHasAHole) {
               ::testing::ElementsAre(
                   "forecast: 100.0 % of its instants are workable with alpha 1; windows: 0 h to 6 "
                   "h; 100 h to 106 h",
+                  ::testing::HasSubstr("reaches the end of the forecast, 106 h"),
                   ::testing::HasSubstr("no instants in 6 h to 100 h")));
   // A step left out is none yet.
   EXPECT_EQ(find_operability(seas, calm_at({0, 6, 18, 24}), 1, true).windows.size(), 1U);
@@ -219,6 +249,17 @@ TEST_F(LinearLift, IsDrawn) {
   const std::string open = limiting_polar(half);
   EXPECT_THAT(open, ::testing::Not(::testing::ContainsRegex("<path d=\"M[^\"]*Z\" stroke")));
   EXPECT_THAT(open, ::testing::HasSubstr("fill=\"#fff\""));
+}
+
+// A chart over periods needs two of them.
+TEST_F(LinearLift, OfOnePeriodIsDrawnRoundTheCompassAlone) {
+  LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  seas.periods.resize(1);
+  EXPECT_EQ(limiting_contours(seas), "");
+  EXPECT_THAT(limiting_polar(seas), ::testing::HasSubstr("Tp 6 s"));
+  seas.headings.resize(1);
+  EXPECT_EQ(limiting_contours(seas), "");
+  EXPECT_EQ(limiting_polar(seas), "");
 }
 
 // Where the lowest sea is too much everywhere nothing is left to draw but the rose.

@@ -2,12 +2,15 @@
 #include "pipeline/study/members.h"
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "pipeline/declaration/diagnostics.h"
 #include "pipeline/study/asked_figures.h"
 #include "pipeline/study/study_design.h"
 #include "pipeline/study/study_run.h"
@@ -89,6 +92,51 @@ TEST_F(Members, CannotWeighLessThanTheirPlates) {
   EXPECT_EQ(run_member(study, design.row(0), 0, blocks).failure, "");
   EXPECT_NE(run_member(study, design.row(1), 1, blocks).failure.find("its plates alone weigh"),
             std::string::npos);
+}
+
+// Before the run it is said at the value's own place, once, with what it does to the block.
+TEST_F(Members, AreHeldAgainstTheirPlatesBeforeTheRun) {
+  const auto plan = [&](const std::string& lines) -> std::string {
+    folder_.write("study.yaml", "study: small\ncase: lift\ndesign: grid\nvary:\n" + lines);
+    try {
+      plan_members(read_study("study.yaml"), [](double) {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(plan("  w: {keys: ['block:mass'], values: [8 t, 7 t, 9 t]}\n"), "");
+  const std::string light = plan("  w: {keys: ['block:mass'], values: [8 t, 3 t, 9 t]}\n");
+  EXPECT_EQ(light.find("study.yaml:5:43: error: a member of the study is impossible: w = 3000 kg\n"
+                       "    "),
+            0U)
+      << light;
+  EXPECT_NE(light.find("block's mass is stated as 3 t, and its plates alone weigh"),
+            std::string::npos)
+      << light;
+  EXPECT_TRUE(light.ends_with("\n1 error\n")) << light;
+  // A centre of mass that no outfitting draws there.
+  const std::string far = plan("  x: {keys: ['block:centre_of_mass[1]'], values: [2 m, 40 m]}\n");
+  EXPECT_NE(far.find("study.yaml:5:56: error: a member of the study is impossible: x = 40 m"),
+            std::string::npos)
+      << far;
+  // Thicker plates weigh more than is stated: each block has plates of its own, and the first is
+  // sound.
+  const std::string thick = plan(
+      "  w: {keys: ['block:mass'], values: [8 t, 9 t]}\n"
+      "  t: {keys: ['block:plates.bottom.thickness'], values: [20 mm, 60 mm]}\n");
+  EXPECT_NE(thick.find("study.yaml:6:64: error: a member of the study is impossible: t = 0.06 m"),
+            std::string::npos)
+      << thick;
+  // What is wrong with the case itself no value is to blame for.
+  std::ifstream stream("lift/block.yaml");
+  std::string block{std::istreambuf_iterator<char>(stream), {}};
+  block.replace(block.find("mass: 8 t"), 9, "mass: 2 t");
+  folder_.write("lift/block.yaml", block);
+  const std::string own = plan("  l: {keys: [ropes.R1.length], values: [3 m, 3.01 m]}\n");
+  EXPECT_NE(own.find("block.yaml:5:7: error: the block's mass is stated as 2 t"), std::string::npos)
+      << own;
+  EXPECT_EQ(own.find("a member of the study"), std::string::npos) << own;
 }
 
 TEST_F(Members, HaveTheStressOfAWholeRun) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -38,6 +39,65 @@ TEST(Quantile, SaysWhereTheSampleIsTooSmall) {
   std::iota(values.begin(), values.end(), 1.0);
   EXPECT_FALSE(std::isfinite(find_quantile(values, 0.99).high));
   EXPECT_TRUE(std::isfinite(find_quantile(values, 0.99).low));
+}
+
+// By n independent values the largest lies beyond the quantile p with the probability 1 - p^n: 97.5 %
+// from 72 on for 95 %, from 368 on for 99 %, from 6 on for the median (David and Nagaraja 2003, 7.1).
+TEST(Quantile, HasBothEndsFromAKnownNumberOn) {
+  for (const auto& [share, fewest] : {std::pair{0.5, 6}, {0.95, 72}, {0.99, 368}}) {
+    EXPECT_EQ(fewest_for_interval(share), fewest);
+    std::vector<double> values(static_cast<std::size_t>(fewest));
+    std::iota(values.begin(), values.end(), 1.0);
+    EXPECT_EQ(find_quantile(values, share).high, fewest);
+    values.pop_back();
+    EXPECT_FALSE(std::isfinite(find_quantile(values, share).high));
+  }
+}
+
+TEST(Quantile, OfOneValueAndOfTies) {
+  const Quantile one = find_quantile({3}, 0.95);
+  EXPECT_EQ(one.value, 3);
+  EXPECT_FALSE(std::isfinite(one.low) || std::isfinite(one.high));
+  const Quantile tied = find_quantile(std::vector<double>(100, 7.0), 0.5);
+  EXPECT_EQ(tied.value, 7);
+  EXPECT_EQ(tied.low, 7);
+  EXPECT_EQ(tied.high, 7);
+}
+
+// Of one value nobody knows the deviation. What differs by rounding alone depends on nothing, has no
+// law, and is said to be the same.
+TEST(Spread, OfWhatDoesNotVary) {
+  Eigen::MatrixXd design(40, 1);
+  design.col(0).setLinSpaced(0, 39);
+  const Spread one = find_spread("x", {4}, {0}, design);
+  EXPECT_TRUE(std::isnan(one.deviation));
+  EXPECT_FALSE(one.varies);
+  EXPECT_EQ(one.mean, 4);
+  std::vector<double> values;
+  for (int i = 0; i < 40; ++i) values.push_back(1e5 * (1 + 1e-12 * i));
+  const Spread rounded = find_spread("x", values, numbers(40), design);
+  EXPECT_FALSE(rounded.varies);
+  EXPECT_EQ(rounded.rank_correlation[0], 0);
+  EXPECT_TRUE(rounded.extremes.empty());
+  EXPECT_FALSE(find_spread("x", std::vector<double>(40), numbers(40), design).varies);
+  values[7] *= 1.01;
+  EXPECT_TRUE(find_spread("x", values, numbers(40), design).varies);
+}
+
+// A figure that takes two values alone, as a discrete variable may make it: no law of extremes is
+// like that, and none is said to fit.
+TEST(Spread, NoLawFitsTwoValues) {
+  std::vector<double> values(400, 1.0);
+  for (std::size_t i = 0; i < values.size(); i += 5) values[i] = 2;
+  Eigen::MatrixXd design(400, 2);
+  for (Eigen::Index i = 0; i < 400; ++i) design.row(i) << (i % 5 == 0 ? 1 : 0), 3;
+  const Spread spread = find_spread("x", values, numbers(400), design);
+  for (const ExtremeFit& fit : spread.extremes) {
+    EXPECT_LT(fit.p_value, 0.05) << fit.law;
+    EXPECT_TRUE(fit.low <= fit.value && fit.value <= fit.high) << fit.law;
+  }
+  EXPECT_NEAR(spread.rank_correlation[0], 1, 1e-12);  // ties share their rank
+  EXPECT_EQ(spread.rank_correlation[1], 0);           // with what has one value
 }
 
 TEST(Spread, MomentsAndTheirMembers) {

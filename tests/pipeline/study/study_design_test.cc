@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -98,7 +101,7 @@ TEST(StudyDesign, RepeatsWithItsSeed) {
   StudyFile study = study_of(StudyDesign::random, 20, {normal_length(0, 1), normal_length(1, 3)});
   const Eigen::MatrixXd first = make_design(study);
   EXPECT_EQ(first, make_design(study));
-  study.seed = 2;
+  study.seed = Located<int>{2, {}};
   EXPECT_NE(first, make_design(study));
 }
 
@@ -164,6 +167,94 @@ TEST(StudyDesign, InertVariablesHaveNoTotalIndex) {
   EXPECT_NEAR(found.first[0], 1, 1e-9);
   const Eigen::VectorXd still = Eigen::VectorXd::Constant(design.rows(), 3);
   EXPECT_TRUE(find_sensitivity(design, still, *study.members).total.array().isNaN().all());
+}
+
+// A correlation lies between -1 and 1, whatever the bootstrap draws: of few base members, of a figure
+// that is nearly always the same, of one that is 1 in a single lift.
+TEST(StudyDesign, IntervalsOfIndicesLieWhereIndicesCan) {
+  const auto within = [](const Eigen::VectorXd& values, double low, double high) {
+    for (const double value : values)
+      if (!std::isnan(value)) {
+        EXPECT_GE(value, low);
+        EXPECT_LE(value, high);
+      }
+  };
+  for (const int members : {fewest_for_sobol_indices, 20}) {
+    const StudyFile study =
+        study_of(StudyDesign::sensitivity, members, {uniform_length(0, 1), uniform_length(0, 1)});
+    const Eigen::MatrixXd design = make_design(study);
+    Eigen::VectorXd rare = Eigen::VectorXd::Zero(design.rows()), once = rare;
+    for (Eigen::Index i = 0; i < design.rows(); ++i) rare[i] = design(i, 0) > 0.9 ? 1 : 0;
+    once[1] = 1;
+    const Eigen::VectorXd even = design.col(0) + 0.1 * design.col(1);
+    for (const Eigen::VectorXd& figure : {rare, once, even}) {
+      const Sensitivity found = find_sensitivity(design, figure, members);
+      for (const auto* first : {&found.first, &found.first_low, &found.first_high})
+        within(*first, -1, 1);
+      for (const auto* total : {&found.total, &found.total_low, &found.total_high})
+        within(*total, 0, 2);
+    }
+    // Sample B is the same in all lifts: its first index is none.
+    EXPECT_TRUE(find_sensitivity(design, once, members).first.array().isNaN().all());
+    EXPECT_TRUE((find_sensitivity(design, even, members).first_low.array() <=
+                 find_sensitivity(design, even, members).first_high.array())
+                    .all());
+  }
+}
+
+// What is left is what the study has with the other base members alone.
+TEST(StudyDesign, BaseMembersWithAFailedLiftAreLeftOut) {
+  constexpr int members = 40, variables = 2;
+  const StudyFile study =
+      study_of(StudyDesign::sensitivity, members, {uniform_length(0, 1), uniform_length(0, 1)});
+  const Eigen::MatrixXd design = make_design(study);
+  const auto figure_of = [](const Eigen::MatrixXd& of) {
+    return Eigen::VectorXd(of.col(0).array().square() + of.col(1).array() * of.col(0).array());
+  };
+  Eigen::VectorXd figure = figure_of(design);
+  // One lift of base member 3 and all of member 7.
+  figure[2 * members + 3] = std::nan("");
+  for (int k = 0; k < variables + 2; ++k) figure[k * members + 7] = std::nan("");
+  const Sensitivity found = find_sensitivity(design, figure, members);
+  EXPECT_EQ(found.members, members - 2);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index row = 0; row < design.rows(); ++row)
+    if (row % members != 3 && row % members != 7) kept.push_back(row);
+  const Eigen::MatrixXd rest = design(kept, Eigen::all);
+  const Sensitivity alone = find_sensitivity(rest, figure_of(rest), members - 2);
+  EXPECT_LT((found.total - alone.total).norm(), 1e-12);
+  EXPECT_LT((found.first_low - alone.first_low).norm(), 1e-12);
+  // Too few are left.
+  for (Eigen::Index i = 0; i < 34; ++i) figure[i] = std::nan("");
+  const Sensitivity none = find_sensitivity(design, figure, members);
+  EXPECT_EQ(none.members, 6);
+  EXPECT_TRUE(none.total.array().isNaN().all());
+}
+
+// Five standard deviations off there is a law; nine off nothing of it is left that a computer knows.
+TEST(StudyDesign, SaysWhereNothingOfALawIsLeft) {
+  const auto place = std::make_shared<const std::string>("study.yaml");
+  const auto refusal = [&](std::optional<double> lowest, std::optional<double> highest) {
+    StudyVariable variable = normal_length(10, 2);
+    variable.law->place = {place, 6, 20};
+    if (lowest) variable.law->lowest = length_of(*lowest);
+    if (highest) variable.law->highest = length_of(*highest);
+    try {
+      const Eigen::MatrixXd values = make_design(study_of(StudyDesign::random, 50, {variable}));
+      EXPECT_GE(values.minCoeff(), lowest.value_or(-1e9));
+      EXPECT_LE(values.maxCoeff(), highest.value_or(1e9));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal(20, std::nullopt), "");
+  EXPECT_EQ(refusal(std::nullopt, 0), "");
+  for (const std::string& text :
+       {refusal(28, std::nullopt), refusal(std::nullopt, -8), refusal(28, 30)})
+    EXPECT_EQ(text,
+              "study.yaml:6:20: error: the spread of \"x\" is impossible: the law has no such "
+              "moments, or nothing of it lies between its bounds\n1 error\n");
 }
 
 StudyCorrelation correlation_of(const char* a, const char* b, CopulaKind copula) {

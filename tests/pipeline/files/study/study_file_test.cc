@@ -64,8 +64,83 @@ TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
               HasSubstr("a grid takes values and no spread"));
   EXPECT_THAT(complaints("design: sensitivity\nmembers: 4\nvary: {a: {keys: [x], values: [1]}}\n"),
               HasSubstr("Sobol' indices need a spread"));
+  const std::string uniform =
+      "vary: {a: {keys: [x], spread: {law: uniform, lowest: 3, highest: 4}}}\n";
+  EXPECT_THAT(complaints("design: sensitivity\nmembers: 7\n" + uniform),
+              HasSubstr("Sobol' indices need 8 members at least"));
+  EXPECT_EQ(complaints("design: sensitivity\nmembers: 8\nseed: 3\n" + uniform), "");
+  EXPECT_THAT(complaints("design: low discrepancy\nmembers: 8\nseed: 3\n" + uniform),
+              HasSubstr("study.yaml:5:7: error: this design draws nothing at random"));
   EXPECT_THAT(complaints("members: 4\nvary: {a: {keys: [x]}}\n"),
               HasSubstr("one of values, spread and between is due"));
+}
+
+// What could not be read is complained of once: no rule has anything to say of it.
+TEST(StudyFile, SaysOneThingOfOneBadValue) {
+  const auto expect_one = [](const std::string& lines, const char* text) {
+    const std::string said = complaints(lines);
+    EXPECT_THAT(said, HasSubstr(text)) << lines;
+    EXPECT_THAT(said, HasSubstr("\n1 error\n")) << lines;
+  };
+  for (const char* values : {"[2 m, 1 furlng]", "[1 furlng, 2 m]", "[0 m, 1 furlng, 3 m]"})
+    expect_one("design: grid\nvary: {a: {keys: [x], values: " + std::string(values) + "}}\n",
+               "furlng");
+  expect_one(
+      "design: grid\nvary:\n  a: {keys: [x], values: [1 furlng]}\n  b: {keys: [y], values: [4 s]}\n"
+      "limits: {height: a, period: b, of: [{figure: f, at: 3}]}\n",
+      "furlng");
+  for (const char* between : {"[1 furlng, 9 t]", "[9 t, 1 furlng]"})
+    expect_one("design: search\nmembers: 20\nminimise: f\nvary: {a: {keys: [x], between: " +
+                   std::string(between) + "}}\n",
+               "furlng");
+  for (const char* design : {"gird", "serch", "sensitive"})
+    expect_one("design: " + std::string(design) + "\nvary: {a: {keys: [x], values: [1, 2]}}\n",
+               design);
+  expect_one("design: serch\nmembers: 20\nminimise: f\nvary: {a: {keys: [x], between: [1, 2]}}\n",
+             "did you mean \"search\"");
+  for (const char* spread :
+       {"law: normal, mean: 3 tn, deviation: 5 kg", "law: normal, mean: 3 t, deviation: 5 kgg",
+        "law: uniform, lowest: 3 tt, highest: 4 t", "law: lognormal, mean: 3 tn, deviation: 5 kg",
+        "law: unifrm, lowest: 3 t, highest: 4 t"})
+    EXPECT_THAT(complaints_about_spread(spread), HasSubstr("\n1 error\n")) << spread;
+  const std::string two =
+      "members: 9\nvary:\n"
+      "  a: {keys: [x], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "  b: {keys: [y], spread: {law: normal, mean: 3, deviation: 1}}\n"
+      "correlations:\n";
+  for (const char* correlation :
+       {"is: 1.5", "kendall: -2", "copula: studnt, kendall: 0.5, degrees: 4"})
+    expect_one(two + "  - {of: [a, b], " + correlation + "}\n", "error");
+}
+
+// The unit of the first is that of all.
+TEST(StudyFile, RefusesValuesOfSeveralDimensions) {
+  EXPECT_THAT(complaints("members: 4\nvary: {a: {keys: [x], values: [8 t, 3 m, 9 t]}}\n"),
+              HasSubstr("study.yaml:4:37: error: the values of a variable are not all of one "
+                        "dimension\n1 error\n"));
+}
+
+TEST(StudyFile, RefusesSeaLimitsThatMakeNoSense) {
+  const std::string seas =
+      "  Hs: {keys: [x], values: [1 m, 2 m]}\n  Tp: {keys: [y], values: [6 s, 8 s]}\n";
+  const auto of = [&](const std::string& limits, const std::string& design = "grid") {
+    return complaints("design: " + design + "\nvary:\n" + seas + "limits: {" + limits + "}\n");
+  };
+  const std::string load = "of: [{figure: f_N, at: 3 kN}]";
+  EXPECT_EQ(of("height: Hs, period: Tp, alpha: 0.8, " + load), "");
+  EXPECT_THAT(of("height: Hs, period: Tp, " + load, "random\nmembers: 9"),
+              HasSubstr("limits need design: grid"));
+  EXPECT_THAT(of("height: Hz, period: Tp, " + load), HasSubstr("no variable is called Hz"));
+  EXPECT_THAT(of("height: Tp, period: Tp, " + load),
+              HasSubstr("study.yaml:6:28: error: a length is due, for Tp of the limits"));
+  EXPECT_THAT(of("height: Hs, period: Tp, heading: Hs, " + load),
+              HasSubstr("is due, for Hs of the limits"));
+  EXPECT_THAT(of("height: Hs, " + load), HasSubstr("lacks the key \"period\""));
+  EXPECT_THAT(of("height: Hs, period: Tp, of: []"), HasSubstr("1 error"));
+  EXPECT_THAT(of("height: Hs, period: Tp, alpha: 1.2, " + load), HasSubstr("alpha"));
+  EXPECT_THAT(complaints("design: grid\nfigures: [g_N]\nvary:\n" + seas +
+                         "limits: {height: Hs, period: Tp, " + load + "}\n"),
+              HasSubstr("the figure is limited, but not among figures"));
 }
 
 // Of two values for one key the second would be the key's, and the first would do nothing.
