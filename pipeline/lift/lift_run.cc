@@ -131,13 +131,15 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
                        const LoadFlexibility* flexibility) {
   const RadiationProblem problem = radiation_problem(lift_case);
-  const auto radiation = find_radiation(
+  const FoundRadiation radiation = find_radiation(
       problem, [&](const std::string& what) { progress("radiation of vessels", 0, what); });
   FoundMotion found;
   const auto build = [&](std::optional<double> fault) {
     found.fault = fault;
-    return build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem),
-                      found);
+    BuiltLift model = build_lift(lift_case, load, radiation.series.get(), flexibility,
+                                 find_marched_water(problem), found);
+    model.doubts_of_water = radiation.doubts;
+    return model;
   };
   for (;;) {
     BuiltLift model = build(std::nullopt);
