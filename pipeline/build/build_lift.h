@@ -138,6 +138,8 @@ struct BuiltLift {
   MarchedWater marched = {};
   /// What the water of `system` was computed for; empty where vessels make no waves.
   dynamics::Arrangement arrangement = {};
+  /// Sentences about how far the radiation of its vessels is to be trusted.
+  std::vector<std::string> doubts_of_water = {};
   /// Of the fault that comes at its worst instant, if there is one.
   std::optional<WorstInstant> worst = {};
 

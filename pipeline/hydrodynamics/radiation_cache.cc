@@ -1,5 +1,6 @@
 #include "pipeline/hydrodynamics/radiation_cache.h"
 
+#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
@@ -107,11 +108,56 @@ namespace {
 using Say = std::function<void(const std::string&)>;
 using Tell = std::function<void(double, const std::string&)>;
 
-void say_doubt(const dynamics::HydrodynamicDatabase& database, const Say& say) {
-  for (const std::string& doubt : {doubt_about_panels(database), doubt_about_excitation(database),
-                                   doubt_about_runs(database)}) {
-    if (!doubt.empty()) say("warning: " + doubt);
+/// The largest errors of all draughts, with the names of the bodies and nothing else.
+dynamics::HydrodynamicDatabase worst_of(
+    const std::vector<dynamics::HydrodynamicDatabase>& databases) {
+  dynamics::HydrodynamicDatabase worst;
+  worst.body_names = databases.back().body_names;
+  for (const dynamics::HydrodynamicDatabase& database : databases) {
+    for (const auto errors : {&dynamics::HydrodynamicDatabase::change_from_coarser,
+                              &dynamics::HydrodynamicDatabase::excitation_change_from_coarser,
+                              &dynamics::HydrodynamicDatabase::cut_off_by_end}) {
+      const Eigen::VectorXd& of_this = database.*errors;
+      Eigen::VectorXd& largest = worst.*errors;
+      if (of_this.size() == 0) continue;
+      largest = largest.size() == 0 ? of_this : largest.cwiseMax(of_this).eval();
+    }
   }
+  return worst;
+}
+
+/// doubt_about_coupling of the bodies at their deepest draughts, where panels on the water couple
+/// them.
+std::string doubt_about_distances(const RadiationProblem& problem) {
+  if (problem.given || problem.bodies.size() < 2 ||
+      problem.method == dynamics::PanelMethod::green_function)
+    return {};
+  const int lowered = problem.lowered_body();
+  const RadiationProblem deepest =
+      lowered < 0 ? problem : at_draught(problem, problem.bodies[lowered].draughts.back());
+  return compute_or_refuse(deepest, [](const RadiationProblem& p) {
+    const dynamics::PanelModel model = make_panel_model(p);
+    const double highest = p.frequencies.back();
+    return doubt_about_coupling(model, find_distant_groups(model, highest), highest);
+  });
+}
+
+/// Says what is doubted of the databases of a problem.
+/// @returns the doubts as sentences.
+std::vector<std::string> say_doubts(const RadiationProblem& problem,
+                                    const std::vector<dynamics::HydrodynamicDatabase>& databases,
+                                    const Say& say) {
+  const dynamics::HydrodynamicDatabase worst = worst_of(databases);
+  std::vector<std::string> sentences;
+  for (const std::string& doubt : {doubt_about_panels(worst), doubt_about_excitation(worst),
+                                   doubt_about_runs(worst), doubt_about_distances(problem)}) {
+    if (doubt.empty()) continue;
+    say("warning: " + doubt);
+    std::string sentence = doubt + ".";
+    sentence.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(doubt.front())));
+    sentences.push_back(std::move(sentence));
+  }
+  return sentences;
 }
 
 /// What `read` finds of an entry of the cache, or what `compute` makes and `write` puts there. What
@@ -156,19 +202,14 @@ dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
   const auto progress = [&](double fraction, const char* what) {
     tell(fraction, of_what + ": " + what);
   };
-  dynamics::HydrodynamicDatabase database =
-      compute_or_refuse(problem, [&](const RadiationProblem& p) {
-        const dynamics::PanelModel model = make_panel_model(p);
-        if (p.method == dynamics::PanelMethod::green_function)
-          return compute_radiation(p, model, {}, progress);
-        const auto groups = find_distant_groups(model, p.frequencies.back());
-        if (const std::string note = note_on_groups(model, groups); !note.empty()) say(note);
-        const std::string doubt = doubt_about_coupling(model, groups, p.frequencies.back());
-        if (!doubt.empty()) say("warning: " + doubt);
-        return compute_radiation(p, model, groups, progress);
-      });
-  say_doubt(database, say);
-  return database;
+  return compute_or_refuse(problem, [&](const RadiationProblem& p) {
+    const dynamics::PanelModel model = make_panel_model(p);
+    if (p.method == dynamics::PanelMethod::green_function)
+      return compute_radiation(p, model, {}, progress);
+    const auto groups = find_distant_groups(model, p.frequencies.back());
+    if (const std::string note = note_on_groups(model, groups); !note.empty()) say(note);
+    return compute_radiation(p, model, groups, progress);
+  });
 }
 
 /// The database of bodies that stay.
@@ -182,10 +223,7 @@ dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
   const fs::path file = folder / (identity + ".h5");
   const auto read = [&] {
     auto known = read_entry(file, identity);
-    if (known) {
-      say("from " + file.string());
-      say_doubt(*known, say);
-    }
+    if (known) say("from " + file.string());
     return known;
   };
   return take_or_make(
@@ -256,10 +294,10 @@ std::vector<dynamics::MemoryStateSpace> find_memories(
       });
 }
 
-std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
-    const RadiationProblem& problem, const std::function<void(const std::string&)>& report,
-    const std::function<void(double, const std::string&)>& progress) {
-  if (problem.bodies.empty() || problem.direct) return nullptr;
+FoundRadiation find_radiation(const RadiationProblem& problem,
+                              const std::function<void(const std::string&)>& report,
+                              const std::function<void(double, const std::string&)>& progress) {
+  if (problem.bodies.empty() || problem.direct) return {};
   const Say say = [&](const std::string& text) {
     if (report) report(text);
   };
@@ -269,7 +307,6 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
   dynamics::HydrodynamicSeries series;
   if (problem.given) {
     say("of the file that the case names");
-    say_doubt(*problem.given, say);
     series = {0, {0.0}, {take_given_database(problem)}};
   } else if (problem.lowered_body() >= 0) {
     series = find_series(problem, say, tell);
@@ -284,8 +321,10 @@ std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
         calc_response_amplitudes(database, problem.drifting->mass, problem.drifting->damping),
         problem.drifting->damping);
   }
+  std::vector<std::string> doubts = say_doubts(problem, series.databases, say);
   series.memories = find_memories(series.databases, memory_fit_of_vessels(), say);
-  return std::make_shared<const dynamics::HydrodynamicSeries>(std::move(series));
+  return {std::make_shared<const dynamics::HydrodynamicSeries>(std::move(series)),
+          std::move(doubts)};
 }
 
 MarchedWater find_marched_water(const RadiationProblem& problem) {

@@ -31,21 +31,30 @@ std::vector<dynamics::MemoryStateSpace> find_memories(
     const std::vector<dynamics::HydrodynamicDatabase>& databases, const dynamics::MemoryFit& fit,
     const std::function<void(const std::string&)>& report);
 
+/// The radiation of a problem.
+struct FoundRadiation {
+  std::shared_ptr<const dynamics::HydrodynamicSeries> series = {};  ///< null: vessels make no waves
+  /// Whole sentences about panels, runs and coupling (hydrodynamic_report.h), the same whether the
+  /// databases were computed or kept. Of several draughts the worst of each counts.
+  std::vector<std::string> doubts = {};
+};
+
 /// The database of a problem, or, where a body is lowered, one for each of its draughts after that
 /// of the others alone (dynamics::with_dry_body): from the cache if they lie there, else computed
 /// and put there. What another run is computing is waited for and taken from there (CacheLock). A
 /// cache that cannot be written is no error: databases are computed again next time. Their memories
 /// are found with them (find_memories, memory_fit_of_vessels).
-/// @param report called with a sentence about what is done; may be empty.
+/// @param report called with a sentence about what is done, and with each doubt after "warning: ";
+///   may be empty.
 /// @param progress told the fraction that is done and of which bodies, while databases are computed;
 ///   may be empty.
-/// @returns null for a problem without bodies, or one whose surface is marched directly.
+/// @returns nothing for a problem without bodies, or one whose surface is marched directly.
 /// @throws InputError if the panel method refuses the problem (a wave too short for the panels,
 ///   hulls in each other's way, a surface that cannot be meshed), dynamics::SimulationError as
 ///   compute_radiation, dynamics::ModelError as find_memories.
-std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation(
-    const RadiationProblem& problem, const std::function<void(const std::string&)>& report,
-    const std::function<void(double, const std::string&)>& progress = {});
+FoundRadiation find_radiation(const RadiationProblem& problem,
+                              const std::function<void(const std::string&)>& report,
+                              const std::function<void(double, const std::string&)>& progress = {});
 
 /// make_marched_water, what is wrong with the problem being wrong input.
 /// @throws InputError for a wrong problem, dynamics::SimulationError.

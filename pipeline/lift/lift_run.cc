@@ -140,15 +140,18 @@ BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Pr
   const auto tell = [&](const std::string& what) {
     progress("radiation of vessels", radiation_share, what);
   };
-  const auto radiation = find_radiation(problem, tell, [&](double share, const std::string& what) {
-    radiation_share = share;
-    tell(what);
-  });
+  const FoundRadiation radiation =
+      find_radiation(problem, tell, [&](double share, const std::string& what) {
+        radiation_share = share;
+        tell(what);
+      });
   FoundMotion found;
   const auto build = [&](std::optional<double> fault) {
     found.fault = fault;
-    return build_lift(lift_case, load, radiation.get(), flexibility, find_marched_water(problem),
-                      found);
+    BuiltLift model = build_lift(lift_case, load, radiation.series.get(), flexibility,
+                                 find_marched_water(problem), found);
+    model.doubts_of_water = radiation.doubts;
+    return model;
   };
   for (;;) {
     BuiltLift model = build(std::nullopt);

@@ -57,6 +57,7 @@ class Doubts {
     doubt_suspension(lift);
     doubt_turn(lift);
     say_faults(lift);
+    list_.insert(list_.end(), lift.model.doubts_of_water.begin(), lift.model.doubts_of_water.end());
   }
 
   std::vector<std::string> list() {

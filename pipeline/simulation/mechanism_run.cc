@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -53,25 +52,15 @@ std::vector<dynamics::Course> find_courses(const MechanismFile& file,
   return std::move(result.courses);
 }
 
-/// The radiation of the vessels; warnings of it are added to the doubts.
-std::shared_ptr<const dynamics::HydrodynamicSeries> find_radiation_with_doubts(
-    const RadiationProblem& problem, std::vector<std::string>& doubts) {
-  constexpr std::string_view warning = "warning: ";
-  return find_radiation(problem, [&](const std::string& what) {
-    if (what.starts_with(warning)) doubts.push_back(what.substr(warning.size()));
-  });
-}
-
 }  // namespace
 
 MechanismRun run_mechanism(const MechanismFile& file,
                            const std::function<void(double, double)>& progress) {
   const auto start = std::chrono::steady_clock::now();
   const RadiationProblem problem = radiation_problem(file);
-  std::vector<std::string> doubts;
-  const auto radiation = find_radiation_with_doubts(problem, doubts);
+  FoundRadiation radiation = find_radiation(problem, {});
   const auto build = [&](const FoundMotion& found) {
-    return build_mechanism(file, radiation.get(), find_marched_water(problem), found);
+    return build_mechanism(file, radiation.series.get(), find_marched_water(problem), found);
   };
   FoundMotion found;
   BuiltMechanism mechanism = build(found);
@@ -105,8 +94,9 @@ MechanismRun run_mechanism(const MechanismFile& file,
   dynamics::IntegrationResult result = dynamics::integrate(system, q, system.v_start(), settings);
   std::vector<OutputSeries> outputs = recorder.finish(result.history);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return {std::move(mechanism), std::move(result), std::move(outputs), std::move(natural_modes),
-          std::move(findings),  std::move(doubts), elapsed.count()};
+  return {std::move(mechanism),     std::move(result),   std::move(outputs),
+          std::move(natural_modes), std::move(findings), std::move(radiation.doubts),
+          elapsed.count()};
 }
 
 std::string csv_text(const Eigen::VectorXd& time, const std::vector<OutputSeries>& outputs) {

@@ -301,9 +301,10 @@ HydrodynamicDatabase HullComputation::run() {
   add_retardation_of(found);
   check_memory(found);
   if (settings_.with_coarser) {
-    database_.change_from_coarser = largest_change(database_, coarser_);
+    const PanelClusters& clusters = equations_.clusters();
+    database_.change_from_coarser = error_of_panels(largest_change(database_, coarser_), clusters);
     database_.excitation_change_from_coarser =
-        largest_excitation_change(database_, coarser_diffraction_);
+        error_of_panels(largest_excitation_change(database_, coarser_diffraction_), clusters);
   }
   return std::move(database_);
 }

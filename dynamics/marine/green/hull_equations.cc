@@ -58,10 +58,10 @@ double level_share(const Vector3& field, const Vector3& source, const Vector3& n
 
 double hull_equations_bytes(int unknowns, int parts) {
   const double n = unknowns;
-  // Four real matrices of each part and two complex ones, one more, and its factors in single
-  // precision.
+  // Four real matrices of each part, a quarter of two more at the middles of clusters, and two
+  // complex ones, one more, and its factors in single precision.
   constexpr double real = sizeof(double), complex = sizeof(Complex);
-  return n * n * (parts * (4.0 * real + 2.0 * complex) + 1.5 * complex);
+  return n * n * (parts * (4.5 * real + 2.0 * complex) + 1.5 * complex);
 }
 
 HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
@@ -69,7 +69,8 @@ HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
       settings_(settings),
       hull_count_(model.body_mesh().size()),
       parities_(model.parities()),
-      clusters_(cluster_panels(model.body_mesh())) {
+      clusters_(cluster_panels(model.body_mesh())),
+      flat_(find_flat_clusters(model.body_mesh(), clusters_)) {
   make_cells();
   const int count = hull_count_ + cells_.size();
   const double limit = settings.memory_limit > 0.0 ? settings.memory_limit : usable_memory();
@@ -98,6 +99,7 @@ HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
   reach_ = (high - low).norm();
   deepest_ = std::min(deepest_, model.water().depth);
   integrate_images();
+  integrate_at_middles();
 }
 
 void HullEquations::make_cells() {
@@ -119,18 +121,16 @@ void HullEquations::make_cells() {
   }
 }
 
-void HullEquations::integrate_images() {
-  const Symmetry& symmetry = model_.symmetry();
-  const int images = symmetry.image_count(), count = size();
-  const bool deep = is_deep(model_.water());
-  // The points reflected in planes of symmetry, and then in nothing, surface and bottom.
+// The points reflected in planes of symmetry, and then in nothing, surface and bottom.
+std::vector<std::array<PointColumns, 3>> HullEquations::reflect(
+    const std::vector<Vector3>& points) const {
   std::vector<std::array<PointColumns, 3>> places;
-  for (int g = 0; g < images; ++g) {
+  for (int g = 0; g < model_.symmetry().image_count(); ++g) {
     std::array<PointColumns, 3> place;
-    for (int k = 0; k < (deep ? 2 : 3); ++k) {
-      place[k] = PointColumns(points_.size());
-      for (std::size_t i = 0; i < points_.size(); ++i) {
-        const Vector3 p = symmetry.reflect(g, points_[i]);
+    for (std::size_t k = 0; k < mirror_count(); ++k) {
+      place[k] = PointColumns(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vector3 p = model_.symmetry().reflect(g, points[i]);
         place[k].x[i] = p.x();
         place[k].y[i] = p.y();
         place[k].z[i] = k == 0 ? p.z() : (k == 1 ? 0.0 : -2.0 * model_.water().depth) - p.z();
@@ -138,6 +138,12 @@ void HullEquations::integrate_images() {
     }
     places.push_back(std::move(place));
   }
+  return places;
+}
+
+void HullEquations::integrate_images() {
+  const int images = model_.symmetry().image_count(), count = size();
+  const std::vector<std::array<PointColumns, 3>> places = reflect(points_);
   for (std::size_t p = 0; p < parities_.size(); ++p) {
     images_.push_back({MatrixXd::Zero(count, count), MatrixXd::Zero(count, hull_count_)});
     surface_images_.push_back(images_.back());
@@ -145,7 +151,7 @@ void HullEquations::integrate_images() {
   parallel::for_each(count, settings_.threads, [&](int j) {
     Eigen::VectorXd source(count), dipole(count);
     for (int g = 0; g < images; ++g) {
-      for (std::size_t k = 0; k < (deep ? 2U : 3U); ++k) {
+      for (std::size_t k = 0; k < mirror_count(); ++k) {
         source.setZero();
         dipole.setZero();
         const bool on_hull = j < hull_count_;
@@ -161,6 +167,37 @@ void HullEquations::integrate_images() {
           if (!on_hull) continue;
           images_[p].dipole.col(j) += sign * dipole;
           if (k == 1) surface_images_[p].dipole.col(j) += sign * dipole;
+        }
+      }
+    }
+  });
+}
+
+void HullEquations::integrate_at_middles() {
+  const auto rows = static_cast<Eigen::Index>(flat_.middles.size());
+  const std::vector<std::array<PointColumns, 3>> places = reflect(flat_.middles);
+  const Eigen::VectorXd areas = model_.body_areas();
+  for (const Influence<double>& images : images_) {
+    const auto mean = [&](const MatrixXd& matrix) {
+      const MatrixXd of_hull = matrix.topLeftCorner(hull_count_, hull_count_);
+      return MatrixXd(-clusters_.average(areas, of_hull)(flat_.clusters, Eigen::all));
+    };
+    at_middles_.push_back({mean(images.source), mean(images.dipole)});
+  }
+  if (rows == 0) return;
+  parallel::for_each(hull_count_, settings_.threads, [&](int j) {
+    Eigen::VectorXd source(rows), dipole(rows);
+    for (int g = 0; g < model_.symmetry().image_count(); ++g) {
+      for (std::size_t k = 0; k < mirror_count(); ++k) {
+        source.setZero();
+        dipole.setZero();
+        add_panel_potentials(panel(j), places[g][k], PanelIntegral::both, 1.0, source.data(),
+                             dipole.data());
+        if (g == 0 && k == 0 && flat_.of_panel[j] >= 0) dipole[flat_.of_panel[j]] = 0.0;
+        for (std::size_t p = 0; p < parities_.size(); ++p) {
+          const double sign = model_.sign(parities_[p], g);
+          at_middles_[p].source.col(j) += sign * source;
+          at_middles_[p].dipole.col(j) += sign * dipole;
         }
       }
     }
@@ -313,7 +350,10 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency,
     MatrixXcd matrix = make_matrix(waves[p], frequency, count);
     MatrixXcd right = -(waves[p].source.topLeftCorner(count, hull_count_) * all);
     waves[p] = {};
-    if (extent.coarser) part.coarser_potentials = solve_coarser(matrix, right.leftCols(modes));
+    if (extent.coarser) {
+      part.coarser_potentials =
+          solve_coarser(p, matrix, right.leftCols(modes), part.normal_velocities);
+    }
     solve_in_place(matrix, right, "the matrix of the hulls' panels");
     part.potentials = right.topLeftCorner(hull_count_, modes);
     part.scattered = right.topRows(hull_count_).rightCols(scattered.cols());
@@ -321,8 +361,10 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency,
   return parts;
 }
 
-// Potentials are constant on the clusters, equations hold in the mean over each. Cells stay.
-MatrixXcd HullEquations::solve_coarser(const MatrixXcd& matrix, const MatrixXcd& right) const {
+// Potentials are constant on the clusters. Equations hold at the middles of those that are flat, but
+// for the waves' smooth share, and in the mean over others. Cells stay.
+MatrixXcd HullEquations::solve_coarser(std::size_t part, const MatrixXcd& matrix,
+                                       const MatrixXcd& right, const MatrixXd& velocities) const {
   const Eigen::VectorXd areas = model_.body_areas();
   const Eigen::VectorXd whole = clusters_.sum(areas);
   const int cells = static_cast<int>(matrix.rows()) - hull_count_;
@@ -336,6 +378,14 @@ MatrixXcd HullEquations::solve_coarser(const MatrixXcd& matrix, const MatrixXcd&
   for (int i = 0; i < matrix.rows(); ++i) coarser_right.row(place(i)) += share(i) * right.row(i);
   for (int j = 0; j < matrix.cols(); ++j) {
     for (int i = 0; i < matrix.rows(); ++i) coarser(place(i), place(j)) += share(i) * matrix(i, j);
+  }
+  const auto& [source, dipole] = at_middles_[part];
+  const MatrixXcd of_hull = clusters_.sum_columns(dipole).cast<Complex>();
+  const MatrixXcd of_modes = (source * velocities).cast<Complex>();
+  for (std::size_t k = 0; k < flat_.clusters.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    coarser.row(flat_.clusters[k]).head(clusters_.count) -= of_hull.row(row);
+    coarser_right.row(flat_.clusters[k]) -= of_modes.row(row);
   }
   solve_in_place(coarser, coarser_right, "the matrix of coarser panels of the hulls");
   return clusters_.spread(coarser_right.topRows(clusters_.count));

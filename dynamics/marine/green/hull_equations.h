@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <complex>
 #include <vector>
 
@@ -53,12 +54,15 @@ class HullEquations {
   /// Panels and cells that are computed with, after symmetry.
   int size() const { return static_cast<int>(points_.size()); }
   int cell_count() const { return cells_.size(); }
+  /// Of the hulls' panels, for the coarser flow.
+  const PanelClusters& clusters() const { return clusters_; }
 
   using Part = FlowOfPart;
   /// What is solved besides the modes' flow.
   struct Extent {
     std::vector<double> headings = {};  ///< of waves whose scattering is sought, rad
-    bool coarser = false;               ///< the modes' flow with panels of twice the size, too
+    /// The modes' flow with panels of twice the size, too; of no infinite frequency.
+    bool coarser = false;
   };
   /// @param frequency rad/s; infinite: the flow of an impulse, phi = 0 on the surface.
   /// @throws ModelError unless it is positive; SimulationError if a matrix is singular.
@@ -81,13 +85,19 @@ class HullEquations {
     Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> source, dipole;
   };
   void make_cells();
+  /// A panel's images by which 1/r is summed up: itself, in the surface, and at the bottom.
+  std::size_t mirror_count() const { return is_deep(model_.water()) ? 2 : 3; }
+  std::vector<std::array<PointColumns, 3>> reflect(const std::vector<Vector3>& points) const;
   void integrate_images();
+  void integrate_at_middles();
   std::vector<Influence<std::complex<double>>> integrate_waves(double frequency) const;
   Eigen::MatrixXcd make_matrix(const Influence<std::complex<double>>& waves, double frequency,
                                int count) const;
   /// The modes' potentials by clusters of the hulls' panels, on each panel.
-  Eigen::MatrixXcd solve_coarser(const Eigen::MatrixXcd& matrix,
-                                 const Eigen::MatrixXcd& right) const;
+  /// @param velocities of the modes, a column each. @param part index.
+  Eigen::MatrixXcd solve_coarser(std::size_t part, const Eigen::MatrixXcd& matrix,
+                                 const Eigen::MatrixXcd& right,
+                                 const Eigen::MatrixXd& velocities) const;
   struct WaveBlock;
   /// Adds what the waves of panels or cells from `column` on are at the centroids from `row` on,
   /// and the other way round.
@@ -110,6 +120,10 @@ class HullEquations {
   double reach_ = 0.0, deepest_ = 0.0;  ///< m
   std::vector<Parity> parities_;
   PanelClusters clusters_;  ///< of the hulls' panels
+  FlatClusters flat_;
+  /// For each part, what 1/r and its image at flat clusters' middles (rows) are more than in the mean
+  /// over the clusters, of panels and cells (columns).
+  std::vector<Influence<double>> at_middles_;
   /// Of 1/r + 1/r1 + 1/r2 by part, and of 1/r1 alone.
   std::vector<Influence<double>> images_, surface_images_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -118,6 +119,12 @@ Eigen::VectorXd PanelClusters::sum(const Eigen::VectorXd& values) const {
   return result;
 }
 
+Eigen::MatrixXd PanelClusters::sum_columns(const Eigen::MatrixXd& values) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(values.rows(), count);
+  for (Eigen::Index k = 0; k < values.cols(); ++k) result.col(of_panel[k]) += values.col(k);
+  return result;
+}
+
 Eigen::MatrixXcd PanelClusters::spread(const Eigen::MatrixXcd& values) const {
   return values(of_panel, Eigen::all);
 }
@@ -145,6 +152,44 @@ PanelClusters cluster_panels(const PanelMesh& mesh, double largest) {
   const std::vector<SharedEdge> edges = find_shared_edges(mesh);
   for (int pass = 0; pass < 2; ++pass) join_pairs(mesh, edges, largest, clusters);
   return clusters;
+}
+
+Eigen::VectorXd error_of_panels(const Eigen::VectorXd& changes, const PanelClusters& clusters) {
+  const auto panels = static_cast<double>(clusters.of_panel.size());
+  const double ratio = std::sqrt(panels / clusters.count);
+  if (!(ratio > 1.0))
+    return Eigen::VectorXd::Constant(changes.size(), std::numeric_limits<double>::infinity());
+  return changes / (ratio - 1.0);
+}
+
+FlatClusters find_flat_clusters(const PanelMesh& mesh, const PanelClusters& clusters) {
+  constexpr double flat = 1e-4, off_edges = 1e-4;
+  std::vector<std::vector<int>> members(static_cast<std::size_t>(clusters.count));
+  for (int k = 0; k < mesh.size(); ++k) members[clusters.of_panel[k]].push_back(k);
+  FlatClusters result;
+  result.of_panel.assign(mesh.panels.size(), -1);
+  for (int cluster = 0; cluster < clusters.count; ++cluster) {
+    const std::vector<int>& panels = members[cluster];
+    if (panels.size() < 2) continue;
+    const Panel& first = mesh.panels[panels.front()];
+    double area = 0.0;
+    Vector3 middle = Vector3::Zero();
+    bool in_plane = true;
+    for (const int k : panels) {
+      const Panel& panel = mesh.panels[k];
+      area += panel.area;
+      middle += panel.area * panel.centroid;
+      in_plane =
+          in_plane && (panel.normal - first.normal).norm() < flat &&
+          std::abs(first.normal.dot(panel.centroid - first.centroid)) < flat * first.diameter();
+    }
+    if (!in_plane) continue;
+    middle /= area;
+    for (const int k : panels) result.of_panel[k] = static_cast<int>(result.clusters.size());
+    result.clusters.push_back(cluster);
+    result.middles.push_back(middle + off_edges * (first.centroid - middle));
+  }
+  return result;
 }
 
 }  // namespace blocklift::dynamics

@@ -27,6 +27,8 @@ struct PanelClusters {
   Eigen::MatrixXd average(const Eigen::VectorXd& areas, const Eigen::MatrixXd& values) const;
   /// Sum over each cluster's panels.
   Eigen::VectorXd sum(const Eigen::VectorXd& values) const;
+  /// Sum over each cluster's panels, for each row of values: clusters are columns then.
+  Eigen::MatrixXd sum_columns(const Eigen::MatrixXd& values) const;
   /// What is constant on each cluster (rows), on each of its panels.
   Eigen::MatrixXcd spread(const Eigen::MatrixXcd& values) const;
   /// Panels of one mesh (rows) by panels of another (columns), rows averaged and columns summed:
@@ -41,5 +43,23 @@ struct PanelClusters {
 /// more. Those that meet at more than 45 degrees stay apart.
 PanelClusters cluster_panels(const PanelMesh& mesh,
                              double largest = std::numeric_limits<double>::infinity());
+
+/// The error of panels at first order in their size, from what their forces change by from clusters
+/// of them: 1/(r - 1) times as much, r^2 the panels in a cluster in the mean. The changes themselves
+/// where four are joined everywhere; more where hulls are few panels wide or high, which leave panels
+/// alone. Infinite where none are joined.
+Eigen::VectorXd error_of_panels(const Eigen::VectorXd& changes, const PanelClusters& clusters);
+
+/// Clusters of several panels that lie in a plane.
+struct FlatClusters {
+  std::vector<int> clusters;     ///< their numbers
+  std::vector<Vector3> middles;  ///< of each, but for a ten-thousandth off the panels' edges, m
+  std::vector<int> of_panel;     ///< which of them a panel belongs to; -1: none
+};
+
+/// A mesh of larger panels has its equations there. In the mean over a cluster they are felt as
+/// closely by what lies around a sharp edge as those of its panels are, so that heave of a box would
+/// change by next to nothing. Where a hull is curved the middle lies within it.
+FlatClusters find_flat_clusters(const PanelMesh& mesh, const PanelClusters& clusters);
 
 }  // namespace blocklift::dynamics

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "dynamics/algebra/single_precision.h"
 #include "dynamics/errors.h"
@@ -35,14 +36,15 @@ struct ImagePoints {
   PointColumns points;
   double source_sign;  ///< 0: not due
   double dipole_sign;
-  bool own = false;  ///< the points themselves: a panel's own dipole has the mean value zero there
+  /// Of the points themselves, for each panel: that which lies on it, where its own dipole has the
+  /// mean value zero; -1: none.
+  const std::vector<int>* own = nullptr;
   bool coplanar = false;
 };
 
 /// Collocation points reflected in the planes of symmetry, and then by z -> offset + factor z.
-PointColumns image_of(const PanelMesh& mesh, const Symmetry& symmetry, int image, double offset,
+PointColumns image_of(PointColumns points, const Symmetry& symmetry, int image, double offset,
                       double factor) {
-  PointColumns points(mesh);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3 p = symmetry.reflect(image, {points.x[i], points.y[i], points.z[i]});
     points.x[i] = p.x();
@@ -76,7 +78,8 @@ void add_influence(const PanelMesh& panels, const std::vector<ImagePoints>& imag
         add_panel_potentials(panel, image.points, PanelIntegral::dipole, image.dipole_sign, nullptr,
                              dipole_column);
       }
-      if (image.own && with_dipole) dipole_column[j] = 0.0;
+      if (image.own != nullptr && with_dipole && (*image.own)[j] >= 0)
+        dipole_column[(*image.own)[j]] = 0.0;
     }
   });
 }
@@ -135,50 +138,73 @@ struct RankinePart::Factors {
   VectorXd root_area;
 };
 
+namespace {
+
+std::vector<int> count_up(int size) {
+  std::vector<int> numbers(static_cast<std::size_t>(size));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+}  // namespace
+
+void RankinePart::add_at_bodies(const PanelModel& model, const PointColumns& points,
+                                const std::vector<int>& own, int threads,
+                                Influence& influence) const {
+  const PanelMesh &bodies = model.body_mesh(), &surface = model.surface_mesh();
+  const bool deep = is_deep(model.water());
+  const double h = model.water().depth;
+  std::vector<ImagePoints> of_bodies, of_surface;
+  for (int g = 0; g < image_count_; ++g) {
+    const double s = model.sign(parity_, g);
+    const auto image = [&](double offset, double factor) {
+      return image_of(points, model.symmetry(), g, offset, factor);
+    };
+    of_bodies.push_back({image(0, 1), s, s, g == 0 ? &own : nullptr});
+    of_bodies.push_back({image(0, -1), -s, -s});
+    // The dipoles of the surface are odd in z, its sources even: 1/r - 1/r' doubles or cancels
+    // them.
+    of_surface.push_back({image(0, 1), 0.0, 2.0 * s});
+    if (deep) continue;
+    of_bodies.push_back({image(-2 * h, -1), s, s});
+    of_bodies.push_back({image(-2 * h, 1), -s, -s});
+    of_surface.push_back({image(-2 * h, -1), s, s});
+    of_surface.push_back({image(-2 * h, 1), -s, -s});
+  }
+  const auto rows = static_cast<Eigen::Index>(points.size());
+  influence.S_BB = influence.D_BB = MatrixXd::Zero(rows, bodies.size());
+  influence.D_BF = MatrixXd::Zero(rows, surface.size());
+  if (!deep) influence.S_BF = MatrixXd::Zero(rows, surface.size());
+  add_influence(bodies, of_bodies, threads, influence.S_BB, influence.D_BB);
+  add_influence(surface, of_surface, threads, influence.S_BF, influence.D_BF);
+}
+
 RankinePart::Influence RankinePart::compute_influence(const PanelModel& model, int threads) const {
   const PanelMesh &bodies = model.body_mesh(), &surface = model.surface_mesh();
   const bool deep = is_deep(model.water());
   const double h = model.water().depth;
-  const Symmetry& symmetry = model.symmetry();
-  std::vector<ImagePoints> at_bodies_of_bodies, at_bodies_of_surface, at_surface_of_bodies,
-      at_surface_of_surface;
+  const PointColumns points(surface);
+  const std::vector<int> own = count_up(surface.size());
+  std::vector<ImagePoints> of_bodies, of_surface;
   for (int g = 0; g < image_count_; ++g) {
     const double s = model.sign(parity_, g);
-    const auto body_points = [&](double offset, double factor) {
-      return image_of(bodies, symmetry, g, offset, factor);
+    const auto image = [&](double offset, double factor) {
+      return image_of(points, model.symmetry(), g, offset, factor);
     };
-    const auto surface_points = [&](double offset, double factor) {
-      return image_of(surface, symmetry, g, offset, factor);
-    };
-    at_bodies_of_bodies.push_back({body_points(0, 1), s, s, g == 0});
-    at_bodies_of_bodies.push_back({body_points(0, -1), -s, -s});
-    // The dipoles of the surface are odd in z, its sources even: 1/r - 1/r' doubles or cancels
-    // them.
-    at_bodies_of_surface.push_back({body_points(0, 1), 0.0, 2.0 * s});
-    at_surface_of_bodies.push_back({surface_points(0, 1), s, s});
-    at_surface_of_surface.push_back({surface_points(0, 1), s, 0.0, g == 0, true});
+    of_bodies.push_back({image(0, 1), s, s});
+    of_surface.push_back({image(0, 1), s, 0.0, g == 0 ? &own : nullptr, true});
     if (deep) continue;
-    at_bodies_of_bodies.push_back({body_points(-2 * h, -1), s, s});
-    at_bodies_of_bodies.push_back({body_points(-2 * h, 1), -s, -s});
-    at_bodies_of_surface.push_back({body_points(-2 * h, -1), s, s});
-    at_bodies_of_surface.push_back({body_points(-2 * h, 1), -s, -s});
-    at_surface_of_bodies.push_back({surface_points(-2 * h, -1), s, s});
-    at_surface_of_surface.push_back({surface_points(-2 * h, -1), s, s});
+    of_bodies.push_back({image(-2 * h, -1), s, s});
+    of_surface.push_back({image(-2 * h, -1), s, s});
   }
   const Eigen::Index nb = bodies.size(), nf = surface.size();
   Influence influence;
-  influence.S_BB = influence.D_BB = MatrixXd::Zero(nb, nb);
-  influence.D_BF = MatrixXd::Zero(nb, nf);
+  add_at_bodies(model, PointColumns(bodies), count_up(bodies.size()), threads, influence);
   influence.S_FB = influence.D_FB = MatrixXd::Zero(nf, nb);
   influence.S_FF = MatrixXd::Zero(nf, nf);
-  if (!deep) {
-    influence.S_BF = MatrixXd::Zero(nb, nf);
-    influence.D_FF = MatrixXd::Zero(nf, nf);
-  }
-  add_influence(bodies, at_bodies_of_bodies, threads, influence.S_BB, influence.D_BB);
-  add_influence(surface, at_bodies_of_surface, threads, influence.S_BF, influence.D_BF);
-  add_influence(bodies, at_surface_of_bodies, threads, influence.S_FB, influence.D_FB);
-  add_influence(surface, at_surface_of_surface, threads, influence.S_FF, influence.D_FF);
+  if (!deep) influence.D_FF = MatrixXd::Zero(nf, nf);
+  add_influence(bodies, of_bodies, threads, influence.S_FB, influence.D_FB);
+  add_influence(surface, of_surface, threads, influence.S_FF, influence.D_FF);
   return influence;
 }
 
@@ -199,13 +225,13 @@ RankinePart::RankinePart(const PanelModel& model, const Parity& parity,
   surface_points_.resize(2, static_cast<Eigen::Index>(panels.size()));
   for (std::size_t k = 0; k < panels.size(); ++k)
     surface_points_.col(static_cast<Eigen::Index>(k)) = panels[k].centroid.head<2>();
-  if (settings.coarser) solve_coarser(influence, areas, *settings.coarser);
+  if (settings.coarser) solve_coarser(model, influence, areas, settings);
   reduce(std::move(influence), areas, settings.keep_factors);
 }
 
-void RankinePart::solve_coarser(const Influence& influence, const Areas& areas,
-                                const CoarserPanels& panels) {
-  const PanelClusters &b = panels.bodies, &f = panels.surface;
+void RankinePart::solve_coarser(const PanelModel& model, const Influence& influence,
+                                const Areas& areas, const RankineSettings& settings) {
+  const PanelClusters &b = settings.coarser->bodies, &f = settings.coarser->surface;
   const auto coarsen = [](const MatrixXd& matrix, const PanelClusters& rows,
                           const VectorXd& row_areas, const PanelClusters& columns) {
     return PanelClusters::coarsen(matrix, rows, row_areas, columns);
@@ -215,6 +241,7 @@ void RankinePart::solve_coarser(const Influence& influence, const Areas& areas,
       coarsen(influence.S_BF, b, areas.bodies, f),  coarsen(influence.D_BF, b, areas.bodies, f),
       coarsen(influence.S_FB, f, areas.surface, b), coarsen(influence.D_FB, f, areas.surface, b),
       coarsen(influence.S_FF, f, areas.surface, f), coarsen(influence.D_FF, f, areas.surface, f)};
+  take_rows_at_middles(model, *settings.coarser, settings.threads, coarse);
   const std::shared_ptr<RankinePart> part(new RankinePart);
   part->parity_ = parity_;
   part->image_count_ = image_count_;
@@ -223,6 +250,27 @@ void RankinePart::solve_coarser(const Influence& influence, const Areas& areas,
   part->surface_points_ = f.average(areas.surface, surface_points_.transpose()).transpose();
   part->reduce(std::move(coarse), {b.sum(areas.bodies), f.sum(areas.surface), areas.deep}, false);
   coarser_ = part;
+}
+
+void RankinePart::take_rows_at_middles(const PanelModel& model, const CoarserPanels& panels,
+                                       int threads, Influence& coarse) const {
+  const FlatClusters flat = find_flat_clusters(model.body_mesh(), panels.bodies);
+  if (flat.clusters.empty()) return;
+  PointColumns points(flat.middles.size());
+  for (std::size_t k = 0; k < flat.middles.size(); ++k) {
+    points.x[k] = flat.middles[k].x();
+    points.y[k] = flat.middles[k].y();
+    points.z[k] = flat.middles[k].z();
+  }
+  Influence here;
+  add_at_bodies(model, points, flat.of_panel, threads, here);
+  const auto take = [&](const MatrixXd& rows, const PanelClusters& columns, MatrixXd& matrix) {
+    if (rows.size() > 0) matrix(flat.clusters, Eigen::all) = columns.sum_columns(rows);
+  };
+  take(here.S_BB, panels.bodies, coarse.S_BB);
+  take(here.D_BB, panels.bodies, coarse.D_BB);
+  take(here.S_BF, panels.surface, coarse.S_BF);
+  take(here.D_BF, panels.surface, coarse.D_BF);
 }
 
 void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_factors) {

@@ -28,8 +28,9 @@ struct RankineSettings {
   double memory_limit = 0.0;
   /// Keep the factors with which any normal velocity on the bodies can be solved for.
   bool keep_factors = false;
-  /// Solve a second time with these panels; null: not. From the same matrices, at a small part of
-  /// the first solution's cost.
+  /// Solve a second time with these panels; null: not. From the same matrices, but for equations at
+  /// the middles of what lies in a plane (find_flat_clusters): at a small part of the first
+  /// solution's cost.
   std::shared_ptr<const CoarserPanels> coarser = nullptr;
 };
 
@@ -111,7 +112,15 @@ class RankinePart {
   };
   RankinePart() = default;
   Influence compute_influence(const PanelModel& model, int threads) const;
-  void solve_coarser(const Influence& influence, const Areas& areas, const CoarserPanels& panels);
+  /// Of bodies and surface at points on the bodies: the blocks BB and BF of `influence`.
+  /// @param own for each of the bodies' panels, which point lies on it; -1: none.
+  void add_at_bodies(const PanelModel& model, const PointColumns& points,
+                     const std::vector<int>& own, int threads, Influence& influence) const;
+  void solve_coarser(const PanelModel& model, const Influence& influence, const Areas& areas,
+                     const RankineSettings& settings);
+  /// Puts the bodies' equations at the middles of their flat clusters in place of those in the mean.
+  void take_rows_at_middles(const PanelModel& model, const CoarserPanels& panels, int threads,
+                            Influence& coarse) const;
   /// Factorises the matrices and reduces them to the surface.
   void reduce(Influence influence, const Areas& areas, bool keep_factors);
 

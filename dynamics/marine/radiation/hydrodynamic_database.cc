@@ -351,9 +351,10 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   database.time_step = step;
   for (MatrixXd& mass : database.added_mass) mass += database.infinite_added_mass;
   if (settings.with_coarser) {
-    database.change_from_coarser = largest_change(database, coarser);
+    const PanelClusters& clusters = rankine.coarser->bodies;
+    database.change_from_coarser = error_of_panels(largest_change(database, coarser), clusters);
     database.excitation_change_from_coarser =
-        largest_excitation_change(database, coarser_diffraction);
+        error_of_panels(largest_excitation_change(database, coarser_diffraction), clusters);
   }
   database.cut_off_by_end = largest_share(database, cut);
   return database;

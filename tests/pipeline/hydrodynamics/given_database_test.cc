@@ -16,7 +16,10 @@ using dynamics::HydrodynamicDatabase;
 using dynamics::Pose;
 using ::testing::AllOf;
 using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 constexpr double low_frequency = 0.05;
 
@@ -82,9 +85,14 @@ TEST(GivenDatabase, ItsPanelsAreDoubted) {
   database.excitation_change_from_coarser = database.change_from_coarser;
   database.excitation_change_from_coarser[9] = 0.43;
   std::vector<std::string> said;
-  find_radiation(problem_with(database), [&](const std::string& what) { said.push_back(what); });
+  const FoundRadiation found = find_radiation(
+      problem_with(database), [&](const std::string& what) { said.push_back(what); });
   EXPECT_THAT(said, Contains(AllOf(HasSubstr("warning: the panels are coarse"),
                                    HasSubstr("waves on left in roll changes by 43 %"))));
+  // As a sentence for the list of doubts of a lift or mechanism.
+  EXPECT_THAT(found.doubts, ElementsAre(AllOf(StartsWith("The panels are coarse"),
+                                              HasSubstr("waves on left in roll changes by 43 %"),
+                                              EndsWith("%."))));
 }
 
 // In waves of 25 km the pressure of the incident wave is that of still water one metre higher:

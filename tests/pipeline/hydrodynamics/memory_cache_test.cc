@@ -1,19 +1,26 @@
 // Fitted memories of the water, kept in the cache of databases.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <numbers>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "dynamics/marine/hull/hull_shapes.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 /// The cache is a folder of its own while this lives.
@@ -108,6 +115,39 @@ TEST(MemoryCache, ADamagedEntryIsFittedAgain) {
   fs::resize_file(cache.entries()[0], 700);
   EXPECT_THAT(find(dry_and_wet(3.0)).said, ElementsAre(HasSubstr("fitting")));
   EXPECT_THAT(find(dry_and_wet(3.0)).said, ElementsAre(HasSubstr("from ")));
+}
+
+/// Panels of 2 m down a side of half a metre and of one.
+RadiationProblem lowered_box() {
+  const auto vessel = std::make_shared<Vessel>();
+  vessel->hull = dynamics::make_barge({.length = 8, .breadth = 4, .depth = 2}, {4, 2, 1, 1}, "box");
+  RadiationProblem problem;
+  problem.bodies = {{"box", vessel, dynamics::Pose::translation({0, 0, -1}), {0, 0, 1}, {0.5, 1}}};
+  problem.frequencies = {1.2, 1.8};
+  for (int quarter = 0; quarter < 4; ++quarter)
+    problem.headings.push_back(0.5 * std::numbers::pi * quarter);
+  return problem;
+}
+
+// A lift that finds its database in the cache is to be believed no more than the first that
+// computed it; of several draughts the worst is said, once.
+TEST(RadiationCache, DoubtsAreThoseOfTheFirstRun) {
+  const OwnCache cache;
+  std::vector<std::string> said;
+  const auto listen = [&](const std::string& what) { said.push_back(what); };
+  const FoundRadiation computed = find_radiation(lowered_box(), listen);
+  EXPECT_THAT(said, Contains(HasSubstr("computing")));
+  said.clear();
+  const FoundRadiation kept = find_radiation(lowered_box(), listen);
+  EXPECT_THAT(said, Not(Contains(HasSubstr("computing"))));
+  EXPECT_EQ(kept.doubts, computed.doubts);
+  ASSERT_THAT(kept.doubts, Contains(HasSubstr("radiation force of box")));
+  ASSERT_EQ(kept.series->databases.size(), 3U);  // the first of them dry
+  double largest = 0.0;
+  for (const auto& database : kept.series->databases)
+    if (database.change_from_coarser.size() > 0)
+      largest = std::max(largest, database.change_from_coarser.maxCoeff());
+  EXPECT_THAT(kept.doubts.front(), HasSubstr(fmt::format("changes by {:.0f} %", 100 * largest)));
 }
 
 // What one method found is not taken for what another would; the marched surface's names stay.

@@ -420,6 +420,21 @@ class DoubtsOfALift : public ::testing::Test {
 
 TEST_F(DoubtsOfALift, AreNoneOfASoundLift) { EXPECT_EQ(doubts(), ""); }
 
+// What is not known of the vessels' panels stands in the report, not on the terminal alone.
+TEST_F(DoubtsOfALift, PanelsOfVesselsInTheReport) {
+  const std::string panels = "The panels are coarse: of barge in roll.";
+  std::vector<std::string>& of_water = assessment_.lift->model.doubts_of_water;
+  of_water = {panels};
+  const std::string said = doubts();
+  const TemporaryFolder folder;
+  write_results(assessment_, "results");
+  of_water.clear();  // other tests have the same assessment
+  EXPECT_EQ(said, panels + "\n");
+  const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
+  EXPECT_EQ(summary.at("warnings"), nlohmann::json::array({panels}));
+  EXPECT_THAT(test::text_of_file("results/report.html"), ::testing::HasSubstr(panels));
+}
+
 TEST_F(DoubtsOfALift, PlaceOfTheLoad) {
   lift_case_.load.position.x() += 200;
   EXPECT_THAT(doubts(), ::testing::HasSubstr("The load hangs at rest 200 m from where the case"));
