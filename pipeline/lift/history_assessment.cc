@@ -245,7 +245,11 @@ void fill_in(const Eigen::MatrixXd& unit, const Vector3* normal, const HistoryAs
       structure::normal_component(normal ? *normal : principal_direction(in_motion.col(worst)));
   result.static_normal = (along * at_rest).transpose();
   result.dynamic_normal = (along * in_motion).transpose();
-  result.cycles = structure::count_rainflow_of_repeated(result.dynamic_normal);
+  // Between two lifts the block is unloaded. Most operations begin and end with it on the hook, so
+  // that the largest range of all, from none to the lift's stress, is in no sample.
+  Eigen::VectorXd with_rest(result.dynamic_normal.size() + 1);
+  with_rest << result.dynamic_normal, 0;
+  result.cycles = structure::count_rainflow_of_repeated(with_rest);
   std::vector<structure::Cycles> raised = result.cycles;
   for (structure::Cycles& cycle : raised) cycle.range *= concentration;
   result.damage_per_lift = structure::damage(raised, curve);

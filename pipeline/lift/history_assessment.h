@@ -66,8 +66,9 @@ struct StressHistory {
   /// Normal stress across the plane of the largest principal stress (in magnitude) at the instant
   /// of the largest dynamic von Mises stress, Pa. It is what cycles are counted of.
   Eigen::VectorXd static_normal, dynamic_normal;
-  std::vector<structure::Cycles> cycles;  ///< of the dynamic history, repeated lift after lift
-  double damage_per_lift = 0;             ///< Miner's sum
+  /// Of the dynamic history, repeated lift after lift, the block being unloaded in between.
+  std::vector<structure::Cycles> cycles;
+  double damage_per_lift = 0;  ///< Miner's sum
 };
 
 /// The block over the whole lift: every sample of both histories, none chosen.

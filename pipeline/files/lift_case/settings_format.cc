@@ -19,7 +19,8 @@ Format<std::string> fatigue_curve_format() {
 Format<FatigueSettings> fatigue_format() {
   Table<FatigueSettings> table("fatigue settings",
                                "Wear by repeated lifts: rainflow counts of the stress at each "
-                               "followed point against an S-N curve.");
+                               "followed point, which begins and ends a lift without any, against "
+                               "an S-N curve.");
   table
       .by_default("curve", &FatigueSettings::curve, fatigue_curve_format(), "F",
                   "detail category of DNV-RP-C203, in air; F is class 71 MPa, for plates with "

@@ -159,6 +159,21 @@ TEST_F(SmallLiftHistory, FollowsTheHotSpotAndEachLugUnlessPointsAreChosen) {
   EXPECT_NEAR(chosen.points[0].damage_per_lift, 32 * once, 1e-9 * 32 * once);
 }
 
+// A lift takes each place from no stress to its own and back, also where the block hangs all the
+// time: the largest range is max(s, 0) - min(s, 0).
+TEST_F(SmallLiftHistory, ALiftIsACycleFromNoStress) {
+  for (const dynamics::History* motion :
+       {&small_lift().run.dynamic_history(), &small_lift().run.static_history})
+    for (const StressHistory& point : assess(*motion).points) {
+      double largest_range = 0;
+      for (const structure::Cycles& cycles : point.cycles)
+        largest_range = std::max(largest_range, cycles.range);
+      const double expected = std::max(point.dynamic_normal.maxCoeff(), 0.0) -
+                              std::min(point.dynamic_normal.minCoeff(), 0.0);
+      EXPECT_NEAR(largest_range, expected, 1e-12 * expected) << point.name;
+    }
+}
+
 TEST_F(SmallLiftHistory, ASampleOutOfBalanceIsRefused) {
   dynamics::History wrong = small_lift().run.dynamic_history();
   const Eigen::Index sample = wrong.sample_count() / 2;
