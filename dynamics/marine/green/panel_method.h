@@ -10,8 +10,9 @@ enum class PanelMethod {
   green_function    ///< panels on hulls alone, whose sources make waves (compute_hull_database)
 };
 
-/// Changes whenever compute_hull_database gives other figures for the same bodies.
-inline constexpr int hull_method_version = 1;
+/// Changes whenever compute_hull_database gives other figures for the same bodies, the
+/// estimate of the panels' error among them.
+inline constexpr int hull_method_version = 2;
 
 /// The database of a model's bodies by a method.
 /// @param groups of bodies far from each other, of which the Green function needs to know nothing.
