@@ -106,7 +106,7 @@ class HullComputation {
                            .cover_size = cover_size(model, highest_),
                            .threads = settings.rankine.threads,
                            .memory_limit = settings.rankine.memory_limit}),
-        database_(make_empty_database(model, settings)),
+        database_(begin_database(model, settings)),
         coarser_(settings.with_coarser ? settings.frequencies.size() : 0),
         coarser_diffraction_(coarser_.size(),
                              MatrixXcd::Zero(model.mode_count(), settings.headings.size())) {
@@ -174,8 +174,8 @@ void HullComputation::add_asked(std::size_t k, const std::vector<HullEquations::
   database_.added_mass[k] = force.imag() / w;
   if (settings_.with_coarser) coarser_[k] = equations_.calc_coarser_radiation(parts, w);
   for (const HullEquations::Part& part : parts) {
-    add_excitation(model_, part, k, database_,
-                   settings_.with_coarser ? &coarser_diffraction_[k] : nullptr);
+    add_diffraction(model_, part, k, database_,
+                    settings_.with_coarser ? &coarser_diffraction_[k] : nullptr);
     if (settings_.with_far_field) add_far_field(model_, part, k, database_);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/incident_wave.h"
+#include "dynamics/marine/radiation/wave_on_hulls.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -16,7 +17,24 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-FarField make_empty_far_field(const PanelModel& model, const DatabaseSettings& settings) {
+/// What waves far away are of the integral over the bodies (add_far_field).
+Complex far_field_scale(const Water& water, double w) {
+  // psi is w/(i g) times the potential of an incident wave of unit amplitude.
+  return w / Complex(0.0, water.gravity) / (2.0 * calc_group_velocity(w, water)) *
+         std::sqrt(calc_wave_number(w, water) / (2.0 * std::numbers::pi)) *
+         std::polar(1.0, 0.25 * std::numbers::pi);
+}
+
+/// The wave that meets the sought one comes from where that goes.
+std::vector<double> met_waves(const FarField& far) {
+  std::vector<double> headings;
+  for (const double direction : far.directions) headings.push_back(direction + std::numbers::pi);
+  return headings;
+}
+
+/// With what is known of radiated waves without the flow: int dphi/dn psi dS over the bodies.
+FarField begin_far_field(const PanelModel& model, const DatabaseSettings& settings,
+                         const WaveOnHulls& waves) {
   double reach = 0.0;
   for (const WettedBody& body : model.bodies()) {
     for (const Panel& panel : body.hull.panels) {
@@ -27,7 +45,10 @@ FarField make_empty_far_field(const PanelModel& model, const DatabaseSettings& s
       direction_count(reach, calc_wave_number(settings.frequencies.back(), model.water()));
   FarField far;
   for (int j = 0; j < count; ++j) far.directions.push_back(2.0 * std::numbers::pi * j / count);
-  far.radiated.assign(settings.frequencies.size(), MatrixXcd::Zero(count, model.mode_count()));
+  for (const double w : settings.frequencies) {
+    const Complex scale = Complex(0.0, w) * far_field_scale(model.water(), w);
+    far.radiated.push_back(scale * waves.integrate_potential(w, met_waves(far)).transpose());
+  }
   far.scattered.assign(settings.frequencies.size(),
                        MatrixXcd::Zero(count, settings.headings.size()));
   return far;
@@ -46,8 +67,7 @@ void check_frequencies(const DatabaseSettings& settings) {
   }
 }
 
-HydrodynamicDatabase make_empty_database(const PanelModel& model,
-                                         const DatabaseSettings& settings) {
+HydrodynamicDatabase begin_database(const PanelModel& model, const DatabaseSettings& settings) {
   HydrodynamicDatabase database;
   database.water = model.water();
   for (const WettedBody& body : model.bodies()) {
@@ -63,9 +83,13 @@ HydrodynamicDatabase make_empty_database(const PanelModel& model,
   database.headings = settings.headings;
   database.added_mass.assign(count, MatrixXd::Zero(modes, modes));
   database.damping = database.added_mass;
-  database.froude_krylov.assign(count, MatrixXcd::Zero(modes, headings));
-  database.diffraction = database.froude_krylov;
-  if (settings.with_far_field) database.far_field = make_empty_far_field(model, settings);
+  const WaveOnHulls waves(model);
+  for (const double w : settings.frequencies) {
+    database.froude_krylov.push_back(Complex(0.0, w * model.water().density) *
+                                     waves.integrate_potential(w, settings.headings));
+  }
+  database.diffraction.assign(count, MatrixXcd::Zero(modes, headings));
+  if (settings.with_far_field) database.far_field = begin_far_field(model, settings, waves);
   return database;
 }
 
@@ -153,25 +177,14 @@ MatrixXcd calc_opposed_velocities(const PanelModel& model, const Parity& parity,
   return velocities;
 }
 
-void add_excitation(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
-                    HydrodynamicDatabase& database, MatrixXcd* coarser) {
+void add_diffraction(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
+                     HydrodynamicDatabase& database, MatrixXcd* coarser) {
   const double w = database.frequencies[frequency];
-  const MatrixXd weighted_normals = model.body_areas().asDiagonal() * flow.normal_velocities;
   const MatrixXcd weighted_potentials = model.body_areas().asDiagonal() * flow.potentials;
   const MatrixXcd opposed = calc_opposed_velocities(model, flow.parity, w, database.headings);
   const Complex factor(0.0, w * model.water().density * model.symmetry().image_count());
-  for (Eigen::Index h = 0; h < opposed.cols(); ++h) {
-    const IncidentWave wave(model.water(), w, database.headings[static_cast<std::size_t>(h)]);
-    const Eigen::VectorXcd potential = model.part_of(
-        flow.parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
-    const Eigen::VectorXcd incident = factor * (weighted_normals.transpose() * potential);
-    const Eigen::VectorXcd diffracted = factor * (weighted_potentials.transpose() * opposed.col(h));
-    for (std::size_t m = 0; m < flow.modes.size(); ++m) {
-      const auto place = static_cast<Eigen::Index>(m);
-      database.froude_krylov[frequency](flow.modes[m], h) += incident[place];
-      database.diffraction[frequency](flow.modes[m], h) += diffracted[place];
-    }
-  }
+  database.diffraction[frequency](flow.modes, Eigen::all) +=
+      factor * (weighted_potentials.transpose() * opposed);
   if (coarser == nullptr) return;
   const MatrixXcd weighted = model.body_areas().asDiagonal() * flow.coarser_potentials;
   (*coarser)(flow.modes, Eigen::all) += factor * (weighted.transpose() * opposed);
@@ -182,32 +195,24 @@ void add_far_field(const PanelModel& model, const FlowOfPart& flow, std::size_t 
   const Water& water = model.water();
   const double w = database.frequencies[frequency];
   FarField& far = database.far_field;
-  // The wave that meets the sought one comes from where that goes.
-  const auto count = static_cast<Eigen::Index>(far.directions.size());
-  MatrixXcd psi(model.body_areas().size(), count);
-  std::vector<double> met;
-  for (Eigen::Index j = 0; j < count; ++j) {
-    met.push_back(far.directions[static_cast<std::size_t>(j)] + std::numbers::pi);
-    const IncidentWave wave(water, w, met.back());
-    psi.col(j) = model.part_of(flow.parity,
-                               [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
+  const std::vector<double> met = met_waves(far);
+  MatrixXcd psi(model.body_areas().size(), static_cast<Eigen::Index>(met.size()));
+  for (std::size_t j = 0; j < met.size(); ++j) {
+    const IncidentWave wave(water, w, met[j]);
+    psi.col(static_cast<Eigen::Index>(j)) = model.part_of(
+        flow.parity, [&](const Vector3& p, const Vector3&) { return wave.potential(p); });
   }
   const MatrixXcd psi_n = -calc_opposed_velocities(model, flow.parity, w, met);
-  // psi is w/(i g) times the potential of an incident wave of unit amplitude.
-  const Complex scale = w / Complex(0.0, water.gravity) / (2.0 * calc_group_velocity(w, water)) *
-                        std::sqrt(calc_wave_number(w, water) / (2.0 * std::numbers::pi)) *
-                        std::polar(1.0 * model.symmetry().image_count(), 0.25 * std::numbers::pi);
-  const auto send = [&](const MatrixXcd& velocities, const MatrixXcd& potentials) {
-    const MatrixXcd weighted_velocities = model.body_areas().asDiagonal() * velocities;
-    const MatrixXcd weighted_potentials = model.body_areas().asDiagonal() * potentials;
-    return MatrixXcd(
-        scale * (psi.transpose() * weighted_velocities - psi_n.transpose() * weighted_potentials));
+  const Complex scale = far_field_scale(water, w) * (1.0 * model.symmetry().image_count());
+  const auto weighted = [&](const MatrixXcd& values) {
+    return MatrixXcd(model.body_areas().asDiagonal() * values);
   };
-  far.radiated[frequency](Eigen::all, flow.modes) +=
-      Complex(0.0, w) * send(flow.normal_velocities.cast<Complex>(), flow.potentials);
+  far.radiated[frequency](Eigen::all, flow.modes) -=
+      Complex(0.0, w) * scale * (psi_n.transpose() * weighted(flow.potentials));
   if (database.headings.empty()) return;
+  const MatrixXcd opposed = calc_opposed_velocities(model, flow.parity, w, database.headings);
   far.scattered[frequency] +=
-      send(calc_opposed_velocities(model, flow.parity, w, database.headings), flow.scattered);
+      scale * (psi.transpose() * weighted(opposed) - psi_n.transpose() * weighted(flow.scattered));
 }
 
 }  // namespace blocklift::dynamics

@@ -9,9 +9,10 @@ namespace blocklift::dynamics {
 /// @throws ModelError unless there are frequencies, all of them positive and ascending.
 void check_frequencies(const DatabaseSettings& settings);
 
-/// Bodies, water, frequencies and headings; all forces nothing, and the far field where it is asked
-/// for.
-HydrodynamicDatabase make_empty_database(const PanelModel& model, const DatabaseSettings& settings);
+/// Bodies, water, frequencies and headings, and what needs no flow: Froude-Krylov forces
+/// (WaveOnHulls) and, where the far field is asked for, their share of it (add_far_field). All
+/// other forces are nothing.
+HydrodynamicDatabase begin_database(const PanelModel& model, const DatabaseSettings& settings);
 
 /// Largest share over the frequencies that amounts are of each mode's force on itself, B + i w A;
 /// all modes x frequencies. Zero for a mode with next to no force, such as the turns of a round
@@ -52,17 +53,20 @@ struct FlowOfPart {
   Eigen::MatrixXcd coarser_potentials = {};
 };
 
-/// Adds the part's share of Froude-Krylov forces and, by Haskind's relation, of diffraction.
+/// Adds the part's share of diffraction, by Haskind's relation.
 /// @param frequency index.
 /// @param coarser diffraction by the coarser potentials, added to; 6N x headings; null: not sought.
-void add_excitation(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
-                    HydrodynamicDatabase& database, Eigen::MatrixXcd* coarser = nullptr);
+void add_diffraction(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
+                     HydrodynamicDatabase& database, Eigen::MatrixXcd* coarser = nullptr);
 
 /// Adds what the part sends out far away: by Green's theorem with the wave psi = f(z) exp(i k
 /// (x cos theta + y sin theta)), f that of the incident waves, and stationary phase,
 ///
 ///   H = sqrt(k/2 pi) exp(i pi/4)/(2 c_g) int (dphi/dn psi - phi dpsi/dn) dS over the bodies.
 ///
+/// The first term of what the bodies radiate is there already (begin_database): it is the
+/// Froude-Krylov force of a wave that goes the other way, so that Haskind's relation holds between
+/// the far field and the excitation.
 /// @param frequency index.
 void add_far_field(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
                    HydrodynamicDatabase& database);

@@ -211,12 +211,12 @@ void PartComputation::add_waves(HydrodynamicDatabase& database,
         const auto k = static_cast<std::size_t>(index);
         FlowOfPart found = flow(k);
         if (coarser.empty() || !coarser_run_) {
-          add_excitation(model_, found, k, database);
+          add_diffraction(model_, found, k, database);
           return;
         }
         found.coarser_potentials =
             coarser_panels_->bodies.spread(mode_potentials(*part_.coarser(), *coarser_run_, k));
-        add_excitation(model_, found, k, database, &coarser[k]);
+        add_diffraction(model_, found, k, database, &coarser[k]);
       });
 }
 
@@ -287,7 +287,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   if (model.surface_mesh().size() == 0) {
     throw ModelError("no body reaches the surface: without a surface mesh there are no waves");
   }
-  HydrodynamicDatabase database = make_empty_database(model, settings);
+  HydrodynamicDatabase database = begin_database(model, settings);
   const double lowest = settings.frequencies.front(), highest = settings.frequencies.back();
   const double duration =
       settings.duration > 0.0 ? settings.duration : 3.0 * 2.0 * std::numbers::pi / lowest;
