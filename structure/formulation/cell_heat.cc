@@ -34,6 +34,16 @@ Eigen::Matrix<double, 1, 8> temperature_values(bool is_triangle, const Eigen::Ve
   return values;
 }
 
+/// The centre of a cell's area on its shell's unit square; a triangle narrows with 1 - y.
+Eigen::Vector2d middle_of(const ShellCell& cell, bool is_triangle) {
+  Eigen::Vector2d middle = cell.origin + cell.size * Eigen::Vector2d(0.5, 0.5);
+  if (!is_triangle) return middle;
+  const double from = cell.origin.y(), to = from + cell.size;
+  const double half = (to * to - from * from) / 2;
+  middle.y() = (half - (std::pow(to, 3) - std::pow(from, 3)) / 3) / (cell.size - half);
+  return middle;
+}
+
 /// Forces or moments along e_1 and e_2 of those along the axes of a shell's laminate.
 Eigen::Matrix3d turn_from_laminate(const Shell& shell, const Vector3& e_1, const Vector3& e_2) {
   const double angle = std::atan2(shell.laminate_axis.dot(e_2), shell.laminate_axis.dot(e_1));
@@ -73,9 +83,10 @@ CellHeat CellHeat::part(Eigen::Index first, Eigen::Index count) const {
 
 CellHeat::AtPoint CellHeat::at_shell(int cell, const Eigen::Vector2d& xi) const {
   const ShellCell& located = space_->shells()[cell];
-  const Eigen::Vector2d own = space_->degree() == 1 ? Eigen::Vector2d(0.5, 0.5) : xi;
+  const bool is_triangle = space_->mesh().shells[located.shell].is_triangle();
   const Eigen::Matrix<double, 1, 8> values = temperature_values(
-      space_->mesh().shells[located.shell].is_triangle(), located.origin + located.size * own);
+      is_triangle, space_->degree() == 1 ? middle_of(located, is_triangle)
+                                         : Eigen::Vector2d(located.origin + located.size * xi));
   const auto rows = rises_.of_shells.middleRows<TemperatureRises::rows_of_shell>(
       TemperatureRises::rows_of_shell * located.shell);
   return {values * rows.topRows<8>(), values * rows.bottomRows<8>()};
