@@ -12,6 +12,7 @@
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
+#include "structure/index.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/solid_shape.h"
 
@@ -58,6 +59,15 @@ double held_plate_stress(const Material& material, const MaterialExpansion& expa
   return material.youngs_modulus * expansion.coefficient / (1 - material.poisson_ratio);
 }
 
+/// int alpha . Q alpha (1, z, z^2) dz of a plate.
+Eigen::Vector3d plate_energies(const Mesh& mesh, const ShellSection& section,
+                               const Expansions& expansions, double t) {
+  if (section.laminate >= 0) return expansions.of_laminates[at(section.laminate)].energies;
+  const MaterialExpansion& expansion = expansions.of_materials[at(section.material)];
+  const double stress = held_plate_stress(mesh.materials[at(section.material)], expansion);
+  return 2 * expansion.coefficient * stress * Eigen::Vector3d(t, 0, t * t * t / 12);
+}
+
 }  // namespace
 
 CellHeat::CellHeat(const Space& space, const Expansions& expansions, TemperatureRises rises)
@@ -99,18 +109,18 @@ Eigen::MatrixXd CellHeat::shell_forces(int cell, const Eigen::Vector2d& xi, cons
   const Mesh& mesh = space_->mesh();
   const Shell& shell = mesh.shells[space_->shells()[cell].shell];
   const ShellSection& section = mesh.section_of(shell);
-  const AtPoint at = at_shell(cell, xi);
+  const AtPoint here = at_shell(cell, xi);
   if (section.laminate < 0) {
     const double stress =
         held_plate_stress(mesh.material_of(shell), expansions_->of_materials[section.material]);
-    forces.row(0) = forces.row(1) = stress * thickness * at.rise;
-    forces.row(3) = forces.row(4) = stress * std::pow(thickness, 3) / 12 * at.slope;
+    forces.row(0) = forces.row(1) = stress * thickness * here.rise;
+    forces.row(3) = forces.row(4) = stress * std::pow(thickness, 3) / 12 * here.slope;
     return forces;
   }
   const auto& held = expansions_->of_laminates[section.laminate].forces;
   const Eigen::Matrix3d turn = turn_from_laminate(shell, e_1, e_2);
-  forces.topRows<3>() = turn * (held[0] * at.rise + held[1] * at.slope);
-  forces.bottomRows<3>() = turn * (held[1] * at.rise + held[2] * at.slope);
+  forces.topRows<3>() = turn * (held[0] * here.rise + held[1] * here.slope);
+  forces.bottomRows<3>() = turn * (held[1] * here.rise + held[2] * here.slope);
   return forces;
 }
 
@@ -242,28 +252,27 @@ Eigen::RowVectorXd CellHeat::shell_energy() const {
   const Mesh& mesh = space_->mesh();
   Eigen::RowVectorXd energy = Eigen::RowVectorXd::Zero(cases_);
   if (rises_.of_shells.rows() == 0) return energy;
+  constexpr int batch = 256;
+  const int cells = static_cast<int>(space_->shells().size());
   const Eigen::Matrix3Xd rule = square_rule(space_->degree() + 1);
-  ShellOperator shells(*space_, rule.topRows<2>());
-  for (int cell = 0; cell < static_cast<int>(space_->shells().size()); ++cell) {
-    shells.reinit(cell);
-    const ShellSection& section = mesh.section_of(mesh.shells[space_->shells()[cell].shell]);
-    for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-      const ShellPoint& point = shells.points()[q];
-      const double t = point.thickness;
-      Eigen::Vector3d of(0, 0, 0);  // rise^2, 2 rise slope, slope^2
-      if (section.laminate >= 0) {
-        of = expansions_->of_laminates[section.laminate].energies;
-      } else {
-        const MaterialExpansion& expansion = expansions_->of_materials[section.material];
-        const double stress = held_plate_stress(mesh.materials[section.material], expansion);
-        of = 2 * expansion.coefficient * stress * Eigen::Vector3d(t, 0, t * t * t / 12);
+  std::vector<Eigen::RowVectorXd> of_batches(at((cells + batch - 1) / batch), energy);
+  parallel::in_batches(cells, batch, 0, [&](int first, int count) {
+    ShellOperator shells(*space_, rule.topRows<2>());
+    for (int cell = first; cell < first + count; ++cell) {
+      shells.reinit(cell);
+      const ShellSection& section = mesh.section_of(mesh.shells[space_->shells()[cell].shell]);
+      for (Eigen::Index q = 0; q < rule.cols(); ++q) {
+        const ShellPoint& point = shells.points()[q];
+        const Eigen::Vector3d of = plate_energies(mesh, section, *expansions_, point.thickness);
+        const auto [rise, slope] = at_shell(cell, rule.col(q).head<2>());
+        of_batches[at(first / batch)].array() +=
+            rule(2, q) * point.area / 2 *
+            (of[0] * rise.array().square() + 2 * of[1] * rise.array() * slope.array() +
+             of[2] * slope.array().square());
       }
-      const auto [rise, slope] = at_shell(cell, rule.col(q).head<2>());
-      energy.array() += rule(2, q) * point.area / 2 *
-                        (of[0] * rise.array().square() + 2 * of[1] * rise.array() * slope.array() +
-                         of[2] * slope.array().square());
     }
-  }
+  });
+  for (const Eigen::RowVectorXd& part : of_batches) energy += part;
   return energy;
 }
 
