@@ -211,7 +211,7 @@ SolidError compare_stresses(const SolidSet& solids, const Eigen::VectorXd& displ
         const double volume =
             kind.weights[q] *
             (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
-        const auto e = difference.col(q), s = own.col(q);
+        const Stress e = difference.col(q), s = own.col(q);
         error.squared_error[solid] += volume * e.dot(compliance * e);
         error.squared_norm[solid] += volume * s.dot(compliance * s);
       }
