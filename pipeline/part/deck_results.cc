@@ -13,6 +13,7 @@
 #include "pipeline/part/deck_assessment.h"
 #include "pipeline/results/result_file.h"
 #include "pipeline/version.h"
+#include "structure/load_cases/deck_heat.h"
 #include "structure/output/vtu.h"
 #include "structure/process_group.h"
 
@@ -168,8 +169,9 @@ void write_deck_results(const DeckAssessment& assessment, const fs::path& folder
   std::vector<std::string> absent = earlier_files(folder);
   for (const DeckCaseSolution& solution : assessment.solution.cases) {
     const std::string picture = picture_of(deck, solution);
+    const auto heat = structure::heat_of(*assessment.model, deck, {solution.load_case});
     structure::write_vtu((aside / picture).string(), *assessment.model, solution.stress.name,
-                         solution.motion);
+                         solution.motion, heat ? &*heat : nullptr);
     std::erase(absent, picture);
   }
   write_file(aside / "nodes.csv", nodes_table(assessment));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -105,18 +106,32 @@ Law law_of(const ElasticModel& model, int cell, double thickness) {
   return shell_stiffness_law(model.mesh().material_of(shell), thickness).topLeftCorner<6, 6>();
 }
 
-/// Resultants of a cell at an operator's points, in its field's axes.
+/// Resultants of a cell at an operator's points, in its field's axes. Layers are taken as the plate
+/// that comes nearest, but where they are hot: what they hold of one another is not in that.
+/// @param places of the operator's points, 2 x m.
 Resultants resultants_of(const ElasticModel& model, const Orientation& orientation,
-                         ShellOperator& shell_operator, int cell, const Motions& motions) {
+                         ShellOperator& shell_operator, const Eigen::Matrix2Xd& places, int cell,
+                         const Motions& motions, const CellHeat* heat) {
   shell_operator.reinit(cell);
   const Eigen::MatrixXd local = motions_of_cell(model.space(), cell, motions);
   Resultants resultants(6 * motions.cols(),
                         static_cast<Eigen::Index>(shell_operator.points().size()));
   for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
     const ShellPoint& point = shell_operator.points()[q];
-    const Law law = orientation.turn(point, model.space().shells()[cell].shell) *
-                    law_of(model, cell, point.thickness);
-    resultants.col(q).reshaped(6, motions.cols()) = law * (point.strain.topRows<6>() * local);
+    const int shell = model.space().shells()[cell].shell;
+    const Law turn = orientation.turn(point, shell);
+    auto here = resultants.col(q).reshaped(6, motions.cols());
+    if (heat == nullptr) {
+      const Law law = turn * law_of(model, cell, point.thickness);
+      here = law * (point.strain.topRows<6>() * local);
+      continue;
+    }
+    const Law law = shell_stiffness_law(model.mesh(), model.mesh().shells[shell], point.e_1,
+                                        point.e_2, point.thickness)
+                        .topLeftCorner<6, 6>();
+    here = turn * (law * (point.strain.topRows<6>() * local) -
+                   heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)), point.e_1,
+                                      point.e_2, point.thickness));
   }
   return resultants;
 }
@@ -150,7 +165,8 @@ struct SquaredNorms {
   Eigen::MatrixXd error, norm;
 };
 
-SquaredNorms norms_of_solids(const Space& space, const Motions& motions, int threads) {
+SquaredNorms norms_of_solids(const Space& space, const Motions& motions, int threads,
+                             const CellHeat* heat) {
   const SolidSet solids = solids_of(space);
   SquaredNorms norms(solids.count(), motions.cols());
   if (solids.count() == 0) return norms;
@@ -158,7 +174,12 @@ SquaredNorms norms_of_solids(const Space& space, const Motions& motions, int thr
   for (Eigen::Index m = 0; m < motions.cols(); ++m) {
     const Eigen::VectorXd displacement =
         motions.col(m).reshaped(6, space.node_count()).topRows<3>().reshaped();
-    const SolidError error = estimate_solid_error(solids, points, displacement, threads);
+    HeldSolidStress held;
+    if (heat != nullptr)
+      held = [&, m](int solid, const Eigen::MatrixXd& values) -> StressColumns {
+        return heat->solid_stresses(solid, values).col(m).reshaped(6, values.rows());
+      };
+    const SolidError error = estimate_solid_error(solids, points, displacement, threads, held);
     norms.error.col(m) = error.squared_error;
     norms.norm.col(m) = error.squared_norm;
   }
@@ -174,16 +195,17 @@ double relative_error(double error, double norm) {
 
 /// The recovered resultants at the points where nodes and fields meet.
 Resultants recover(const ElasticModel& model, const Orientation& orientation, const Points& points,
-                   const Motions& motions, int threads) {
+                   const Motions& motions, int threads, const CellHeat* heat) {
   const Space& space = model.space();
   const int cells = static_cast<int>(space.shells().size()), per_cell = space.nodes_per_shell();
   Resultants at_nodes(6 * motions.cols(), static_cast<Eigen::Index>(per_cell) * cells);
   const Eigen::MatrixXd carry = to_nodes(space.degree());
+  const Eigen::Matrix2Xd places = square_rule(space.degree()).topRows<2>();
   parallel::in_batches(cells, batch_of(cells), threads, [&](int first, int count) {
-    ShellOperator accurate(space, square_rule(space.degree()).topRows<2>());
+    ShellOperator accurate(space, places);
     for (int cell = first; cell < first + count; ++cell)
       at_nodes.middleCols(static_cast<Eigen::Index>(per_cell) * cell, per_cell) =
-          resultants_of(model, orientation, accurate, cell, motions) * carry;
+          resultants_of(model, orientation, accurate, places, cell, motions, heat) * carry;
   });
   Resultants recovered = Resultants::Zero(6 * motions.cols(), points.count());
   for (int cell = 0; cell < cells; ++cell)
@@ -205,11 +227,12 @@ void add_point(const Law& compliance, double area, const Eigen::Ref<const Eigen:
 }
 
 SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orientation,
-                            const Points& points, const Motions& motions, int threads) {
+                            const Points& points, const Motions& motions, int threads,
+                            const CellHeat* heat) {
   const Space& space = model.space();
   const int cells = static_cast<int>(space.shells().size()), p = space.degree();
   SquaredNorms norms(cells, motions.cols());
-  const Resultants recovered = recover(model, orientation, points, motions, threads);
+  const Resultants recovered = recover(model, orientation, points, motions, threads, heat);
   const Eigen::Matrix3Xd rule = square_rule(p + 1);
   Eigen::MatrixXd values(space.nodes_per_shell(), rule.cols());
   for (Eigen::Index q = 0; q < rule.cols(); ++q)
@@ -218,7 +241,8 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orient
     ShellOperator own(space, rule.topRows<2>());
     Resultants at_nodes(6 * motions.cols(), space.nodes_per_shell());
     for (int cell = first; cell < first + count; ++cell) {
-      const Resultants s_h = resultants_of(model, orientation, own, cell, motions);
+      const Resultants s_h =
+          resultants_of(model, orientation, own, rule.topRows<2>(), cell, motions, heat);
       for (int i = 0; i < space.nodes_per_shell(); ++i)
         at_nodes.col(i) = recovered.col(points.of(cell, i));
       const Resultants smooth = at_nodes * values;
@@ -238,7 +262,8 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orient
 }
 
 /// The same of any number of motions: the operators of the cells are made once for some of them.
-SquaredNorms norms_of_cells(const ElasticModel& model, const Motions& motions, int threads) {
+SquaredNorms norms_of_cells(const ElasticModel& model, const Motions& motions, int threads,
+                            const CellHeat* heat) {
   constexpr Eigen::Index together = 8;  // what is held of each at all nodes of all cells is large
   const Space& space = model.space();
   SquaredNorms norms(static_cast<Eigen::Index>(space.shells().size()), motions.cols());
@@ -247,8 +272,11 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Motions& motions, i
   const Points points(space, orientation.fields);
   for (Eigen::Index first = 0; first < motions.cols(); first += together) {
     const Eigen::Index count = std::min(together, motions.cols() - first);
+    std::optional<CellHeat> of_these;
+    if (heat != nullptr) of_these = heat->part(first, count);
     const SquaredNorms some =
-        norms_of_cells(model, orientation, points, motions.middleCols(first, count), threads);
+        norms_of_cells(model, orientation, points, motions.middleCols(first, count), threads,
+                       of_these ? &*of_these : nullptr);
     norms.error.middleCols(first, count) = some.error;
     norms.norm.middleCols(first, count) = some.norm;
   }
@@ -303,9 +331,9 @@ BlockError sum_up(const ElasticModel& model, const SquaredNorms& cells, const Sq
 }  // namespace
 
 std::vector<BlockError> estimate_block_errors(const ElasticModel& model, const Motions& motions,
-                                              int threads) {
-  const SquaredNorms cells = norms_of_cells(model, motions, threads);
-  const SquaredNorms solids = norms_of_solids(model.space(), motions, threads);
+                                              int threads, const CellHeat* heat) {
+  const SquaredNorms cells = norms_of_cells(model, motions, threads, heat);
+  const SquaredNorms solids = norms_of_solids(model.space(), motions, threads, heat);
   std::vector<BlockError> errors;
   for (Eigen::Index m = 0; m < motions.cols(); ++m)
     errors.push_back(sum_up(model, cells, solids, m));

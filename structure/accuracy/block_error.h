@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "structure/formulation/cell_heat.h"
 #include "structure/response/elastic_model.h"
 
 namespace blocklift::structure {
@@ -30,10 +31,10 @@ struct BlockError {
 };
 
 /// Of each motion, a column: what belongs to the cells alone is computed once for several.
-/// @param motions six a node.
+/// @param motions six a node. @param heat of as many cases as there are motions; null: none.
 std::vector<BlockError> estimate_block_errors(const ElasticModel& model,
                                               const Eigen::Ref<const Eigen::MatrixXd>& motions,
-                                              int threads = 0);
+                                              int threads = 0, const CellHeat* heat = nullptr);
 /// The same of one.
 BlockError estimate_block_error(const ElasticModel& model, const Eigen::VectorXd& motion,
                                 int threads = 0);

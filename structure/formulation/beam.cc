@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -39,26 +40,10 @@ std::vector<double> lagrange_slopes(int degree, double x) {
 
 /// Stiffness of a beam's cell as if both ends passed everything on.
 Eigen::MatrixXd whole_stiffness(const Space& space, int cell) {
-  const BeamCell& located = space.beams()[cell];
-  const Mesh& mesh = space.mesh();
-  const Beam& beam = mesh.beams[located.beam];
-  const auto law_at = [&](double xi) {
-    const BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
-    Eigen::Matrix<double, 6, 6> law = beam_stiffness_law(mesh.materials[section.material], section);
-    if (beam.is_rod) {
-      law.diagonal().segment<2>(1).setZero();
-      law.bottomRightCorner<2, 2>().setZero();
-    }
-    return law;
-  };
-  const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree));
-  const Eigen::Index size = 6 * (located.degree + 1);
+  const Eigen::Index size = 6 * (space.beams()[cell].degree + 1);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(size, size);
-  for (unsigned q = 0; q < rule.size(); ++q) {
-    const BeamPoint point = beam_point(space, cell, rule.point(q)[0]);
-    stiffness += rule.weight(q) * point.weight * point.strain.transpose() *
-                 law_at(rule.point(q)[0]) * point.strain;
-  }
+  for (const BeamGaussPoint& point : beam_gauss_points(space, cell))
+    stiffness += point.weight * point.strain.transpose() * point.law * point.strain;
   return stiffness;
 }
 
@@ -188,6 +173,28 @@ Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
   return law;
 }
 
+std::vector<BeamGaussPoint> beam_gauss_points(const Space& space, int cell) {
+  const BeamCell& located = space.beams()[cell];
+  const Mesh& mesh = space.mesh();
+  const Beam& beam = mesh.beams[located.beam];
+  const dealii::QGauss<1> rule(static_cast<unsigned>(located.degree));
+  std::vector<BeamGaussPoint> points;
+  for (unsigned q = 0; q < rule.size(); ++q) {
+    const double xi = rule.point(q)[0];
+    const BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
+    BeamPoint at_place = beam_point(space, cell, xi);
+    BeamGaussPoint& point = points.emplace_back();
+    point.xi = xi;
+    point.weight = rule.weight(q) * at_place.weight;
+    point.strain = std::move(at_place.strain);
+    point.law = beam_stiffness_law(mesh.materials[section.material], section);
+    if (!beam.is_rod) continue;
+    point.law.diagonal().segment<2>(1).setZero();
+    point.law.bottomRightCorner<2, 2>().setZero();
+  }
+  return points;
+}
+
 Eigen::MatrixXd beam_stiffness(const Space& space, int cell) {
   Eigen::MatrixXd whole = whole_stiffness(space, cell);
   const Eigen::MatrixXd directions = released_motions(space, cell);
@@ -203,6 +210,15 @@ Eigen::MatrixXd beam_motion(const Space& space, int cell) {
     return Eigen::MatrixXd::Identity(directions.rows(), directions.rows());
   const Beam& beam = space.mesh().beams[space.beams()[cell].beam];
   return motion_with_releases(whole_stiffness(space, cell), directions, space.mesh(), beam);
+}
+
+Eigen::MatrixXd beam_release_motion(const Space& space, int cell, const Eigen::MatrixXd& forces) {
+  const Eigen::MatrixXd directions = released_motions(space, cell);
+  if (directions.cols() == 0) return Eigen::MatrixXd::Zero(forces.rows(), forces.cols());
+  require_held(space.mesh(), space.mesh().beams[space.beams()[cell].beam]);
+  return directions * algebra::solve_positive_definite(
+                          directions.transpose() * whole_stiffness(space, cell) * directions,
+                          directions.transpose() * forces);
 }
 
 }  // namespace blocklift::structure

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "structure/space/space.h"
@@ -30,14 +32,30 @@ BeamPoint beam_point(const Space& space, int cell, double xi);
 Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
                                                const BeamSection& section);
 
-/// Stiffness of a beam's cell, freedoms in the order of Space::element_freedoms: as many Gauss
-/// points as the degree, which keeps thin beams from locking. Released ends are eliminated where
-/// they lie in the cell.
+/// A Gauss point of a beam's cell with its section's law.
+struct BeamGaussPoint {
+  double xi = 0;                                    ///< on the cell's unit length
+  double weight = 0;                                ///< length that it stands for, m
+  Eigen::Matrix<double, 6, Eigen::Dynamic> strain;  ///< as BeamPoint's
+  /// beam_stiffness_law there; a rod bears its normal force and torsion alone.
+  Eigen::Matrix<double, 6, 6> law;
+};
+
+/// As many as the degree, which keeps thin beams from locking.
+std::vector<BeamGaussPoint> beam_gauss_points(const Space& space, int cell);
+
+/// Stiffness of a beam's cell, freedoms in the order of Space::element_freedoms, by its Gauss
+/// points. Released ends are eliminated where they lie in the cell.
 /// @throws ModelError if the releases leave the beam loose.
 Eigen::MatrixXd beam_stiffness(const Space& space, int cell);
 
 /// The motion of a cell's own ends for that of its nodes: they differ where the beam's ends are
 /// released. Its strains are those of this motion. @throws ModelError as beam_stiffness does.
 Eigen::MatrixXd beam_motion(const Space& space, int cell);
+
+/// What released ends in a cell do of themselves under forces on the freedoms of its own ends (a
+/// column each): D (D' K D)^-1 D' f, D being the motions that are released; none moves elsewhere.
+/// @throws ModelError as beam_stiffness does.
+Eigen::MatrixXd beam_release_motion(const Space& space, int cell, const Eigen::MatrixXd& forces);
 
 }  // namespace blocklift::structure

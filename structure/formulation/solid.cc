@@ -106,7 +106,8 @@ Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid) {
 }
 
 Eigen::MatrixXd solid_stresses(const Space& space, int solid,
-                               const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+                               const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                               const CellHeat* heat) {
   const Mesh& mesh = space.mesh();
   const Solid& element = mesh.solids[solid];
   const Elasticity law = elasticity_of(mesh, element);
@@ -120,13 +121,16 @@ Eigen::MatrixXd solid_stresses(const Space& space, int solid,
   for (std::size_t q = 0; q < points.size(); ++q)
     stresses.middleRows<6>(6 * static_cast<Eigen::Index>(q)) =
         law * (strain_operator(points[q].gradients) * local);
+  if (heat != nullptr)
+    stresses -= heat->solid_stresses(solid, topology_of(element.shape).kind.values);
   return stresses;
 }
 
 Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
-                                      const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+                                      const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                      const CellHeat* heat) {
   const Eigen::MatrixXd& to_corners = topology_of(space.mesh().solids[solid].shape).to_corners;
-  const Eigen::MatrixXd at_points = solid_stresses(space, solid, motions);
+  const Eigen::MatrixXd at_points = solid_stresses(space, solid, motions, heat);
   Eigen::MatrixXd at_corners = Eigen::MatrixXd::Zero(6 * to_corners.rows(), motions.cols());
   for (Eigen::Index q = 0; q < to_corners.cols(); ++q)
     for (Eigen::Index c = 0; c < to_corners.rows(); ++c)

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "structure/formulation/cell_heat.h"
 #include "structure/mesh/part_mesh.h"
 #include "structure/space/space.h"
 
@@ -41,14 +42,17 @@ Eigen::MatrixXd solid_stiffness(const Mesh& mesh, const Solid& solid);
 
 /// Stresses at a solid's integration points for motions (freedoms x m): row 6 point + component
 /// (xx, yy, zz, xy, yz, zx along the block's axes), Pa.
+/// @param heat of as many cases as there are motions; null: none.
 Eigen::MatrixXd solid_stresses(const Space& space, int solid,
-                               const Eigen::Ref<const Eigen::MatrixXd>& motions);
+                               const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                               const CellHeat* heat = nullptr);
 
 /// Stresses at a solid's corners for motions (freedoms x m): row 6 corner + component (xx, yy, zz,
 /// xy, yz, zx along the block's axes), Pa. They are a least-squares fit, linear along the local
 /// coordinates, through the integration points, where the stresses of such elements are best
 /// (Barlow, 1976).
 Eigen::MatrixXd solid_corner_stresses(const Space& space, int solid,
-                                      const Eigen::Ref<const Eigen::MatrixXd>& motions);
+                                      const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                      const CellHeat* heat = nullptr);
 
 }  // namespace blocklift::structure

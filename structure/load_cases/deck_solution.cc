@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,7 @@
 
 #include "structure/accuracy/block_error.h"
 #include "structure/error.h"
+#include "structure/load_cases/deck_heat.h"
 #include "structure/load_cases/deck_loads.h"
 #include "structure/load_cases/deck_supports.h"
 #include "structure/load_cases/holding_equations.h"
@@ -135,9 +137,16 @@ double size_of(const Space& space) {
 
 /// Where moments alone load the deck its forces are rounding, and the other way round: each is held
 /// against the larger of both, with the deck's size as the arm.
-void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& solution) {
+/// @param of_heat its part that heat is, in balance by itself: where nothing holds what is hot the
+/// reactions are rounding.
+void sum_up(const Space& space, const Eigen::VectorXd& load,
+            const Eigen::Ref<const Eigen::VectorXd>& of_heat, DeckCaseSolution& solution) {
   solution.applied = resultant(space, load);
   double forces = 0, moments = 0;
+  for (Eigen::Index row = 0; row < of_heat.size(); row += 6) {
+    forces += of_heat.segment<3>(row).norm();
+    moments += of_heat.segment<3>(row + 3).norm();
+  }
   const auto add = [&](const SupportReaction& reaction) {
     const Vector3& place = space.mesh().vertices[reaction.vertex];
     const Vector3 moment = place.cross(reaction.force) + reaction.moment;
@@ -278,6 +287,14 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   Eigen::MatrixXd loads(model.freedoms(), static_cast<Eigen::Index>(cases.size()));
   for (std::size_t c = 0; c < cases.size(); ++c)
     loads.col(static_cast<Eigen::Index>(c)) = load_of(model, deck, deck.load_cases[cases[c]]);
+  const std::optional<CellHeat> heat = heat_of(model, deck, cases);
+  const Eigen::MatrixXd of_heat =
+      heat ? heat->loads() : Eigen::MatrixXd(0, static_cast<Eigen::Index>(cases.size()));
+  Eigen::RowVectorXd held_energy = Eigen::RowVectorXd::Zero(loads.cols());
+  if (heat) {
+    loads += of_heat;
+    held_energy = heat->held_energy();
+  }
   std::vector<std::vector<SupportReaction>> of_loose_parts;
   for (std::size_t c = 0; c < cases.size(); ++c)
     of_loose_parts.push_back(reactions_of_loose_parts(
@@ -299,14 +316,17 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
     for (const SupportReaction& reaction : reactions_of_equations(
              deck, forces.col(column).tail(static_cast<Eigen::Index>(of_equations.size()))))
       add(solution.reactions, reaction);
-    solution.strain_energy = system.energy(unknowns.col(column));
+    const double energy = system.energy(unknowns.col(column));
+    solution.strain_energy = energy;
+    if (heat)
+      solution.strain_energy += held_energy[column] - of_heat.col(column).dot(solution.motion);
     const Eigen::VectorXd by_loads = unknowns.col(column) - unloaded;
-    check_energy(is_moved ? system.energy(by_loads) : solution.strain_energy, diagonal,
-                 acting.col(column), by_loads, [&] {
+    check_energy(is_moved ? system.energy(by_loads) : energy, diagonal, acting.col(column),
+                 by_loads, [&] {
                    refuse_loose(space, deck.load_cases[cases[c]],
                                 most_moved_freedom(space, solution.motion));
                  });
-    sum_up(space, loads.col(column), solution);
+    sum_up(space, loads.col(column), of_heat.col(column), solution);
     require_balance(space, loads.col(column), solution, deck.load_cases[cases[c]]);
   }
   result.times.solve += watch.lap();
@@ -327,12 +347,19 @@ CasesOfSupports sort_cases(const Deck& deck, DeckSolution& result) {
         [](const Spring& spring) { return spring.vertices[0] < 0 || spring.vertices[1] < 0; });
     if (supports.empty() && !is_grounded && deck.holding_equations.empty())
       result.skipped.push_back({static_cast<int>(c), false});
-    else if (load_case.loads.empty() && !is_moved)
+    else if (load_case.loads.empty() && load_case.temperatures < 0 && !is_moved)
       result.skipped.push_back({static_cast<int>(c), true});
     else
       sorted[sets].push_back(static_cast<int>(c));
   }
   return sorted;
+}
+
+/// Where nothing holds what is hot its stress is rounding, of which no error can be told.
+/// @param held_energy what it would store if nothing moved, J.
+bool is_free(const DeckCaseSolution& solution, double held_energy) {
+  constexpr double rounding = 1e-7;
+  return held_energy > 0 && solution.strain_energy < rounding * held_energy;
 }
 
 void find_idle_supports(const ElasticModel& model, const Deck& deck, DeckSolution& result) {
@@ -366,13 +393,21 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
   const auto count = static_cast<Eigen::Index>(result.cases.size());
   Eigen::MatrixXd motions(model.freedoms(), count);
   for (Eigen::Index c = 0; c < count; ++c) motions.col(c) = result.cases[c].motion;
-  const std::vector<BlockError> errors = estimate_block_errors(model, motions, threads);
+  std::vector<int> load_cases;
+  for (const DeckCaseSolution& one : result.cases) load_cases.push_back(one.load_case);
+  const std::optional<CellHeat> heat = heat_of(model, deck, load_cases);
+  const CellHeat* const hot = heat ? &*heat : nullptr;
+  const Eigen::RowVectorXd held_energy = heat ? heat->held_energy() : Eigen::RowVectorXd();
+  const std::vector<BlockError> errors = estimate_block_errors(model, motions, threads, hot);
   std::vector<LoadCaseResult> stresses =
-      MotionStress(model, motions, {}).evaluate(Eigen::MatrixXd::Identity(count, count), motions);
+      MotionStress(model, motions, {}, hot)
+          .evaluate(Eigen::MatrixXd::Identity(count, count), motions);
   for (std::size_t c = 0; c < stresses.size(); ++c) {
     stresses[c].name = name_of(deck.load_cases[result.cases[c].load_case]);
     result.cases[c].stress = std::move(stresses[c]);
     result.cases[c].estimated_error = errors[c].relative;
+    if (hot != nullptr && is_free(result.cases[c], held_energy[static_cast<Eigen::Index>(c)]))
+      result.cases[c].estimated_error = 0;
   }
   result.times.recovery = watch.lap();
   return result;

@@ -46,6 +46,31 @@ Elasticity turned(const Elasticity& own, const Eigen::Matrix3d& axes) {
   return turn * own * turn.transpose();
 }
 
+ExpansionStrains turned(const ExpansionStrains& own, const Eigen::Matrix3d& axes) {
+  Eigen::Matrix3d strain;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto [i, j] = places[k];
+    strain(i, j) = strain(j, i) = own[static_cast<Eigen::Index>(k)] / (i == j ? 1 : 2);
+  }
+  const Eigen::Matrix3d seen = axes * strain * axes.transpose();
+  ExpansionStrains result;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto [i, j] = places[k];
+    result[static_cast<Eigen::Index>(k)] = seen(i, j) * (i == j ? 1 : 2);
+  }
+  return result;
+}
+
+MaterialExpansion even_expansion(const ExpansionStrains& strains, double reference,
+                                 const std::string& obstacle, const std::string& name) {
+  ExpansionStrains even = ExpansionStrains::Zero();
+  even.head<3>().setConstant(strains[0]);
+  MaterialExpansion expansion{strains[0], reference, obstacle};
+  if (obstacle.empty() && !(strains - even).isZero(1e-9 * strains.cwiseAbs().maxCoeff()))
+    expansion.obstacle = name + " bears alike in all directions and expands by the direction";
+  return expansion;
+}
+
 Material nearest_isotropic(const Elasticity& elasticity) {
   const double direct = elasticity.topLeftCorner<3, 3>().trace();
   const double across = elasticity(0, 1) + elasticity(1, 2) + elasticity(2, 0);

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string>
+
 #include <Eigen/Core>
 
 #include "structure/material.h"
+#include "structure/mesh/heat.h"
 #include "structure/mesh/mesh.h"
 
 namespace blocklift::structure {
@@ -24,6 +27,14 @@ bool is_positive(const Elasticity& elasticity);
 /// The elasticity seen from the block's axes.
 /// @param axes columns: the material's own axes in the block's.
 Elasticity turned(const Elasticity& own, const Eigen::Matrix3d& axes);
+
+/// The same of an expansion.
+ExpansionStrains turned(const ExpansionStrains& own, const Eigen::Matrix3d& axes);
+
+/// Expansion of a material that bears alike in all directions; one that does not expand alike has
+/// an obstacle, where it has none yet.
+MaterialExpansion even_expansion(const ExpansionStrains& strains, double reference,
+                                 const std::string& obstacle, const std::string& name);
 
 /// Young's modulus and Poisson's ratio of the isotropic material with the invariants of an
 /// elasticity, E in Pa: of compression by all its axes, 9 K = C_iijj, and of shear,

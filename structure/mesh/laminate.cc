@@ -17,6 +17,14 @@ double difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return size > 0 ? largest(a - b) / size : largest(b) > 0 ? 1.0 : 0.0;
 }
 
+/// A layer's strains of those of the plate.
+Eigen::Matrix3d strain_of_layer(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  Eigen::Matrix3d strain;
+  strain << c * c, s * s, c * s, s * s, c * c, -c * s, -2 * c * s, 2 * c * s, c * c - s * s;
+  return strain;
+}
+
 /// One layer as cylindrical bending about an axis sees it.
 struct Layer {
   double bottom = 0, top = 0, stiffness = 0, shear = 0;
@@ -72,9 +80,7 @@ PlyMaterial orthotropic_ply(double modulus_1, double modulus_2, double poisson_1
 }
 
 Eigen::Matrix3d turned(const Eigen::Matrix3d& in_plane, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  Eigen::Matrix3d strain;  // the layer's strains of those of the plate
-  strain << c * c, s * s, c * s, s * s, c * c, -c * s, -2 * c * s, 2 * c * s, c * c - s * s;
+  const Eigen::Matrix3d strain = strain_of_layer(angle);
   return strain.transpose() * in_plane * strain;
 }
 
@@ -100,6 +106,50 @@ Laminate stack(const std::vector<Ply>& plies) {
   laminate.shear(0, 0) = shear_stiffness(layers[0]);
   laminate.shear(1, 1) = shear_stiffness(layers[1]);
   return laminate;
+}
+
+LaminateExpansion expansion_of(const std::vector<Ply>& plies) {
+  double bottom = 0;
+  for (const Ply& ply : plies) bottom -= ply.thickness / 2;
+  LaminateExpansion expansion;
+  for (const Ply& ply : plies) {
+    const double top = bottom + ply.thickness;
+    const Eigen::Vector3d stress = ply.material.in_plane * ply.material.expansion;
+    const Eigen::Vector3d along_plate = strain_of_layer(ply.angle).transpose() * stress;
+    const double energy = ply.material.expansion.dot(stress);
+    const std::array<double, 3> moments{top - bottom, (top * top - bottom * bottom) / 2,
+                                        (std::pow(top, 3) - std::pow(bottom, 3)) / 3};
+    for (std::size_t i = 0; i < moments.size(); ++i) {
+      expansion.forces[i] += moments[i] * along_plate;
+      expansion.energies[static_cast<Eigen::Index>(i)] += moments[i] * energy;
+    }
+    bottom = top;
+  }
+  return expansion;
+}
+
+LaminateExpansion expansion_of(const Material& material, const MaterialExpansion& expansion,
+                               double thickness) {
+  PlyMaterial ply = isotropic_ply(material);
+  ply.expansion << expansion.coefficient, expansion.coefficient, 0;
+  LaminateExpansion of_plate = expansion_of({{ply, thickness, 0}});
+  of_plate.reference = expansion.reference;
+  of_plate.obstacle = expansion.obstacle;
+  return of_plate;
+}
+
+std::optional<double> even_coefficient(const LaminateExpansion& expansion,
+                                       const NearestPlate& nearest, double thickness) {
+  constexpr double tolerance = 1e-6;
+  const double force = (expansion.forces[0][0] + expansion.forces[0][1]) / 2;
+  const Eigen::Vector3d even(force, force, 0);
+  const double least = tolerance * largest(expansion.forces[0]);
+  const bool is_even = largest(expansion.forces[0] - even) <= least &&
+                       largest(expansion.forces[1]) <= least * thickness &&
+                       largest(expansion.forces[2] - thickness * thickness / 12 * even) <=
+                           least * thickness * thickness / 12;
+  if (!is_even) return std::nullopt;
+  return force * (1 - nearest.poisson_ratio) / (nearest.youngs_modulus * thickness);
 }
 
 Laminate homogeneous(const Material& material, double thickness) {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "structure/material.h"
+#include "structure/mesh/heat.h"
 #include "structure/mesh/mesh.h"
 
 namespace blocklift::structure {
@@ -13,8 +15,9 @@ namespace blocklift::structure {
 struct PlyMaterial {
   /// sigma = in_plane (epsilon_11, epsilon_22, gamma_12), Pa
   Eigen::Matrix3d in_plane = Eigen::Matrix3d::Zero();
-  Eigen::Vector2d shear = Eigen::Vector2d::Zero();  ///< G_13, G_23, Pa
-  double density = 0;                               ///< kg/m^3
+  Eigen::Vector2d shear = Eigen::Vector2d::Zero();      ///< G_13, G_23, Pa
+  double density = 0;                                   ///< kg/m^3
+  Eigen::Vector3d expansion = Eigen::Vector3d::Zero();  ///< 11, 22 and 12 (twice), 1/K
 };
 
 PlyMaterial isotropic_ply(const Material& material);
@@ -41,6 +44,14 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& in_plane, double angle);
 /// which gives 5/6 G t for one layer, and the core's G (d^2 / c) for a sandwich with thin faces.
 Laminate stack(const std::vector<Ply>& plies);
 
+/// How bonded layers expand, about the middle of their height. References and obstacles are not of
+/// layers and stay as they are.
+LaminateExpansion expansion_of(const std::vector<Ply>& plies);
+
+/// The same of a plate of one isotropic material.
+LaminateExpansion expansion_of(const Material& material, const MaterialExpansion& expansion,
+                               double thickness);
+
 /// Isotropic plate that comes nearest to a laminate of a thickness: its membrane stiffness has the
 /// laminate's invariants (Tsai and Pagano 1968), so that it is exact for layers of one material and
 /// for balanced lay-ups. Poisson's ratio is no more than 0.49.
@@ -58,6 +69,11 @@ struct NearestPlate {
 };
 
 NearestPlate nearest_plate(const Laminate& laminate, double thickness);
+
+/// The coefficient with which the nearest plate of a thickness expands as a laminate does; none if
+/// no coefficient does.
+std::optional<double> even_coefficient(const LaminateExpansion& expansion,
+                                       const NearestPlate& nearest, double thickness);
 
 /// Stiffness of a plate of one isotropic material, as a laminate.
 Laminate homogeneous(const Material& material, double thickness);

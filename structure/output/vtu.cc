@@ -30,7 +30,8 @@ struct Content {
 
 class Collector {
  public:
-  Collector(const Space& space, const Eigen::VectorXd& motion) : space_(space), motion_(motion) {}
+  Collector(const Space& space, const Eigen::VectorXd& motion, const CellHeat* heat)
+      : space_(space), motion_(motion), heat_(heat) {}
 
   Content collect() {
     add_shells();
@@ -49,7 +50,7 @@ class Collector {
     for (Eigen::Index q = 0; q < unit.cols(); ++q)
       shapes.row(q) = space_.shell_values(unit.col(q)).transpose();
     const auto cells = static_cast<int>(space_.shells().size());
-    const Eigen::MatrixXd stress = stresses_of_cells(space_, unit, 0, cells, motion_);
+    const Eigen::MatrixXd stress = stresses_of_cells(space_, unit, 0, cells, motion_, heat_);
     for (int cell = 0; cell < cells; ++cell) {
       const auto first = content_.grid.point_count();
       const Eigen::MatrixXd local = motions_of_cell(space_, cell, motion_);
@@ -78,12 +79,12 @@ class Collector {
     const Beam& beam = space_.mesh().beams[located.beam];
     for (int i = 0; i <= located.degree; ++i) {
       const double xi = static_cast<double>(i) / located.degree;
-      const Eigen::VectorXd stress = beam_stresses(space_, cell, xi, motion_);
+      const Eigen::VectorXd stress = beam_stresses(space_, cell, xi, motion_, heat_);
       const double largest = stress.cwiseAbs().maxCoeff();
-      add_point(
-          beam_point(space_, cell, xi).place,
-          beam_motion_at(space_, cell, xi, motion_).displacement,
-          {std::abs(beam_stress_at_centroid(space_, cell, xi, motion_)[0]), largest, largest});
+      add_point(beam_point(space_, cell, xi).place,
+                beam_motion_at(space_, cell, xi, motion_, heat_).displacement,
+                {std::abs(beam_stress_at_centroid(space_, cell, xi, motion_, heat_)[0]), largest,
+                 largest});
       if (i == 0) continue;
       const auto last = content_.grid.point_count() - 1;
       content_.grid.add_cell(VtkCell::line, last - 1, 2);
@@ -93,7 +94,7 @@ class Collector {
 
   void add_solid(int number) {
     const Solid& solid = space_.mesh().solids[number];
-    const Eigen::VectorXd stress = solid_corner_stresses(space_, number, motion_);
+    const Eigen::VectorXd stress = solid_corner_stresses(space_, number, motion_, heat_);
     const auto first = content_.grid.point_count();
     const int corners = topology_of(solid.shape).corners;
     for (int corner = 0; corner < corners; ++corner) {
@@ -143,6 +144,7 @@ class Collector {
 
   const Space& space_;
   const Eigen::VectorXd& motion_;
+  const CellHeat* heat_;
   Content content_;
 };
 
@@ -157,9 +159,9 @@ std::vector<std::string> names_of(const List& list) {
 
 // deal.II's DataOut has neither names as field data nor lines and squares in one piece.
 void write_vtu(const std::string& path, const ElasticModel& model, const std::string& name,
-               const Eigen::VectorXd& motion) {
+               const Eigen::VectorXd& motion, const CellHeat* heat) {
   const Mesh& mesh = model.mesh();
-  Content content = Collector(model.space(), motion).collect();
+  Content content = Collector(model.space(), motion, heat).collect();
   VtkGrid& grid = content.grid;
   grid.texts = {{"load_case", {name}},
                 {"group_names", names_of(mesh.groups)},

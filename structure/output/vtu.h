@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "structure/formulation/cell_heat.h"
 #include "structure/response/unit_responses.h"
 
 namespace blocklift::structure {
@@ -20,7 +21,8 @@ namespace blocklift::structure {
 void write_vtu(const std::string& path, const UnitResponses& responses, const LoadCase& load_case);
 
 /// The same for a motion of a model (six rows a node), whose `displacement` is as it is given.
+/// @param heat of one case; null: none.
 void write_vtu(const std::string& path, const ElasticModel& model, const std::string& name,
-               const Eigen::VectorXd& motion);
+               const Eigen::VectorXd& motion, const CellHeat* heat = nullptr);
 
 }  // namespace blocklift::structure

@@ -35,18 +35,30 @@ BeamSection section_of(const Space& space, int cell, double xi) {
   return section_at(space.mesh(), beam_of(space, cell), located.origin + located.size * xi);
 }
 
-/// Strains by the cell's own polynomials.
+/// Motion of a cell's own ends.
+Eigen::MatrixXd own_motion_of(const Space& space, int cell,
+                              const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                              const CellHeat* heat) {
+  Eigen::MatrixXd own = beam_motion(space, cell) * motions_of_beam(space.beams()[cell], motions);
+  if (heat != nullptr) own += heat->beam_release(cell);
+  return own;
+}
+
+/// Strains by the cell's own polynomials, beyond those of heat, which no force belongs to.
 Eigen::MatrixXd own_strains_of(const Space& space, int cell, double xi,
-                               const Eigen::Ref<const Eigen::MatrixXd>& motions) {
-  return beam_point(space, cell, xi).strain * beam_motion(space, cell) *
-         motions_of_beam(space.beams()[cell], motions);
+                               const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                               const CellHeat* heat) {
+  Eigen::MatrixXd strains =
+      beam_point(space, cell, xi).strain * own_motion_of(space, cell, motions, heat);
+  if (heat != nullptr) strains -= heat->beam_strains(cell, xi);
+  return strains;
 }
 
 /// Of a tapered beam the strains that the section forces at the Gauss points, carried to the place,
 /// give there: forces are smooth where the strains of a taper are no polynomial.
 Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
-                           const Eigen::Ref<const Eigen::MatrixXd>& motions) {
-  if (beam_of(space, cell).end_section < 0) return own_strains_of(space, cell, xi, motions);
+                           const Eigen::Ref<const Eigen::MatrixXd>& motions, const CellHeat* heat) {
+  if (beam_of(space, cell).end_section < 0) return own_strains_of(space, cell, xi, motions, heat);
   const auto law_at = [&](double place) {
     const BeamSection section = section_of(space, cell, place);
     return beam_stiffness_law(space.mesh().materials[section.material], section);
@@ -55,7 +67,7 @@ Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(6, motions.cols());
   const std::vector<double> shares = lagrange_at(points, xi);
   for (std::size_t q = 0; q < points.size(); ++q)
-    forces += shares[q] * law_at(points[q]) * own_strains_of(space, cell, points[q], motions);
+    forces += shares[q] * law_at(points[q]) * own_strains_of(space, cell, points[q], motions, heat);
   return algebra::least_squares(law_at(xi), forces);
 }
 
@@ -74,8 +86,9 @@ std::vector<Eigen::Vector2d> stress_points(const BeamSection& section) {
 }
 
 Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
-                              const Eigen::Ref<const Eigen::MatrixXd>& motions) {
-  const Eigen::MatrixXd strain = strains_of(space, cell, xi, motions);
+                              const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                              const CellHeat* heat) {
+  const Eigen::MatrixXd strain = strains_of(space, cell, xi, motions, heat);
   const Beam& beam = beam_of(space, cell);
   const BeamSection section = section_of(space, cell, xi);
   const double modulus = modulus_of(space.mesh(), section);
@@ -91,17 +104,19 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
 }
 
 Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,
-                                           const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+                                           const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                           const CellHeat* heat) {
   const BeamSection& section = space.mesh().section_of(beam_of(space, cell));
-  return modulus_of(space.mesh(), section) * strains_of(space, cell, xi, motions).row(0);
+  return modulus_of(space.mesh(), section) * strains_of(space, cell, xi, motions, heat).row(0);
 }
 
 Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
-                            const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+                            const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                            const CellHeat* heat) {
   const BeamSection section = section_of(space, cell, xi);
   const Material& material = space.mesh().materials[section.material];
   Eigen::MatrixXd forces =
-      beam_stiffness_law(material, section) * strains_of(space, cell, xi, motions);
+      beam_stiffness_law(material, section) * strains_of(space, cell, xi, motions, heat);
   if (!beam_of(space, cell).is_rod) return forces;
   for (const Eigen::Index row : {1, 2, 4, 5}) forces.row(row).setZero();
   return forces;
@@ -116,9 +131,9 @@ Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses) {
 }
 
 BeamMotion beam_motion_at(const Space& space, int cell, double xi,
-                          const Eigen::Ref<const Eigen::VectorXd>& motion) {
+                          const Eigen::Ref<const Eigen::VectorXd>& motion, const CellHeat* heat) {
   const BeamCell& located = space.beams()[cell];
-  const Eigen::VectorXd local = beam_motion(space, cell) * motions_of_beam(located, motion);
+  const Eigen::VectorXd local = own_motion_of(space, cell, motion, heat);
   const std::vector<double> values = lagrange_values(located.degree, xi);
   BeamMotion moved;
   for (std::size_t i = 0; i < values.size(); ++i) {

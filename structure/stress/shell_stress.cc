@@ -27,16 +27,22 @@ bool has_triangles(const Mesh& mesh) {
 }  // namespace
 
 ShellStress::ShellStress(const Space& space, const Eigen::Matrix2Xd& points)
-    : space_(space), of_squares_(space, points) {
+    : space_(space),
+      of_squares_at_(points),
+      of_triangles_at_(pulled_in(points)),
+      of_squares_(space, points) {
   if (points.cols() > 0 && has_triangles(space.mesh()))
-    of_triangles_ = std::make_unique<ShellOperator>(space, pulled_in(points),
+    of_triangles_ = std::make_unique<ShellOperator>(space, of_triangles_at_,
                                                     ShellOperator::Source::displacements);
 }
 
-Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                    const CellHeat* heat) {
   const Mesh& mesh = space_.mesh();
   const Shell& shell = mesh.shells[space_.shells()[cell].shell];
   current_ = of_triangles_ && shell.is_triangle() ? of_triangles_.get() : &of_squares_;
+  const Eigen::Matrix2Xd& places =
+      current_ == of_triangles_.get() ? of_triangles_at_ : of_squares_at_;
   current_->reinit(cell);
   const Eigen::MatrixXd local = motions_of_cell(space_, cell, motions);
   const auto count = static_cast<Eigen::Index>(points().size());
@@ -54,8 +60,11 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::Matr
         rows.middleRows<shell_stress_rows>(shell_stress_rows * static_cast<Eigen::Index>(q));
     const double thickness = points()[q].thickness;
     // Forces and moments as an even plate of the thickness bears them; of layers, their mean.
-    const Eigen::Matrix<double, shell_strains, Eigen::Dynamic> forces =
+    Eigen::Matrix<double, shell_strains, Eigen::Dynamic> forces =
         shell_stiffness_law(mesh, shell, points()[q].e_1, points()[q].e_2, thickness) * strain;
+    if (heat != nullptr)
+      forces.topRows<6>() -= heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)),
+                                                points()[q].e_1, points()[q].e_2, thickness);
     here.middleRows<3>(membrane_stress_11) = forces.middleRows<3>(membrane_11) / thickness;
     here.middleRows<3>(bending_stress_11) =
         forces.middleRows<3>(curvature_11) * (6 / (thickness * thickness));
@@ -75,13 +84,14 @@ Eigen::MatrixXd motions_of_cell(const Space& space, int cell,
 }
 
 Eigen::MatrixXd stresses_of_cells(const Space& space, const Eigen::Matrix2Xd& points, int first,
-                                  int count, const Eigen::Ref<const Eigen::MatrixXd>& motions) {
+                                  int count, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                  const CellHeat* heat) {
   const Eigen::Index per_cell = shell_stress_rows * points.cols();
   Eigen::MatrixXd rows(per_cell * count, motions.cols());
   parallel::in_batches(count, 64, 0, [&](int begin, int taken) {
     ShellStress recovery(space, points);
     for (int i = begin; i < begin + taken; ++i)
-      rows.middleRows(per_cell * i, per_cell) = recovery.of_all(first + i, motions);
+      rows.middleRows(per_cell * i, per_cell) = recovery.of_all(first + i, motions, heat);
   });
   return rows;
 }

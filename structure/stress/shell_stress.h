@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "structure/formulation/cell_heat.h"
 #include "structure/formulation/shell.h"
 #include "structure/stress_tensor.h"
 
@@ -40,12 +41,15 @@ class ShellStress {
 
   /// Stresses in a cell of Space::shells() for motions (freedoms x k): rows shell_stress_rows point
   /// + row.
-  Eigen::MatrixXd of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions);
+  /// @param heat of as many cases as there are motions; null: none.
+  Eigen::MatrixXd of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                         const CellHeat* heat = nullptr);
   /// Places and axes at the points of the cell last looked at.
   const std::vector<ShellPoint>& points() const { return current_->points(); }
 
  private:
   const Space& space_;
+  Eigen::Matrix2Xd of_squares_at_, of_triangles_at_;  ///< the points
   ShellOperator of_squares_;
   std::unique_ptr<ShellOperator> of_triangles_;  ///< null: no triangle is there
   ShellOperator* current_ = &of_squares_;
@@ -58,7 +62,8 @@ Eigen::MatrixXd motions_of_cell(const Space& space, int cell,
 /// ShellStress::of_all of a run of cells, found by all threads: rows of one cell after another.
 /// @param points of the unit square, 2 x m. @param first of the cells of Space::shells().
 Eigen::MatrixXd stresses_of_cells(const Space& space, const Eigen::Matrix2Xd& points, int first,
-                                  int count, const Eigen::Ref<const Eigen::MatrixXd>& motions);
+                                  int count, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                  const CellHeat* heat = nullptr);
 
 /// Stresses (rows 6 point + component of Stress, along e_1, e_2 and the normal) at one height for
 /// the rows of ShellStress::of_all, without shear across the plate.

@@ -92,14 +92,15 @@ Eigen::RowVectorXd monomials(const Vector3& x, int order) {
 /// Fits patches and evaluates them at the points of stress.
 class Recovery {
  public:
-  Recovery(const SolidSet& solids, const NodalPoints& points, const Eigen::VectorXd& displacement)
+  Recovery(const SolidSet& solids, const NodalPoints& points, const Eigen::VectorXd& displacement,
+           const HeldSolidStress& held)
       : set_(solids),
         points_(points),
         solids_of_(points.node.size()),
         is_corner_(points.node.size(), 0),
         recovered_(StressColumns::Zero(6, static_cast<Eigen::Index>(points.node.size()))),
         shares_(points.node.size(), 0) {
-    sample(displacement);
+    sample(displacement, held);
     for (std::size_t point = 0; point < solids_of_.size(); ++point)
       if (is_corner_[point]) fit(static_cast<int>(point));
     for (std::size_t point = 0; point < shares_.size(); ++point)
@@ -115,13 +116,14 @@ class Recovery {
   const ElementKind& kind(int solid) const { return set_.kind(solid); }
   Vector3 place(int point) const { return set_.nodes.col(points_.node[point]); }
 
-  void sample(const Eigen::VectorXd& displacement) {
+  void sample(const Eigen::VectorXd& displacement, const HeldSolidStress& held) {
     std::map<const ElementKind*, Sampling> tables;
     for (int solid = 0; solid < set_.count(); ++solid) {
       auto table = tables.find(&kind(solid));
       if (table == tables.end()) table = tables.emplace(&kind(solid), tabulate(kind(solid))).first;
       sample_places_.push_back(set_.places(solid) * table->second.values.transpose());
       sample_stresses_.push_back(stresses_of(set_, solid, table->second.gradients, displacement));
+      if (held) sample_stresses_.back() -= held(solid, table->second.values);
       for (int i = 0; i < kind(solid).corners; ++i) {
         is_corner_[point(solid, i)] = 1;
         solids_of_[point(solid, i)].push_back(solid);
@@ -191,7 +193,8 @@ class Recovery {
 
 /// @param better a better stress at the rule's points of a solid: 6 x points.
 SolidError compare_stresses(const SolidSet& solids, const Eigen::VectorXd& displacement,
-                            int threads, const std::function<StressColumns(int)>& better) {
+                            int threads, const HeldSolidStress& held,
+                            const std::function<StressColumns(int)>& better) {
   const int count = solids.count();
   SolidError error{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count), {}};
   std::vector<Elasticity> compliances;
@@ -200,14 +203,15 @@ SolidError compare_stresses(const SolidSet& solids, const Eigen::VectorXd& displ
     for (int solid = first; solid < first + many; ++solid) {
       const ElementKind& kind = solids.kind(solid);
       const Elasticity& compliance = compliances[solids.law[solid]];
-      const StressColumns own = stresses_of(solids, solid, kind.gradients, displacement);
+      StressColumns own = stresses_of(solids, solid, kind.gradients, displacement);
+      if (held) own -= held(solid, kind.values);
       const StressColumns difference = better(solid) - own;
       const Eigen::Matrix3Xd places = solids.places(solid);
       for (Eigen::Index q = 0; q < kind.weights.size(); ++q) {
         const double volume =
             kind.weights[q] *
             (places * kind.gradients.middleRows<3>(3 * q).transpose()).determinant();
-        const auto e = difference.col(q), s = own.col(q);
+        const Stress e = difference.col(q), s = own.col(q);
         error.squared_error[solid] += volume * e.dot(compliance * e);
         error.squared_norm[solid] += volume * s.dot(compliance * s);
       }
@@ -244,10 +248,11 @@ double SolidError::relative(const std::vector<int>& solids) const {
 }
 
 SolidError estimate_solid_error(const SolidSet& solids, const NodalPoints& points,
-                                const Eigen::VectorXd& displacement, int threads) {
-  const Recovery recovery(solids, points, displacement);
+                                const Eigen::VectorXd& displacement, int threads,
+                                const HeldSolidStress& held) {
+  const Recovery recovery(solids, points, displacement, held);
   SolidError error =
-      compare_stresses(solids, displacement, threads, [&](int solid) -> StressColumns {
+      compare_stresses(solids, displacement, threads, held, [&](int solid) -> StressColumns {
         const ElementKind& kind = solids.kind(solid);
         StressColumns nodal(6, kind.nodes);
         for (int i = 0; i < kind.nodes; ++i)
@@ -260,7 +265,7 @@ SolidError estimate_solid_error(const SolidSet& solids, const NodalPoints& point
 
 SolidError true_solid_error(const SolidSet& solids, const Eigen::VectorXd& displacement,
                             const std::function<Stress(const Vector3&)>& exact) {
-  return compare_stresses(solids, displacement, 1, [&](int solid) -> StressColumns {
+  return compare_stresses(solids, displacement, 1, {}, [&](int solid) -> StressColumns {
     const Eigen::Matrix3Xd places = solids.places(solid) * solids.kind(solid).values.transpose();
     StressColumns stresses(6, places.cols());
     for (Eigen::Index q = 0; q < places.cols(); ++q) stresses.col(q) = exact(places.col(q));

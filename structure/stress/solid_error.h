@@ -35,9 +35,14 @@ struct SolidError {
   double relative(const std::vector<int>& solids) const;
 };
 
+/// Stresses that a displacement's are to be lessened by, Pa: those that hold a hot solid (CellHeat)
+/// at points where its shape functions (points x nodes) are given, 6 x points. Empty: none.
+using HeldSolidStress = std::function<StressColumns(int solid, const Eigen::MatrixXd& values)>;
+
 /// @param displacement 3 a node, m. @param threads 0: as many as the machine has.
 SolidError estimate_solid_error(const SolidSet& solids, const NodalPoints& points,
-                                const Eigen::VectorXd& displacement, int threads = 0);
+                                const Eigen::VectorXd& displacement, int threads = 0,
+                                const HeldSolidStress& held = {});
 
 /// The same with a stress that is known (Pa, at a place in m) in the place of the recovered one:
 /// the true error of a solution.

@@ -355,10 +355,10 @@ void find_shares(const Space& space, const FieldWalker& walker, const CellFinder
   }
 }
 
-/// Takes from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a motion) the
-/// shear that cells of degree 1 do not bear.
-void take_excess_shear(const Space& space, const FieldWalker& walker, const CellFinder& cells,
-                       const Square& square, const auto& by_rows, Eigen::MatrixXd& strain) {
+/// Calls visit(place in its cell, share of the square's area) for Gauss points within a square.
+template <typename Visit>
+void for_each_inner_point(const FieldWalker& walker, const CellFinder& cells, const Square& square,
+                          const Visit& visit) {
   const double half = square.size / 2;
   for (std::size_t i = 0; i < side_points.size(); ++i)
     for (std::size_t j = 0; j < side_points.size(); ++j) {
@@ -367,17 +367,42 @@ void take_excess_shear(const Space& space, const FieldWalker& walker, const Cell
       const auto found = walker.find(place, start_of(square));
       if (!found)
         throw std::logic_error("a square of the checked stress leaves its field of plates");
-      const CellPlace at = cells.find(*found);
-      const BilinearShear shear(space, at.cell);
-      const Eigen::Matrix<double, 3, 4> excess = shear.excess_at(at.xi);
-      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(strain.cols());
-      for (int node = 0; node < 4; ++node)
-        sum += excess.col(node).transpose() *
-               by_rows.template middleRows<3>(
-                   6 * static_cast<Eigen::Index>(space.shell_nodes(at.cell)[node]));
-      const double area = side_weights[i] * side_weights[j] * square.size * square.size;
-      strain -= area * shear.turned_to(square.e_1, square.e_2) * sum;
+      visit(cells.find(*found), side_weights[i] * side_weights[j]);
     }
+}
+
+/// Takes from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a motion) the
+/// shear that cells of degree 1 do not bear.
+void take_excess_shear(const Space& space, const FieldWalker& walker, const CellFinder& cells,
+                       const Square& square, const auto& by_rows, Eigen::MatrixXd& strain) {
+  for_each_inner_point(walker, cells, square, [&](const CellPlace& at, double weight) {
+    const BilinearShear shear(space, at.cell);
+    const Eigen::Matrix<double, 3, 4> excess = shear.excess_at(at.xi);
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(strain.cols());
+    for (int node = 0; node < 4; ++node)
+      sum += excess.col(node).transpose() *
+             by_rows.template middleRows<3>(
+                 6 * static_cast<Eigen::Index>(space.shell_nodes(at.cell)[node]));
+    const double area = weight * square.size * square.size;
+    strain -= area * shear.turned_to(square.e_1, square.e_2) * sum;
+  });
+}
+
+/// Mean membrane forces and moments that hold a square where nothing moves, along its axes and about
+/// its normal: 6 x cases.
+Eigen::MatrixXd held_forces(const CellHeat& heat, const Space& space, const FieldWalker& walker,
+                            const CellFinder& cells, const Square& square, double thickness) {
+  const Vector3 normal = square.e_1.cross(square.e_2);
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(6, heat.cases());
+  for_each_inner_point(walker, cells, square, [&](const CellPlace& at, double weight) {
+    const int shell = space.shells()[at.cell].shell;
+    const double side = normal_of(space.mesh(), {shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
+    const Eigen::MatrixXd here =
+        weight * heat.shell_forces(at.cell, at.xi, square.e_1, square.e_2, thickness);
+    mean.topRows<3>() += here.topRows<3>();
+    mean.bottomRows<3>() += side * here.bottomRows<3>();
+  });
+  return mean;
 }
 
 /// Where the thickness varies a square has that of its middle, m.
@@ -406,11 +431,11 @@ std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
 
 CheckedStress::CheckedStress(const ElasticModel& model,
                              const Eigen::Ref<const Eigen::MatrixXd>& motions, double size,
-                             int threads) {
+                             int threads, const CellHeat* heat) {
   const PlateFields fields = find_fields(model.mesh());
   const FieldWalker walker(model.mesh(), fields);
   squares_ = place_squares(model.mesh(), fields, walker, size);
-  evaluate(model, walker, motions, threads);
+  evaluate(model, walker, motions, threads, heat);
 }
 
 CheckedStress::CheckedStress(const ElasticModel& model,
@@ -418,11 +443,12 @@ CheckedStress::CheckedStress(const ElasticModel& model,
                              std::vector<Square> squares, int threads)
     : squares_(std::move(squares)) {
   const PlateFields fields = find_fields(model.mesh());
-  evaluate(model, FieldWalker(model.mesh(), fields), motions, threads);
+  evaluate(model, FieldWalker(model.mesh(), fields), motions, threads, nullptr);
 }
 
 void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walker,
-                             const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads) {
+                             const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads,
+                             const CellHeat* heat) {
   const Space& space = model.space();
   const CellFinder cells(space);
   // A node's six freedoms of all motions lie together.
@@ -477,6 +503,10 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
       components_.middleRows<3>(3 * s) = (membrane * strain + coupling * curvature) / (area * t);
       bending_.middleRows<3>(3 * s) =
           (coupling * strain + bending * curvature) * (6 / (area * t * t));
+      if (heat == nullptr) continue;
+      const Eigen::MatrixXd held = held_forces(*heat, space, walker, cells, square, t);
+      components_.middleRows<3>(3 * s) -= held.topRows<3>() / t;
+      bending_.middleRows<3>(3 * s) -= held.bottomRows<3>() * (6 / (t * t));
     }
   });
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "structure/formulation/cell_heat.h"
 #include "structure/mesh/fields.h"
 #include "structure/response/elastic_model.h"
 #include "structure/square_site.h"
@@ -38,8 +39,9 @@ struct Square {
 class CheckedStress {
  public:
   /// @param motions freedoms x m, m and rad. The model must outlive this object.
+  /// @param heat of as many cases as there are motions; null: none.
   CheckedStress(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
-                double size = 0.05, int threads = 0);
+                double size = 0.05, int threads = 0, const CellHeat* heat = nullptr);
   /// The same of given squares of the same mesh.
   CheckedStress(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
                 std::vector<Square> squares, int threads = 0);
@@ -55,7 +57,8 @@ class CheckedStress {
 
  private:
   void evaluate(const ElasticModel& model, const FieldWalker& walker,
-                const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads);
+                const Eigen::Ref<const Eigen::MatrixXd>& motions, int threads,
+                const CellHeat* heat);
 
   std::vector<Square> squares_;
   Eigen::MatrixXd components_, bending_;

@@ -74,14 +74,14 @@ class Maxima {
 
 /// The largest nodal stresses of several motions (columns), one pass through all cells.
 std::vector<Maxima> find_peaks(const StressPoints& points, const Eigen::MatrixXd& motions,
-                               const Maxima& none) {
+                               const CellHeat* heat, const Maxima& none) {
   constexpr int batch = 2048;
   const int batches = (points.count() + batch - 1) / batch;
   const auto cases = static_cast<std::size_t>(motions.cols());
   std::vector<std::vector<Maxima>> of_batch(at(batches));
   parallel::in_batches(points.count(), batch, 0, [&](int first, int count) {
     std::vector<Maxima> maxima(cases, none);
-    const Eigen::MatrixXd stress = points.stresses(first, count, motions);
+    const Eigen::MatrixXd stress = points.stresses(first, count, motions, heat);
     for (int i = 0; i < count; ++i) {
       const Vector3 place = points.place(first + i);
       const int region = points.region(first + i);
@@ -158,16 +158,17 @@ void fill_in(const MotionStress& recovery, const Mesh& mesh, const Maxima& check
 
 MotionStress::MotionStress(const ElasticModel& model,
                            const Eigen::Ref<const Eigen::MatrixXd>& motions,
-                           const RecoveryOptions& options)
+                           const RecoveryOptions& options, const CellHeat* heat)
     : model_(model),
       options_(options),
-      checked_(model, motions, options.square_size),
-      points_(model.space()) {}
+      checked_(model, motions, options.square_size, 0, heat),
+      points_(model.space()),
+      heat_(heat) {}
 
 std::vector<LoadCaseResult> MotionStress::evaluate(const Eigen::MatrixXd& factors,
                                                    const Eigen::MatrixXd& moved) const {
   const Maxima none(*this, model_.mesh());
-  const std::vector<Maxima> peaks = find_peaks(points_, moved, none);
+  const std::vector<Maxima> peaks = find_peaks(points_, moved, heat_, none);
   std::vector<LoadCaseResult> results;
   for (Eigen::Index c = 0; c < factors.cols(); ++c) {
     Maxima checked = none;

@@ -62,10 +62,12 @@ struct RecoveryOptions {
 class MotionStress {
  public:
   /// @param motions freedoms x m, m and rad. The model must outlive this object.
+  /// @param heat of as many cases as there are motions, which must outlive this object; null: none.
   MotionStress(const ElasticModel& model, const Eigen::Ref<const Eigen::MatrixXd>& motions,
-               const RecoveryOptions& options);
+               const RecoveryOptions& options, const CellHeat* heat = nullptr);
 
-  /// A column a case; one pass through all cells serves them all.
+  /// A column a case; one pass through all cells serves them all. With heat each case is one of
+  /// the motions, in their order.
   /// @param factors of the motions, m x cases. @param moved the motions that they make up, from
   ///   which displacements are told, freedoms x cases: a rigid motion may be taken out.
   /// @returns results without names and balance.
@@ -83,6 +85,7 @@ class MotionStress {
   RecoveryOptions options_;
   CheckedStress checked_;
   StressPoints points_;
+  const CellHeat* heat_;
 };
 
 /// Evaluates load cases from unit responses. The checked stress costs a product with stored unit

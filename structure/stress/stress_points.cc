@@ -85,23 +85,25 @@ void StressPoints::give_back(std::unique_ptr<ShellStress> one) const {
 }
 
 Eigen::MatrixXd StressPoints::stresses(int first, int count,
-                                       const Eigen::Ref<const Eigen::MatrixXd>& motions) const {
+                                       const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                                       const CellHeat* heat) const {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(6 * count, motions.cols());
   const int shells = std::clamp(shell_points_ - first, 0, count);
-  if (shells > 0) shell_stresses(first, shells, motions, rows.topRows(6 * shells));
+  if (shells > 0) shell_stresses(first, shells, motions, heat, rows.topRows(6 * shells));
   Eigen::MatrixXd of_end;
   int known_solid = -1;
   for (int i = shells; i < count; ++i) {
     if (is_of_solid(first + i)) {
       const SolidPointOf& of_solid = solid_point(first + i);
       if (of_solid.solid != known_solid)
-        of_end = solid_corner_stresses(space_, of_solid.solid, motions);
+        of_end = solid_corner_stresses(space_, of_solid.solid, motions, heat);
       known_solid = of_solid.solid;
       rows.middleRows<6>(6 * i) = of_end.middleRows<6>(6 * of_solid.corner);
       continue;
     }
     const BeamPointOf& point = beam_points_[first + i - shell_points_];
-    if (i == shells || point.at == 0) of_end = beam_stresses(space_, point.cell, point.xi, motions);
+    if (i == shells || point.at == 0)
+      of_end = beam_stresses(space_, point.cell, point.xi, motions, heat);
     rows.row(6 * i) = of_end.row(point.at);
   }
   return rows;
@@ -109,13 +111,13 @@ Eigen::MatrixXd StressPoints::stresses(int first, int count,
 
 void StressPoints::shell_stresses(int first, int count,
                                   const Eigen::Ref<const Eigen::MatrixXd>& motions,
-                                  Eigen::Ref<Eigen::MatrixXd> rows) const {
+                                  const CellHeat* heat, Eigen::Ref<Eigen::MatrixXd> rows) const {
   std::unique_ptr<ShellStress> recovery = borrow();
   int known_cell = -1;
   Eigen::MatrixXd of_cell;
   for (int i = 0; i < count; ++i) {
     const int point = first + i, cell = point / points_per_cell();
-    if (cell != known_cell) of_cell = recovery->of_all(cell, motions);
+    if (cell != known_cell) of_cell = recovery->of_all(cell, motions, heat);
     known_cell = cell;
     const auto here =
         of_cell.middleRows<shell_stress_rows>(shell_stress_rows * (point % points_per_cell() / 2));

@@ -30,8 +30,9 @@ class StressPoints {
   Vector3 place(int point) const;
   /// Rows 6 point + component for points first .. first + count - 1, a column for each of `motions`
   /// (freedoms x m). May be called from several threads.
-  Eigen::MatrixXd stresses(int first, int count,
-                           const Eigen::Ref<const Eigen::MatrixXd>& motions) const;
+  /// @param heat of as many cases as there are motions; null: none.
+  Eigen::MatrixXd stresses(int first, int count, const Eigen::Ref<const Eigen::MatrixXd>& motions,
+                           const CellHeat* heat = nullptr) const;
 
  private:
   struct BeamPointOf {
@@ -43,7 +44,7 @@ class StressPoints {
   std::unique_ptr<ShellStress> borrow() const;
   void give_back(std::unique_ptr<ShellStress> one) const;
   void shell_stresses(int point, int count, const Eigen::Ref<const Eigen::MatrixXd>& motions,
-                      Eigen::Ref<Eigen::MatrixXd> rows) const;
+                      const CellHeat* heat, Eigen::Ref<Eigen::MatrixXd> rows) const;
 
   const Space& space_;
   int shell_points_;

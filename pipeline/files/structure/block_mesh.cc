@@ -44,6 +44,10 @@ bool is_of_loads(const std::string& name) {
                                                    "*DLOAD",
                                                    "*DSLOAD",
                                                    "*BOUNDARY",
+                                                   "TEMP",
+                                                   "*TEMPERATURE",
+                                                   "*INITIAL CONDITIONS",
+                                                   "case control TEMP",
                                                    "case control LOAD",
                                                    "case control SPC"};
   return std::any_of(beginnings.begin(), beginnings.end(),

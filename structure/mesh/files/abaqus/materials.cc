@@ -26,12 +26,17 @@ class MaterialBlocks {
 
   /// Whether a keyword says something of a material.
   static bool knows(const std::string& name) {
-    return name == "ELASTIC" || name == "DENSITY" || name == "PLASTIC" || is_left_out(name);
+    return name == "ELASTIC" || name == "DENSITY" || name == "PLASTIC" || name == "EXPANSION" ||
+           is_left_out(name);
   }
 
   void read(const AbaqusBlock& block) {
     if (is_left_out(block.name)) {
       model_.log.leave_out("*" + block.name, "matters to no lift");
+      return;
+    }
+    if (block.name == "EXPANSION") {
+      read_expansion(block);
       return;
     }
     if (block.data.empty()) throw CardError{"a line of data is missing"};
@@ -56,6 +61,8 @@ class MaterialBlocks {
     const Material& solid = material_.isotropic;
     if (material_.is_isotropic) material_.ply = isotropic_ply(solid);
     material_.ply.density = solid.density;
+    material_.ply.expansion << material_.expansion[0], material_.expansion[1],
+        material_.expansion[3];
     // One that is refused below is there all the same: what is made of it is not at fault.
     if (!model_.materials.try_emplace(solid.name, material_).second)
       throw CardError{fmt::format("material {} is there twice", solid.name)};
@@ -68,9 +75,8 @@ class MaterialBlocks {
 
  private:
   static bool is_left_out(const std::string& name) {
-    static const std::set<std::string> names{"EXPANSION",     "CONDUCTIVITY", "SPECIFIC HEAT",
-                                             "DAMPING",       "DEPVAR",       "CREEP",
-                                             "RATE DEPENDENT"};
+    static const std::set<std::string> names{"CONDUCTIVITY", "SPECIFIC HEAT", "DAMPING",
+                                             "DEPVAR",       "CREEP",         "RATE DEPENDENT"};
     return names.count(name) > 0;
   }
 
@@ -78,6 +84,34 @@ class MaterialBlocks {
   static std::size_t lines_of(const std::string& type) {
     if (type.starts_with("ANISO")) return 3;
     return type.starts_with("ENGINEERING") || type.starts_with("ORTHO") ? 2 : 1;
+  }
+
+  // *EXPANSION, TYPE = ISO | ORTHO | ANISO / a, or a11, a22, a33, or those and a12, a13, a23; then
+  // the temperature. With one coefficient for all temperatures that of no expansion (ZERO) has no
+  // effect: strains count from the initial temperatures.
+  void read_expansion(const AbaqusBlock& block) {
+    const std::string type = block.value("TYPE");
+    const bool is_ortho = type.starts_with("ORTHO"), is_aniso = type.starts_with("ANISO");
+    const auto hinder = [&](const std::string& why) {
+      material_.obstacle = fmt::format("material {} {} (*EXPANSION at {})",
+                                       material_.isotropic.name, why, model_.log.place(block.line));
+    };
+    if (block.has("USER") || !(type.empty() || type.starts_with("ISO") || is_ortho || is_aniso)) {
+      hinder("expands in a way that is not known; ISO, ORTHO and ANISO are");
+      return;
+    }
+    if (block.data.empty()) throw CardError{"a line of data is missing"};
+    const std::size_t count = is_aniso ? 6 : is_ortho ? 3 : 1;
+    for (std::size_t i = 0; i < block.data.size(); ++i) {
+      const auto fields = block.data[i].fields();
+      ExpansionStrains strains = ExpansionStrains::Zero();
+      for (std::size_t k = 0; k < count; ++k)
+        strains[static_cast<Eigen::Index>(k)] = abaqus_real(fields, k, "coefficient of expansion");
+      if (count == 1) strains.head<3>().setConstant(strains[0]);
+      if (!strains.tail<3>().isZero(0)) hinder("expands in shear, which is not known");
+      if (i > 0 && strains != material_.expansion) hinder("expands by the temperature");
+      if (i == 0) material_.expansion = strains;
+    }
   }
 
   void read_yield(const std::vector<std::string_view>& fields) {
@@ -219,6 +253,7 @@ int abaqus_solid_material(AbaqusModel& model, const std::string& name) {
                     1e3);  // cores are soft
     material.directional_place = static_cast<int>(model.deck.mesh.materials.size());
     model.deck.mesh.materials.push_back(nearest);
+    model.deck.expansions.set(material.directional_place, {0, 0, material.obstacle});
   }
   return material.directional_place;
 }
@@ -234,6 +269,9 @@ int abaqus_material(AbaqusModel& model, const std::string& name) {
   if (material.place < 0) {
     material.place = static_cast<int>(model.deck.mesh.materials.size());
     model.deck.mesh.materials.push_back(material.isotropic);
+    model.deck.expansions.set(material.place,
+                              even_expansion(material.expansion, 0, material.obstacle,
+                                             "material " + material.isotropic.name));
   }
   return material.place;
 }

@@ -12,6 +12,7 @@
 
 #include "structure/mesh/files/abaqus/keywords.h"
 #include "structure/mesh/files/deck/coordinate_systems.h"
+#include "structure/mesh/heat.h"
 #include "structure/mesh/laminate.h"
 
 namespace blocklift::structure {
@@ -66,6 +67,8 @@ struct AbaqusMaterial {
   bool is_for_solids_alone = false;
   /// What a solid has of it where it is not isotropic, in axes of its own.
   std::optional<Elasticity> of_solids = std::nullopt;
+  ExpansionStrains expansion = ExpansionStrains::Zero();  ///< in axes of its own
+  std::string obstacle = {};                              ///< MaterialExpansion's
   SourceLine line;
   int place = -1;              ///< in Mesh::materials
   int directional_place = -1;  ///< there too, of its nearest isotropic one

@@ -45,6 +45,8 @@ const std::set<std::string, std::less<>>& keywords_read() {
                                                         "DENSITY",
                                                         "PLASTIC",
                                                         "EXPANSION",
+                                                        "INITIAL CONDITIONS",
+                                                        "TEMPERATURE",
                                                         "CONDUCTIVITY",
                                                         "SPECIFIC HEAT",
                                                         "DAMPING",
@@ -128,8 +130,6 @@ const std::set<std::string, std::less<>>& keywords_left_out() {
                                                         "STEADY STATE DYNAMICS",
                                                         "AMPLITUDE",
                                                         "DASHPOT",
-                                                        "INITIAL CONDITIONS",
-                                                        "TEMPERATURE",
                                                         "SURFACE INTERACTION",
                                                         "FRICTION",
                                                         "SURFACE BEHAVIOR",
@@ -375,6 +375,7 @@ Deck read_abaqus(const std::filesystem::path& path, const UnitSystem& units,
   log.check_left_out(options);
   log.check();
   fasten_used_middles(deck, model.middles);
+  deck.expansions.of_materials.resize(deck.mesh.materials.size());
   log.hand_over(deck);
   return deck;
 }

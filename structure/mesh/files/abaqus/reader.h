@@ -24,6 +24,7 @@ namespace blocklift::structure {
 /// - *COUPLING with KINEMATIC or DISTRIBUTING (weighted by the area that nodes stand for), *RIGID
 ///   BODY, *MPC (BEAM; TIE and PIN of nodes at one place), *EQUATION that makes two freedoms at one
 ///   place equal
+/// - *EXPANSION, *INITIAL CONDITIONS of temperatures, and *TEMPERATURE in steps
 /// - *BOUNDARY, *STEP with *CLOAD, *DLOAD (P, PX, PY, PZ, GRAV), *DSLOAD (P); steps go on from the
 ///   ones before unless OP = NEW or PERTURBATION says otherwise
 ///

@@ -127,7 +127,8 @@ class Sections {
       const auto found = model_.materials.find(name);
       if (found != model_.materials.end()) refuse_solids_alone(found->second);
       if (found != model_.materials.end() && !found->second.is_isotropic)
-        laminate({{found->second.ply, section.thickness, 0}}, block, section);
+        laminate({{found->second.ply, section.thickness, 0}}, found->second.obstacle, block,
+                 section);
       else
         section.material = abaqus_material(model_, name);
     }
@@ -242,6 +243,7 @@ class Sections {
   void read_layers(const AbaqusBlock& block, ShellSection& section) {
     std::vector<Ply> plies;
     std::vector<std::string> names;
+    std::string obstacle;  // to their expansion
     for (const AbaqusLine& line : block.data) {
       const Fields fields = line.fields();
       if (fields.size() < 3) throw CardError{"a layer is thickness, points, material, angle"};
@@ -252,6 +254,7 @@ class Sections {
       refuse_solids_alone(found->second);
       Ply ply;
       ply.material = found->second.ply;
+      if (obstacle.empty()) obstacle = found->second.obstacle;
       ply.thickness = abaqus_real(fields, 0, "thickness") * model_.units.length;
       ply.angle = abaqus_real(fields, 3, "angle", 0.0) * std::numbers::pi / 180;
       if (!(ply.thickness > 0)) throw CardError{"the thickness of a layer must be positive"};
@@ -264,11 +267,13 @@ class Sections {
       section.material = abaqus_material(model_, names.front());
       return;
     }
-    laminate(plies, block, section);
+    laminate(plies, obstacle, block, section);
   }
 
-  /// Gives a section the stiffness of layers, unless a plate of one material has just that.
-  void laminate(const std::vector<Ply>& plies, const AbaqusBlock& block, ShellSection& section) {
+  /// Gives a section the stiffness and expansion of layers, unless a plate of one material has just
+  /// these.
+  void laminate(const std::vector<Ply>& plies, const std::string& obstacle,
+                const AbaqusBlock& block, ShellSection& section) {
     const Laminate laminate = stack(plies);
     double mass = 0;
     for (const Ply& ply : plies) mass += ply.material.density * ply.thickness;
@@ -281,9 +286,16 @@ class Sections {
                                .density = mass / section.thickness});
     check_plausible(mesh_.materials.back(), name, model_.units, model_.log, block.line);
     check_poisson_ratio(mesh_.materials.back(), name);
-    if (nearest.is_exact()) return;
+    Expansions& expansions = model_.deck.expansions;
+    LaminateExpansion expansion = expansion_of(plies);
+    expansion.obstacle = obstacle;
+    const std::optional<double> coefficient =
+        even_coefficient(expansion, nearest, section.thickness);
+    expansions.set(section.material, {coefficient.value_or(0), 0, obstacle});
+    if (nearest.is_exact() && coefficient) return;
     section.laminate = static_cast<int>(mesh_.laminates.size());
     mesh_.laminates.push_back(laminate);
+    expansions.of_laminates.push_back(std::move(expansion));
   }
 
   // *TRANSVERSE SHEAR STIFFNESS / K11, K22, K12, force by length; of K11 and K22 one that is not
@@ -310,6 +322,10 @@ class Sections {
     } else if (!nearest_plate(own, section.thickness).is_exact()) {
       section.laminate = static_cast<int>(mesh_.laminates.size());
       mesh_.laminates.push_back(own);
+      const auto place = static_cast<std::size_t>(section.material);
+      Expansions& expansions = model_.deck.expansions;
+      expansions.of_laminates.push_back(
+          expansion_of(mesh_.materials[place], expansions.of_materials[place], section.thickness));
     }
   }
 

@@ -31,6 +31,7 @@ class SolidElasticity {
   SolidElasticity(AbaqusModel& model, const AbaqusScope& scope, const AbaqusBlock& section)
       : model_(model),
         own_(model.materials.at(section.required("MATERIAL")).of_solids),
+        expansion_(model.materials.at(section.required("MATERIAL")).expansion),
         axes_(scope, own_ ? section.value("ORIENTATION") : "") {}
 
   bool is_directional() const { return own_.has_value(); }
@@ -45,12 +46,14 @@ class SolidElasticity {
     for (int i = 0; i < corners; ++i)
       centre += model_.place(solid.vertices[i]) / (corners * model_.units.length);
     all.push_back(turned(*own_, axes_.at(centre)));
+    model_.deck.expansions.of_elasticities.push_back(turned(expansion_, axes_.at(centre)));
     return straight_ = static_cast<int>(all.size()) - 1;
   }
 
  private:
   AbaqusModel& model_;
   std::optional<Elasticity> own_;
+  ExpansionStrains expansion_;
   AbaqusAxes axes_;
   int straight_ = -1;
 };

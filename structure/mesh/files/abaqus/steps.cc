@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/abaqus/temperatures.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -116,6 +117,7 @@ class StepBlocks {
       for (const AbaqusBlock* block : scope.blocks)
         if (block->name == "BOUNDARY") model_.guarded(*block, [&] { add_supports(*block); });
     }
+    initial_ = read_initial_temperatures(model_);
     scope_ = &model_.scopes.front();
     for (const auto& blocks : model_.steps) read_step(blocks);
     if (model_.steps.empty() && !now_.supports.empty())
@@ -197,6 +199,7 @@ class StepBlocks {
       now_.points = {};
       now_.on_elements = now_.on_surfaces = {};
       for (Support& support : now_.supports) support.value = {};
+      now_.temperatures = {};
     } else if (step.has("NLGEOM") && step.value("NLGEOM") != "NO") {
       is_strained_ = true;
     }
@@ -232,6 +235,14 @@ class StepBlocks {
           if (renews(*block)) spread_of(*block).drop_earlier();
           add_spread_loads(*block);
         });
+      if (block->name == "TEMPERATURE")
+        model_.guarded(*block, [&] {
+          if (renews(*block)) now_.temperatures = {};
+          add_temperatures(model_, *scope_, *block, now_.temperatures);
+          if (is_perturbation && !(kept.temperatures.at_nodes.empty() && starts_at_zero()))
+            now_.temperatures.obstacle =
+                "whether those of a perturbation count from the ones before it is not known";
+        });
     }
     ++step_;
     const std::string why_not = why_no_load_case(blocks, is_perturbation);
@@ -239,6 +250,11 @@ class StepBlocks {
       model_.log.remark(step.line, fmt::format("step {} is no load case: {}", step_, why_not));
     keep(step, step_, why_not.empty());
     if (is_perturbation) now_ = kept;
+  }
+
+  bool starts_at_zero() const {
+    return std::all_of(initial_.at_nodes.begin(), initial_.at_nodes.end(),
+                       [](const auto& of_node) { return of_node.second.isZero(0); });
   }
 
   SpreadLoads& spread_of(const AbaqusBlock& block) {
@@ -298,6 +314,12 @@ class StepBlocks {
     if (acts(loads)) {
       load_case.loads = {{static_cast<int>(deck.load_sets.size()), 1.0}};
       deck.load_sets.push_back(std::move(loads));
+    }
+    TemperatureField field =
+        rise_of(model_, now_.temperatures, initial_, "the temperatures of " + load_case.title);
+    if (structure::acts(field)) {
+      load_case.temperatures = static_cast<int>(deck.temperatures.size());
+      deck.temperatures.push_back(std::move(field));
     }
     deck.load_cases.push_back(load_case);
   }
@@ -494,9 +516,11 @@ class StepBlocks {
     std::vector<Support> supports;
     NodeLoads points;
     SpreadLoads on_elements, on_surfaces;
+    AbaqusTemperatures temperatures;
     bool is_held_as_moved = false;  ///< at displacements that the steps before have found
   };
   State now_;
+  AbaqusTemperatures initial_;
   bool is_strained_ = false;  ///< by a step before, with NLGEOM
 };
 

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/files/abaqus/temperature_text.h"
 #include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
@@ -57,6 +58,7 @@ class AbaqusText {
       : deck_(deck),
         mesh_(deck_.mesh),
         units_(deck.units),
+        temperatures_(deck_),
         axes_(vertex_axes(deck)),
         elements_(element_labels(deck.mesh)),
         nodes_(mesh_.vertex_labels) {}
@@ -83,6 +85,7 @@ class AbaqusText {
     write_transforms();
     line("*ELSET, ELSET=EVERYTHING");
     for (const std::string& set : element_sets_) line(set);
+    text_ += temperatures_.initial("NODES");
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) write_step(deck_.load_cases[i]);
     return std::move(text_);
   }
@@ -108,6 +111,7 @@ class AbaqusText {
       line("*ELASTIC");
       line(exact(material.youngs_modulus / units_.stress()) + ", " + exact(material.poisson_ratio));
       write_density_and_yield(material);
+      text_ += temperatures_.of_material(static_cast<int>(m));
     }
   }
 
@@ -512,6 +516,7 @@ class AbaqusText {
       write_point_load(vertex, load.first, load.second);
     line("*DLOAD, OP=NEW");
     for (const auto& [set, factor] : one.loads) write_spread_loads(deck_.load_sets[set], factor);
+    text_ += temperatures_.of_step(one, node_number_, middles_);
     line("*NODE FILE");
     line("U, RF");
     line("*EL FILE");
@@ -571,6 +576,7 @@ class AbaqusText {
   Deck deck_;  // middles of curved shells may be added
   Mesh& mesh_;
   const UnitSystem units_;
+  AbaqusTemperatureText temperatures_;
   std::vector<Eigen::Matrix3d> axes_;
   Numbering elements_, nodes_;
   std::vector<long> node_number_, shell_number_, solid_number_, beam_number_;

@@ -12,7 +12,7 @@ namespace blocklift::structure {
 /// Shells become S4, S3, S8R, STRI65; beams B31 of general sections (one for each section,
 /// orientation and offset), released by *RELEASE; rods T3D2, which lack torsion; links couplings;
 /// masses away from their vertex hang on a node of their own. Load cases become steps that each
-/// state all supports and loads anew.
+/// state all supports and loads anew, temperatures among them (AbaqusTemperatureText).
 ///
 /// @throws ModelError for what no keyword says: laminates, quadratic pyramids, beams with other
 ///   offsets at either end or released against displacement, springs with arms, links that bind a

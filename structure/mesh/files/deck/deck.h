@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "structure/error.h"
+#include "structure/mesh/heat.h"
 #include "structure/mesh/mesh.h"
 #include "structure/mesh/mesh_part.h"
 
@@ -138,6 +139,7 @@ struct DeckLoadCase {
   std::string title;
   std::vector<std::pair<int, double>> loads;  ///< places in Deck::load_sets, with factors
   std::vector<int> supports;                  ///< places in Deck::support_sets
+  int temperatures = -1;                      ///< place in Deck::temperatures; -1: none act
 };
 
 /// Named set of vertices or cells.
@@ -166,6 +168,8 @@ struct Deck {
   std::vector<SupportSet> support_sets;
   std::vector<HoldingEquation> holding_equations;  ///< of all load cases; a lift has none
   std::vector<LoadSet> load_sets;
+  std::vector<TemperatureField> temperatures;
+  Expansions expansions;  ///< of the mesh's materials
   std::vector<DeckLoadCase> load_cases;
   std::vector<NamedSet> sets;
   std::vector<LedgerEntry> ledger;  ///< by name

@@ -10,6 +10,7 @@
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/label_range.h"
 #include "structure/mesh/files/nastran/model.h"
+#include "structure/mesh/files/nastran/temperatures.h"
 
 namespace blocklift::structure {
 
@@ -270,6 +271,7 @@ class Equations {
 /// A subcase's choice of sets; 0: none.
 struct Choice {
   long label = 1, load = 0, constraints = 0, equations = 0, spread_mass = 0;
+  long temperatures = 0, initial_temperatures = 0;
   std::string title;
   SourceLine line;
 };
@@ -281,7 +283,8 @@ class CaseControl {
         load_sets_(std::move(load_sets)),
         supports_(supports),
         motions_(model),
-        equations_(model) {
+        equations_(model),
+        temperatures_(model) {
     model_.for_each({{"LOAD", [&](const CardView& card) { read_combination(card); }}});
   }
 
@@ -294,7 +297,7 @@ class CaseControl {
       }
     }
     if (!has_subcases_ && model_.bulk.has_case_control &&
-        (common_.load != 0 || common_.constraints != 0))
+        (common_.load != 0 || common_.constraints != 0 || common_.temperatures != 0))
       choices_.push_back(common_);
     use_equations();
     equations_.finish();
@@ -323,11 +326,11 @@ class CaseControl {
     return is_same(key, "SUBCOM") || is_same(key, "SUBSEQ") || is_same(key, "REPCASE");
   }
 
-  /// Loads of case control that no card read here says: temperatures, enforced lengths, loads of
-  /// before, matrices and loads in time.
+  /// Loads of case control that no card read here says: enforced lengths, loads of before, matrices
+  /// and loads in time.
   static bool asks_for_a_load(std::string_view key) {
-    static constexpr std::array<std::string_view, 8> beginnings{"TEMP", "DEFO", "STATS", "K2GG",
-                                                                "M2GG", "K2PP", "P2G",   "DLOA"};
+    static constexpr std::array<std::string_view, 7> beginnings{"DEFO", "STATS", "K2GG", "M2GG",
+                                                                "K2PP", "P2G",   "DLOA"};
     const std::string name = upper(key);
     return std::any_of(beginnings.begin(), beginnings.end(),
                        [&](std::string_view beginning) { return name.starts_with(beginning); });
@@ -343,7 +346,12 @@ class CaseControl {
       value = trimmed(key.substr(space));
       key = key.substr(0, space);
     }
-    key = trimmed(key.substr(0, key.find('(')));
+    const auto bracket = key.find('(');
+    const std::string_view within =
+        bracket == std::string_view::npos
+            ? std::string_view()
+            : trimmed(key.substr(bracket + 1, key.find_first_of("),", bracket) - bracket - 1));
+    key = trimmed(key.substr(0, bracket));
     Choice& choice = has_subcases_ ? choices_.back() : common_;
     const auto number = [&] {
       const auto found = to_integer(value);
@@ -369,6 +377,8 @@ class CaseControl {
     } else if (is_same(key, "NSM")) {
       choice.spread_mass = number();
       choice.line = line.line;
+    } else if (upper(key).starts_with("TEMP")) {
+      read_temperatures(line, upper(within), is_same(value, "NONE") ? 0 : number(), choice);
     } else if (is_same(key, "TITLE")) {
       model_.deck.title = std::string(value);
     } else if (is_same(key, "SUBTITLE") || is_same(key, "LABEL")) {
@@ -387,6 +397,27 @@ class CaseControl {
                              "rotation");
       else
         model_.log.leave_out_wish(name, "what the solver is to do or print");
+    }
+  }
+
+  // TEMPERATURE = set, TEMPERATURE(LOAD | BOTH | INITIAL | MATERIAL) = set
+  void read_temperatures(const CaseControlLine& line, const std::string& kind, long set,
+                         Choice& choice) {
+    static const std::string name = "case control TEMPERATURE";
+    model_.log.read(name, line.line);
+    if (kind.starts_with("MATE")) {
+      model_.log.leave_out(name, "what materials are at other temperatures");
+      return;
+    }
+    model_.log.use(name);
+    if (kind.starts_with("INIT")) {
+      choice.initial_temperatures = set;
+    } else if (kind.empty() || kind == "LOAD" || kind == "BOTH") {
+      choice.temperatures = set;
+      choice.line = line.line;
+    } else {
+      throw CardError{
+          fmt::format("TEMPERATURE({}) is not known; LOAD, BOTH, INITIAL and MATERIAL are", kind)};
     }
   }
 
@@ -458,6 +489,9 @@ class CaseControl {
       for (const auto& [set, factor] : loads) add_load(load_case, set, factor);
       motions_.add(loads, load_case);
     }
+    if (choice.temperatures != 0)
+      load_case.temperatures =
+          temperatures_.field(choice.temperatures, choice.initial_temperatures);
     model_.deck.load_cases.push_back(load_case);
   }
 
@@ -485,6 +519,7 @@ class CaseControl {
   Supports& supports_;
   EnforcedMotions motions_;
   Equations equations_;
+  NastranTemperatures temperatures_;
   std::map<long, std::vector<std::pair<long, double>>> combinations_;
   Choice common_;
   std::vector<Choice> choices_;

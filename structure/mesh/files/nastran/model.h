@@ -13,6 +13,7 @@
 
 #include "structure/mesh/files/deck/coordinate_systems.h"
 #include "structure/mesh/files/nastran/card.h"
+#include "structure/mesh/heat.h"
 #include "structure/mesh/laminate.h"
 
 namespace blocklift::structure {
@@ -27,6 +28,9 @@ struct NastranMaterial {
   bool is_for_bars_alone = false;
   /// MAT9, MAT11: what a solid has of it, in axes of its own.
   std::optional<Elasticity> of_solids = std::nullopt;
+  ExpansionStrains expansion = ExpansionStrains::Zero();  ///< in the same axes
+  double reference = 0;                                   ///< TREF
+  std::string obstacle = {};                              ///< MaterialExpansion's
 };
 
 /// Section of a beam between its ends.
@@ -140,6 +144,9 @@ void read_nastran_means(NastranModel& model);
 /// Fills the deck's load sets; FORCE, MOMENT, PLOAD2, PLOAD4, GRAV and the like.
 /// @returns places of the sets by their numbers
 std::map<long, int> read_nastran_loads(NastranModel& model);
+/// Puts A and TREF of a material card into the material. @throws CardError if they are no numbers.
+void read_nastran_expansion(const NastranModel& model, const CardView& card,
+                            NastranMaterial& material);
 /// Counts all cards; complains of those that no stage reads, notes those that have no use here.
 void take_stock_of_nastran_cards(NastranModel& model);
 /// Whether a card is a load, read or noted as left out, or one of a name that is not known, which

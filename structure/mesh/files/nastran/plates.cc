@@ -5,9 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "structure/index.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/nastran/model.h"
@@ -145,8 +149,31 @@ struct Plate {
   double mass_of_layers = 0;  ///< kg/m^2
   int material = -1;          ///< of one isotropic material; -1: the laminate says it
   Laminate laminate;
+  LaminateExpansion expansion;
   std::string name;
 };
+
+/// What layers' materials say of their expansion beside the coefficients.
+void note_expansion(const NastranMaterial& material, bool is_first, LaminateExpansion& expansion) {
+  if (expansion.obstacle.empty()) expansion.obstacle = material.obstacle;
+  if (is_first)
+    expansion.reference = material.reference;
+  else if (expansion.obstacle.empty() && material.reference != expansion.reference)
+    expansion.obstacle = "its layers differ in their reference temperature (TREF)";
+}
+
+/// Expansion of a plate whose membrane, coupling and bending stiffness are of materials each.
+LaminateExpansion join_expansions(const std::array<NastranMaterial, 3>& materials,
+                                  const std::array<Eigen::Matrix3d, 3>& stiffnesses) {
+  LaminateExpansion expansion;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const Eigen::Vector3d& strains = materials[i].ply.expansion;
+    expansion.forces[i] = stiffnesses[i] * strains;
+    expansion.energies[static_cast<Eigen::Index>(i)] = strains.dot(expansion.forces[i]);
+    if (i == 0 || !stiffnesses[i].isZero(0)) note_expansion(materials[i], i == 0, expansion);
+  }
+  return expansion;
+}
 
 /// PSHELL PID MID1 T MID2 12I/T3 MID3 TS/T NSM / Z1 Z2 MID4, and in OptiStruct T0 ZOFFS
 Plate read_shell(NastranModel& model, const CardView& card, double own_thickness) {
@@ -192,10 +219,33 @@ Plate read_shell(NastranModel& model, const CardView& card, double own_thickness
   const bool is_rigid = !card.has(5) && bending.is_matrix;
   const Eigen::Vector2d across = is_rigid ? Eigen::Vector2d::Constant(infinity) : shear.ply.shear;
   plate.laminate.shear = (across * shear_ratio * t).asDiagonal();
-  if (card.has(10))
-    plate.laminate.coupling =
-        nastran_plate_material(model, card.label(10, "MID4")).ply.in_plane * t * t;
+  NastranMaterial couple;
+  if (card.has(10)) couple = nastran_plate_material(model, card.label(10, "MID4"));
+  plate.laminate.coupling = couple.ply.in_plane * t * t;
+  plate.expansion =
+      join_expansions({membrane, couple, bending},
+                      {plate.laminate.membrane, plate.laminate.coupling, plate.laminate.bending});
   return plate;
+}
+
+/// The first obstacle that materials have in themselves.
+std::string of_layers(NastranModel& model, const std::vector<long>& numbers) {
+  for (const long number : numbers)
+    if (const NastranMaterial& material = nastran_plate_material(model, number);
+        !material.obstacle.empty())
+      return material.obstacle;
+  return {};
+}
+
+/// Makes a material of the mesh one that refers to another temperature.
+void refer_to(double reference, Deck& deck, int& material) {
+  MaterialExpansion expansion = deck.expansions.of_materials[at(material)];
+  if (expansion.reference == reference) return;
+  expansion.reference = reference;
+  const Material same = deck.mesh.materials[at(material)];
+  material = static_cast<int>(deck.mesh.materials.size());
+  deck.mesh.materials.push_back(same);
+  deck.expansions.set(material, expansion);
 }
 
 /// PCOMP PID Z0 NSM SB FT TREF GE LAM / MID1 T1 THETA1 SOUT1 MID2 ...
@@ -217,7 +267,9 @@ Plate read_layers(NastranModel& model, const CardView& card) {
     numbers.push_back(first ? card.label(i, "material of a layer")
                             : card.label(i, "material of a layer", numbers.back()));
     Ply ply;
-    ply.material = nastran_plate_material(model, numbers.back()).ply;
+    const NastranMaterial& material = nastran_plate_material(model, numbers.back());
+    ply.material = material.ply;
+    note_expansion(material, first, plate.expansion);
     ply.thickness = first || card.has(i + 1) ? card.real(i + 1, "thickness of a layer") * length
                                              : plies.back().thickness;
     ply.angle = card.real(i + 2, "angle of a layer", 0.0) * std::numbers::pi / 180;
@@ -233,9 +285,18 @@ Plate read_layers(NastranModel& model, const CardView& card) {
     plate.mass_of_layers += ply.material.density * ply.thickness;
   }
   plate.laminate = stack(plies);
+  const LaminateExpansion said = plate.expansion;
+  plate.expansion = expansion_of(plies);
+  plate.expansion.reference = card.real(5, "TREF", said.reference);
+  // A reference of the plate's own takes the place of its layers'.
+  plate.expansion.obstacle = card.has(5) ? of_layers(model, numbers) : said.obstacle;
   if (smeared) {
+    const double share = plate.thickness * plate.thickness / 12;
     plate.laminate.coupling.setZero();
-    plate.laminate.bending = plate.laminate.membrane * plate.thickness * plate.thickness / 12;
+    plate.laminate.bending = plate.laminate.membrane * share;
+    plate.expansion.forces[1].setZero();
+    plate.expansion.forces[2] = share * plate.expansion.forces[0];
+    plate.expansion.energies.tail<2>() << 0, share * plate.expansion.energies[0];
   }
   // A number is the place of the lower surface.
   if (card.has(1))
@@ -245,8 +306,10 @@ Plate read_layers(NastranModel& model, const CardView& card) {
                         (length * length) * model.mass_factor;
   const bool one_material = std::all_of(numbers.begin(), numbers.end(),
                                         [&](long number) { return number == numbers.front(); });
-  if (one_material && nastran_plate_material(model, numbers.front()).is_isotropic)
+  if (one_material && nastran_plate_material(model, numbers.front()).is_isotropic) {
     plate.material = nastran_material_place(model, numbers.front());
+    refer_to(plate.expansion.reference, model.deck, plate.material);
+  }
   return plate;
 }
 
@@ -256,6 +319,16 @@ void bound_shear(NastranModel& model, const CardView& card, Plate& plate) {
   const double shear = 5.0 / 6 * plate.laminate.membrane(2, 2);
   plate.laminate.shear = Eigen::Vector2d(shear, shear).asDiagonal();
   model.rigid_plates.add(card.line(), plate.name);
+}
+
+NastranMaterial read_material(NastranModel& model, const CardView& card, long number) {
+  if (card.name() == "MAT1") return read_isotropic(model, card);
+  if (card.name() == "MAT8") return read_orthotropic(model, card);
+  if (card.name() == "MAT2") return read_anisotropic(model, card);
+  if (card.name() == "MAT9") return read_solid_matrix(model, card);
+  if (card.name() == "MAT11") return read_solid_constants(model, card);
+  throw CardError{
+      fmt::format("material {} is a {}, which nothing here can be of", number, card.name())};
 }
 
 int add_section(NastranModel& model, const CardView& card, Plate plate, double offset) {
@@ -279,9 +352,14 @@ int add_section(NastranModel& model, const CardView& card, Plate plate, double o
     check_poisson_ratio(material, plate.name);
     section.material = static_cast<int>(mesh.materials.size());
     mesh.materials.push_back(material);
-    if (!nearest.is_exact()) {
+    const std::optional<double> coefficient =
+        even_coefficient(plate.expansion, nearest, plate.thickness);
+    model.deck.expansions.set(section.material, {coefficient.value_or(0), plate.expansion.reference,
+                                                 plate.expansion.obstacle});
+    if (!nearest.is_exact() || !coefficient) {
       section.laminate = static_cast<int>(mesh.laminates.size());
       mesh.laminates.push_back(plate.laminate);
+      model.deck.expansions.of_laminates.push_back(plate.expansion);
       NastranPlates& layered = model.layered;
       layered.add(card.line(), plate.name);
       layered.membrane_error = std::max(layered.membrane_error, nearest.membrane_error);
@@ -334,13 +412,9 @@ const NastranMaterial& nastran_material(NastranModel& model, long number) {
     throw CardError{fmt::format("material {} does not exist", number)};
   const CardView& card = found->second;
   const NastranMaterial material = at_its_line(model, card, [&] {
-    if (card.name() == "MAT1") return read_isotropic(model, card);
-    if (card.name() == "MAT8") return read_orthotropic(model, card);
-    if (card.name() == "MAT2") return read_anisotropic(model, card);
-    if (card.name() == "MAT9") return read_solid_matrix(model, card);
-    if (card.name() == "MAT11") return read_solid_constants(model, card);
-    throw CardError{
-        fmt::format("material {} is a {}, which nothing here can be of", number, card.name())};
+    NastranMaterial read = read_material(model, card, number);
+    read_nastran_expansion(model, card, read);
+    return read;
   });
   model.log.use(card.name());
   return model.material_read[number] = material;
@@ -364,6 +438,8 @@ int nastran_material_place(NastranModel& model, long number) {
         fmt::format("material {} depends on the direction; an isotropic one is due", number)};
   const auto place = static_cast<int>(model.deck.mesh.materials.size());
   model.deck.mesh.materials.push_back(material.isotropic);
+  model.deck.expansions.set(place, even_expansion(material.expansion, material.reference,
+                                                  material.obstacle, material.isotropic.name));
   return model.material_place[number] = place;
 }
 

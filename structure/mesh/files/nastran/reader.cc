@@ -27,7 +27,8 @@ const std::set<std::string, std::less<>>& cards_read() {
       "MAT9",   "MAT11",  "CPYRAM", "BAROR",   "BEAMOR",  "SPC",     "SPC1",    "SPCADD", "MPC",
       "MPCADD", "FORCE",  "FORCE1", "FORCE2",  "MOMENT",  "MOMENT1", "MOMENT2", "LOAD",   "GRAV",
       "RFORCE", "PLOAD",  "PLOAD1", "PLOAD2",  "PLOAD4",  "INCLUDE", "CHEXA",   "CPENTA", "CTETRA",
-      "PSOLID", "CSHEAR", "PSHEAR", "RSPLINE", "CBUSH1D", "PBUSH1D", "SPCD"};
+      "PSOLID", "CSHEAR", "PSHEAR", "RSPLINE", "CBUSH1D", "PBUSH1D", "SPCD",    "TEMP",   "TEMPD",
+      "TEMPP1", "TEMPRB"};
   return names;
 }
 
@@ -69,12 +70,15 @@ const std::vector<Reason>& reasons() {
         "NLSTEP", "TABLES1", "MATS1",  "SUPORT",  "SUPORT1", "RCROSS",  "ROTORG",  "ROTOR",
         "ROTORD", "RGYRO",   "RSPINR", "RSPINT",  "UNBALNC", "ACSRCE",  "NOLIN1",  "NOLIN2",
         "NOLIN3", "NOLIN4",  "TF",     "TSTEP1",  "NLADAPT", "NLAUTO",  "TABDMP2", "CDAMP1D"}},
-      {"temperatures are not loads of a lift",
-       {"TEMP",   "TEMPD", "TEMPP1",  "TEMPP2", "TEMPP3", "TEMPRB", "TEMPF",  "MATT1",
-        "MAT4",   "MAT5",  "TABLEST", "CHBDYE", "CHBDYG", "CHBDYP", "PCONV",  "CONV",
-        "QBDY1",  "QBDY2", "QBDY3",   "QVOL",   "TEMPN1", "TEMPG",  "TEMPB3", "TEMPP3",
-        "TEMPBC", "RADM",  "RADBC",   "RADSET", "VIEW",   "VIEW3D", "PHBDY",  "PCONVM",
-        "CONVM",  "BDYOR", "TEMPEX",  "QHBDY",  "QVECT",  "RADLST", "RADMTX"},
+      {"temperatures that are not read: cases that ask for these sets are not solved",
+       {"TEMPP2", "TEMPP3", "TEMPF", "TEMPN1", "TEMPG", "TEMPB3", "TEMPBC", "TEMPEX"},
+       true},
+      {"properties at other temperatures: those without a temperature are used",
+       {"MATT1", "TABLEST"}},
+      {"how heat flows has no meaning here",
+       {"MAT4",  "MAT5",   "CHBDYE", "CHBDYG", "CHBDYP", "PCONV",  "CONV",   "QBDY1",
+        "QBDY2", "QBDY3",  "QVOL",   "RADM",   "RADBC",  "RADSET", "VIEW",   "VIEW3D",
+        "PHBDY", "PCONVM", "CONVM",  "BDYOR",  "QHBDY",  "QVECT",  "RADLST", "RADMTX"},
        true},
       {"a load that is not read",
        {"ACCEL", "ACCEL1", "DEFORM", "SLOAD", "PLOADX1", "LSEQ", "PRESAX"},
@@ -199,9 +203,9 @@ void remark_on_surplus_fields(NastranModel& model, const NastranCard& card) {
 }  // namespace
 
 bool may_be_nastran_load(std::string_view name) {
-  static const std::set<std::string_view> loads{"FORCE",   "FORCE1", "FORCE2", "MOMENT", "MOMENT1",
-                                                "MOMENT2", "GRAV",   "RFORCE", "PLOAD",  "PLOAD1",
-                                                "PLOAD2",  "PLOAD4", "SPCD"};
+  static const std::set<std::string_view> loads{
+      "FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "GRAV",   "RFORCE", "PLOAD",
+      "PLOAD1", "PLOAD2", "PLOAD4", "SPCD",   "TEMP",    "TEMPD",   "TEMPP1", "TEMPRB"};
   if (loads.contains(name)) return true;
   if (cards_read().contains(name) || name.starts_with("TABLE")) return false;
   for (const Reason& reason : reasons())
@@ -267,6 +271,7 @@ Deck read_nastran(const std::filesystem::path& path, const UnitSystem& units,
   log.check_left_out(options);
   log.check();
   fasten_used_middles(deck, model.middles);
+  deck.expansions.of_materials.resize(deck.mesh.materials.size());
   log.hand_over(deck);
   return deck;
 }

@@ -21,6 +21,7 @@ namespace blocklift::structure {
 ///   PARAM WTMASS; RBE1, RBE2, RBE3, RBAR, RROD, RTRPLT, RJOINT; MPC that resists no motion of the
 ///   whole, or holds one freedom; CELAS1, CELAS2, CBUSH, CBUSH1D, PELAS, PBUSH,
 ///   PBUSH1D; RSPLINE; CSHEAR with PSHEAR
+/// - TEMP, TEMPD, TEMPP1, TEMPRB, with A and TREF of the materials, by TEMPERATURE of case control
 /// - SPC, SPC1, SPCADD, SPCD, permanent constraints; FORCE and MOMENT with 1 and 2, PLOAD, PLOAD1
 ///   (even, whole length), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
 ///

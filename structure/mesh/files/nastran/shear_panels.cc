@@ -204,6 +204,9 @@ class ShearPanels {
       material.density = 0;
       weightless->second = static_cast<int>(mesh_.materials.size());
       mesh_.materials.push_back(material);
+      model_.deck.expansions.set(
+          weightless->second,
+          {0, 0, "how the edges of shear panels (CSHEAR, F1 and F2) expand is not known"});
     }
     BeamSection section;
     section.name = fmt::format("PSHEAR {}", property.number);

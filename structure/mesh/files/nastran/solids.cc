@@ -95,6 +95,7 @@ class Solids {
   struct SolidProperty {
     int material = -1;
     std::optional<Elasticity> elasticity;
+    ExpansionStrains expansion = ExpansionStrains::Zero();  ///< along the elasticity's axes
     long system = 0;
   };
 
@@ -114,6 +115,7 @@ class Solids {
     SolidProperty of;
     if (material.of_solids) {
       of.elasticity = material.of_solids;
+      of.expansion = material.expansion;
       of.system = card.integer(2, "CORDM", 0);
       if (of.system < 0)
         throw CardError{fmt::format(
@@ -135,7 +137,10 @@ class Solids {
     std::vector<Material>& materials = model_.deck.mesh.materials;
     const auto [found, is_new] =
         directional_places_.try_emplace(number, static_cast<int>(materials.size()));
-    if (is_new) materials.push_back(material.isotropic);
+    if (is_new) {
+      materials.push_back(material.isotropic);
+      model_.deck.expansions.set(found->second, {0, material.reference, material.obstacle});
+    }
     return found->second;
   }
 
@@ -151,6 +156,7 @@ class Solids {
     for (int i = 0; i < corners; ++i)
       centre += model_.place(solid.vertices[i]) / (corners * model_.units.length);
     all.push_back(turned(*of.elasticity, system.axes_at(centre)));
+    model_.deck.expansions.of_elasticities.push_back(turned(of.expansion, system.axes_at(centre)));
     const int place = static_cast<int>(all.size()) - 1;
     if (is_straight) straight_[property] = place;
     return place;

@@ -105,7 +105,14 @@ class NastranText {
     }
   }
 
+  void refuse_temperatures() const {
+    for (const DeckLoadCase& one : deck_.load_cases)
+      if (one.temperatures >= 0)
+        throw ModelError("temperatures of load cases are not written here");
+  }
+
   void write_case_control() {
+    refuse_temperatures();
     out_.line("$ lengths, forces and masses in " + units_.name);
     out_.line("SOL 101");
     out_.line("CEND");
