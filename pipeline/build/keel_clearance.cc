@@ -40,8 +40,7 @@ std::string doubt_about_keel(const std::string& name, const dynamics::Hull& hull
   return fmt::format(
       "Under the keel of {} are {:.3g} m of water, and the panels there are {:.3g} m wide. Panels "
       "wider than the water under them make its added mass in heave, roll and pitch too large, by "
-      "a fifth at four times the depth, and the error that is estimated of panels does not show "
-      "it: take panels of {:.3g} m or less.",
+      "a fifth at four times the depth: take panels of {:.3g} m or less.",
       name, widest->clearance, widest->size, widest->clearance);
 }
 

@@ -20,12 +20,11 @@ using Eigen::VectorXd;
 constexpr double tapered_fraction = 0.4;
 constexpr Eigen::Index instants_together = 32;
 
-/// Where the taper of a run of so many steps begins.
+/// Where the taper of a run of so many steps begins, if it is as long as was planned.
 double taper_begin(long steps) { return (1.0 - tapered_fraction) * static_cast<double>(steps); }
 
-/// 1 over the first part of the run, then half a cosine down to 0 at its end.
-double taper(long step, long steps) {
-  const double begin = taper_begin(steps);
+/// 1 over the first part of the run, then half a cosine from `begin` down to 0 at its end.
+double taper(long step, long steps, double begin) {
   const double fraction =
       (static_cast<double>(step) - begin) / (static_cast<double>(steps) - begin);
   return fraction <= 0.0 ? 1.0 : 0.5 * (1.0 + std::cos(std::numbers::pi * std::min(1.0, fraction)));
@@ -61,6 +60,12 @@ std::complex<double> ImpulseRun::wave(std::size_t frequency, long step) const {
   return std::polar(1.0, -angle * static_cast<double>(step));
 }
 
+// What a run went through before it went on has been added to the integrals of the elevation in
+// full: the taper of one that is three times as long or longer begins behind it.
+double ImpulseRun::fade(long step) const {
+  return taper(step, steps_, std::max(taper_begin(steps_), static_cast<double>(gone_)));
+}
+
 void ImpulseRun::accumulate(long step) {
   if (elevation_.size() == 0) return;
   const auto count = static_cast<Eigen::Index>(frequencies_.size());
@@ -70,7 +75,7 @@ void ImpulseRun::accumulate(long step) {
     whole_weights_(waiting_, count + k) = factor.imag();
   }
   whole_weights_.row(waiting_) *= weight(step);
-  weights_.row(waiting_) = taper(step, steps_) * whole_weights_.row(waiting_);
+  weights_.row(waiting_) = fade(step) * whole_weights_.row(waiting_);
   instants_.col(waiting_) = march_.elevation().reshaped();
   if (++waiting_ == instants_together) add_instants();
 }
@@ -98,6 +103,7 @@ void ImpulseRun::go_on(long steps) {
   add_instants();
   elevation_.swap(whole_elevation_);
   whole_elevation_.resize(0, 0);
+  gone_ = steps_;
   steps_ += steps;
 }
 
@@ -109,6 +115,7 @@ void ImpulseRun::end() {
 void ImpulseRun::start(double step, long steps) {
   step_ = step;
   steps_ = steps;
+  gone_ = 0;
   forces_.clear();
   elevation_.setZero();
   whole_elevation_.resize(0, 0);
@@ -128,7 +135,7 @@ long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,
   for (long k = 0;; ++k) {
     const bool may_go_on = steps_ < length.most * length.steps;
     for (ImpulseRun* run : runs) {
-      if (may_go_on && taper(k, steps_) < 1.0) run->keep_whole();
+      if (may_go_on && run->fade(k) < 1.0) run->keep_whole();
       run->keep_force();
       run->accumulate(k);
     }
@@ -149,23 +156,25 @@ long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,
 }
 
 MatrixXd ImpulseRun::retardation(long step) const {
-  return part_.image_count() * taper(step, steps_) * forces_[static_cast<std::size_t>(step)];
+  return part_.image_count() * fade(step) * forces_[static_cast<std::size_t>(step)];
 }
 
 double ImpulseRun::weight(long step) const { return (step == 0 ? 0.5 : 1.0) * step_; }
 
-std::vector<MatrixXcd> ImpulseRun::integrate(long steps) const {
+std::vector<MatrixXcd> ImpulseRun::integrate(long steps,
+                                             const std::function<double(long)>& taper_of) const {
   const Eigen::Index modes = part_.surface_columns().cols();
   std::vector<MatrixXcd> integrals(frequencies_.size(), MatrixXcd::Zero(modes, modes));
   for (long n = 0; n <= steps; ++n) {
-    const MatrixXd force = weight(n) * taper(n, steps) * forces_[static_cast<std::size_t>(n)];
+    const MatrixXd force = weight(n) * taper_of(n) * forces_[static_cast<std::size_t>(n)];
     for (std::size_t k = 0; k < integrals.size(); ++k) integrals[k] += wave(k, n) * force;
   }
   return integrals;
 }
 
 MatrixXd ImpulseRun::change_from(long steps) const {
-  const std::vector<MatrixXcd> shorter = integrate(steps);
+  const std::vector<MatrixXcd> shorter =
+      integrate(steps, [&](long n) { return taper(n, steps, taper_begin(steps)); });
   MatrixXd changes(part_.surface_columns().cols(), static_cast<Eigen::Index>(shorter.size()));
   for (std::size_t k = 0; k < shorter.size(); ++k) {
     changes.col(static_cast<Eigen::Index>(k)) =
@@ -176,7 +185,7 @@ MatrixXd ImpulseRun::change_from(long steps) const {
 
 void ImpulseRun::integrate_force(long steps) {
   steps_ = steps;
-  force_ = integrate(steps);
+  force_ = integrate(steps, [this](long n) { return fade(n); });
   estimate_cut();
 }
 

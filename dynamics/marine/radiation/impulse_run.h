@@ -24,7 +24,8 @@ struct RunLength {
 /// What the water answers to an impulse of each mode of one part: its surface marched from the
 /// elevation that the impulse leaves, and the Fourier integrals of that.
 ///
-/// The last 40 % of the run are tapered. The integrals take the march's own dispersion into
+/// The last 40 % of the run are tapered; of one that went on more than once, what it went on by the
+/// last time. The integrals take the march's own dispersion into
 /// account, w_d = (2/dt) asin(w dt/2), so that they carry no error of the time step but in the
 /// damping zone. The part must outlive the run.
 class ImpulseRun {
@@ -80,8 +81,11 @@ class ImpulseRun {
   std::complex<double> wave(std::size_t frequency, long step) const;
   /// Of an instant in the integrals without a taper, by the trapezoidal rule, s.
   double weight(long step) const;
+  /// By how much a step counts in the taper of the whole run.
+  double fade(long step) const;
   /// The force's integrals, one for each frequency, of a run that ends after so many of the steps.
-  std::vector<Eigen::MatrixXcd> integrate(long steps) const;
+  std::vector<Eigen::MatrixXcd> integrate(long steps,
+                                          const std::function<double(long)>& taper_of) const;
   /// What the integrals change by from a shorter run's, as cut_off().
   Eigen::MatrixXd change_from(long steps) const;
   void estimate_cut();
@@ -96,6 +100,7 @@ class ImpulseRun {
   FreeSurfaceMarch march_;
   double step_ = not_a_number;
   long steps_ = 0;
+  long gone_ = 0;  ///< steps of the run that was to be the whole before it went on
   std::vector<Eigen::MatrixXd> forces_;  ///< at each step, without taper and images
   std::vector<Eigen::MatrixXcd> force_;  ///< their integrals times e^{-i w t}, over steps_
   Eigen::MatrixXd cut_off_;

@@ -1,6 +1,8 @@
 #include "dynamics/marine/panels/rankine_problem.h"
 
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -219,6 +221,67 @@ TEST(RankineProblem, MemoryCountsTheCoarserSolution) {
   const int coarser_bodies = cluster_panels(model.body_mesh()).count;
   EXPECT_GT(with, without + rankine_part_bytes(coarser_bodies, 0, false));
   EXPECT_LT(with, 2.0 * without);
+}
+
+/// A box of 40 x 16 m that draws 4 m, in even panels.
+PanelModel make_even_box(int length, int breadth, int draught, double depth) {
+  const std::vector<WettedBody> bodies{
+      {"box",
+       make_box_hull(40.0, 16.0, 4.0,
+                     {.length = length, .breadth = breadth, .draught = draught, .grading = 1.0}),
+       Vector3::Zero()}};
+  const auto lines = find_water_lines(bodies);
+  return {bodies,
+          make_surface_mesh(lines, surface_settings(lines, 30.0, 60.0)),
+          {1000.0, 9.80665, depth},
+          {true, true}};
+}
+
+// Panels of 2 m taken together are what panels of 4 m are: at infinite frequency the added mass of
+// heave, surge and pitch changes as much, to a quarter. With equations in the mean over the clusters
+// heave changed by half of that. So it is where the bottom's image is nearer than a panel is wide.
+class ClustersOfABox : public ::testing::TestWithParam<double> {};
+
+TEST_P(ClustersOfABox, AreAMeshOfTwiceTheSize) {
+  const PanelModel fine = make_even_box(20, 8, 2, GetParam());
+  const PanelModel coarse = make_even_box(10, 4, 1, GetParam());
+  RankineSettings settings;
+  settings.coarser = std::make_shared<const CoarserPanels>(
+      CoarserPanels{cluster_panels(fine.body_mesh()), cluster_panels(fine.surface_mesh())});
+  EXPECT_EQ(settings.coarser->bodies.count, coarse.body_mesh().size());
+  EXPECT_EQ(find_flat_clusters(fine.body_mesh(), settings.coarser->bodies).clusters.size(),
+            static_cast<std::size_t>(coarse.body_mesh().size()));
+  for (const Parity& parity : {Parity{1, 1}, Parity{-1, 1}}) {
+    const RankinePart part(fine, parity, settings), of_coarse(coarse, parity);
+    const Eigen::VectorXd mass = part.infinite_frequency_volume().diagonal();
+    const Eigen::VectorXd changed = part.coarser()->infinite_frequency_volume().diagonal() - mass;
+    const Eigen::VectorXd expected = of_coarse.infinite_frequency_volume().diagonal() - mass;
+    for (Eigen::Index m = 0; m < mass.size(); ++m) {
+      EXPECT_GT(expected[m], 0.03 * mass[m]) << m;
+      EXPECT_NEAR(changed[m], expected[m], 0.25 * expected[m]) << m;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Depths, ClustersOfABox,
+                         ::testing::Values(std::numeric_limits<double>::infinity(), 4.05));
+
+// Four panels in each cluster: the change is the error at first order. Of three and of none it is
+// more, and not known.
+TEST(PanelClusters, ErrorIsTheChangeAtFirstOrder) {
+  const Eigen::VectorXd change = Eigen::VectorXd::Constant(6, 0.1);
+  const PanelClusters fours{{0, 0, 0, 0, 1, 1, 1, 1}, 2}, threes{{0, 0, 0, 1, 1, 1}, 2};
+  EXPECT_NEAR(error_of_panels(change, fours)[0], 0.1, 1e-12);
+  EXPECT_NEAR(error_of_panels(change, threes)[5], 0.1 / (std::sqrt(3.0) - 1.0), 1e-12);
+  EXPECT_TRUE(std::isinf(error_of_panels(change, {{0, 1, 2}, 3})[0]));
+}
+
+// On a curved hull the middle of a cluster lies within it: equations stay in the mean there.
+TEST(PanelClusters, OfASphereAreNotFlat) {
+  const PanelModel sphere = make_sphere_model({true, true});
+  const FlatClusters flat =
+      find_flat_clusters(sphere.body_mesh(), cluster_panels(sphere.body_mesh()));
+  EXPECT_TRUE(flat.clusters.empty());
 }
 
 /// A cylinder of radius 1 m and draught 0.5 m, its surface meshed for 1 to 4 rad/s.
