@@ -44,7 +44,8 @@ TEST(Quantile, SaysWhereTheSampleIsTooSmall) {
 // By n independent values the largest lies beyond the quantile p with the probability 1 - p^n: 97.5 %
 // from 72 on for 95 %, from 368 on for 99 %, from 6 on for the median (David and Nagaraja 2003, 7.1).
 TEST(Quantile, HasBothEndsFromAKnownNumberOn) {
-  for (const auto& [share, fewest] : {std::pair{0.5, 6}, {0.95, 72}, {0.99, 368}}) {
+  for (const auto& [share, fewest] :
+       {std::pair{0.5, 6}, std::pair{0.95, 72}, std::pair{0.99, 368}}) {
     EXPECT_EQ(fewest_for_interval(share), fewest);
     std::vector<double> values(static_cast<std::size_t>(fewest));
     std::iota(values.begin(), values.end(), 1.0);

@@ -209,7 +209,7 @@ TEST(StudyDesign, BaseMembersWithAFailedLiftAreLeftOut) {
       study_of(StudyDesign::sensitivity, members, {uniform_length(0, 1), uniform_length(0, 1)});
   const Eigen::MatrixXd design = make_design(study);
   const auto figure_of = [](const Eigen::MatrixXd& of) {
-    return Eigen::VectorXd(of.col(0).array().square() + of.col(1).array() * of.col(0).array());
+    return Eigen::VectorXd(of.col(0).cwiseProduct(of.col(0) + of.col(1)));
   };
   Eigen::VectorXd figure = figure_of(design);
   // One lift of base member 3 and all of member 7.
