@@ -79,6 +79,24 @@ bool is_of_bars_alone(const Mesh& mesh, int material) {
                       [&](const Solid& solid) { return solid.material == material; });
 }
 
+/// Whether no corner of a quadrangle is wider than 180 degrees, seen along the normal of its
+/// diagonals. Where one is, the map from the unit square folds: area, mass and stiffness of the
+/// folded part count twice.
+bool bulges_everywhere(const Mesh& mesh, const Shell& shell) {
+  if (shell.is_triangle()) return true;
+  constexpr std::array<std::size_t, 4> ring = {0, 1, 3, 2};
+  const auto place = [&](std::size_t i) -> const Vector3& {
+    return mesh.vertices[shell.vertices[ring[i % 4]]];
+  };
+  const Vector3 normal = (place(2) - place(0)).cross(place(3) - place(1)).normalized();
+  const double size = longest_edge(mesh, shell);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector3 corner = (place(i + 1) - place(i)).cross(place(i + 3) - place(i));
+    if (corner.dot(normal) < -1e-6 * size * size) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<int> vertices_of(const RigidLink& link) {
@@ -258,6 +276,8 @@ void check_mesh(const Mesh& mesh) {
     const double size = longest_edge(mesh, shell);
     require(area > 1e-8 * size * size, "shell", shell.label,
             "has no area, or its corners are not in turn about it");
+    require(bulges_everywhere(mesh, shell), "shell", shell.label,
+            "has a corner that points inwards, where it lies on itself: divide it otherwise");
   }
   for (const Beam& beam : mesh.beams) {
     require(exists(beam.vertices[0]) && exists(beam.vertices[1]), "beam", beam.label,

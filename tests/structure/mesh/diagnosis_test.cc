@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "structure/error.h"
+
 namespace blocklift::structure {
 namespace {
 
@@ -44,6 +46,23 @@ Beam beam(int from, int to, const Vector3& axis_2 = Vector3::UnitZ()) {
   one.axis_2 = axis_2;
   one.label = 100;
   return one;
+}
+
+// Corners in turn: 1, 2, 4, 3. The last but one moves from the outer side of the line between its
+// neighbours to the inner one.
+TEST(CheckOfMesh, RefusesAQuadrangleWithACornerThatPointsInwards) {
+  Mesh mesh = plate(1, 1);
+  EXPECT_NO_THROW(check_mesh(mesh));
+  mesh.vertices[3] = {0.5, 0.5, 0};  // on the line
+  EXPECT_NO_THROW(check_mesh(mesh));
+  mesh.vertices[3] = {0.4, 0.4, 0};
+  EXPECT_THROW(check_mesh(mesh), ModelError);
+  // A plate that is folded about its diagonal is warped, and bulges all the same.
+  mesh.vertices[3] = {0.5, 0.5, 0.7};
+  EXPECT_NO_THROW(check_mesh(mesh));
+  // Triangles have one corner twice.
+  mesh.shells[0].vertices = {0, 1, 2, 2};
+  EXPECT_NO_THROW(check_mesh(mesh));
 }
 
 TEST(Diagnosis, ASoundPlate) {
