@@ -64,7 +64,7 @@ Format<HookBlockModel> hook_block_format() {
       .by_default("wind_coefficient", &HookBlockModel::wind_coefficient,
                   number(Range::not_negative()), "1.2", "of wind pressure")
       .by_default("size", &HookBlockModel::size, size_format(), "[1 m, 1 m, 2 m]",
-                  "of the box in the drawing")
+                  "of its box, in the drawing and for clearances")
       .optional("turning", &HookBlockModel::turning, turning_block_format(),
                 "that it turns about the vertical; it keeps its direction if left out")
       .rule([](const HookBlockModel& block, Reading& reading, const Mark&) {

@@ -327,7 +327,8 @@ void check_pad(const BlockModel& block, const PadModel& pad, Reading& reading) {
   }
   const PlateModel* plate = look_up(pad.plate, block.plates, user, "plate", reading);
   if (!plate) return;
-  if (pad.thickness <= plate->thickness) {
+  // As thick as its plate it is a place for a lug that stands on plain plating.
+  if (pad.thickness < plate->thickness - 1e-9) {
     reading.error(pad.name.mark,
                   fmt::format("{} is {:.6g} m thick, its plate {} already {:.6g} m", user,
                               pad.thickness, plate->name.value, plate->thickness),

@@ -277,7 +277,7 @@ Format<PadModel> axis_pad_format() {
                 "position of the plate's mid-plane");
   extent_keys(table)
       .required("thickness", &PadModel::thickness, quantity(Dimension::length, Range::positive()),
-                "in total, the plate included")
+                "in total, the plate included; as thick as it where a lug stands on plain plating")
       .optional("material", &PadModel::material, reference(), "that of the plate if left out")
       .rule([](const Written<PadModel>& pad, Reading& reading, const Mark& mark) {
         check_rectangle(pad, block_axes, reading, mark);
@@ -293,7 +293,7 @@ Format<PadModel> free_pad_format() {
       .required("u", &Written<PadModel>::x, extent_format(), "lower and upper end")
       .required("v", &Written<PadModel>::y, extent_format(), "lower and upper end")
       .required("thickness", &PadModel::thickness, quantity(Dimension::length, Range::positive()),
-                "in total, the plate included")
+                "in total, the plate included; as thick as it where a lug stands on plain plating")
       .optional("material", &PadModel::material, reference(), "that of the plate if left out");
   return converted<PadModel, PadModel>(taken(table), [](PadModel pad) {
     pad.is_in_plate_frame = true;

@@ -460,6 +460,19 @@ TEST(LiftCaseErrors, BlockWhosePartsDoNotFit) {
       "5 errors\n");
 }
 
+// One as thick as its plate is where a lug stands on plain plating.
+TEST(LiftCaseErrors, PadThinnerThanItsPlate) {
+  const std::string pad =
+      "left_pad: {plate: webs, normal: x, at: 0 m, y: [-0.5 m, 0.5 m], z: [0.5 m, 1 m], "
+      "thickness: ";
+  SampleLift lift;
+  lift.block = with(lift.block, pad + "30 mm", pad + "10 mm");
+  EXPECT_EQ(complaints_about(lift), "");
+  lift.block = with(lift.block, pad + "10 mm", pad + "9 mm");
+  EXPECT_THAT(complaints_about(lift),
+              HasSubstr("pad left_pad is 0.009 m thick, its plate webs already 0.01 m"));
+}
+
 TEST(LiftCaseErrors, PadeyesThatCannotBeMade) {
   SampleLift lift;
   lift.block = with(lift.block, "lugs:\n",
