@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -219,6 +220,40 @@ class BemioFile {
     }
     read_force(b, group + "froude-krylov/", database_.froude_krylov);
     read_force(b, group + "scattering/", database_.diffraction);
+    if (file_.has(group + "re")) hold_against_whole(b, group);
+  }
+
+  /// Programs that do not divide the excitation leave its parts zero: the whole is taken then.
+  void hold_against_whole(std::size_t b, const std::string& group) {
+    constexpr double largest_difference = 0.02;
+    const auto first = static_cast<Eigen::Index>(modes_per_body * b);
+    std::vector<MatrixXcd> whole(
+        database_.frequencies.size(),
+        MatrixXcd::Zero(database_.mode_count(), database_.headings.size()));
+    read_force(b, group, whole);
+    double parts = 0.0;
+    std::array<double, 2> largest{}, difference{};  // of displacements and rotations
+    for (std::size_t k = 0; k < whole.size(); ++k) {
+      for (std::size_t kind = 0; kind < 2; ++kind) {
+        const Eigen::Index row = first + 3 * static_cast<Eigen::Index>(kind);
+        const MatrixXcd given = whole[k].middleRows<3>(row);
+        const MatrixXcd rest = given - database_.froude_krylov[k].middleRows<3>(row) -
+                               database_.diffraction[k].middleRows<3>(row);
+        largest[kind] = std::max(largest[kind], given.cwiseAbs().maxCoeff());
+        difference[kind] = std::max(difference[kind], rest.cwiseAbs().maxCoeff());
+      }
+      parts =
+          std::max({parts, database_.froude_krylov[k].middleRows<6>(first).cwiseAbs().maxCoeff(),
+                    database_.diffraction[k].middleRows<6>(first).cwiseAbs().maxCoeff()});
+    }
+    if (parts == 0.0) return read_force(b, group, database_.diffraction);
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      if (!(difference[kind] > largest_difference * largest[kind])) continue;
+      fail(fmt::format(
+          "the parts of \"{}\", froude-krylov and scattering, add up to {} that are "
+          "{:.3g} % of the largest off the whole, re and im",
+          group, kind == 0 ? "forces" : "moments", 100.0 * difference[kind] / largest[kind]));
+    }
   }
 
   /// By the method that all bodies have: that of a control surface or of the pressure tells bodies

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <complex>
 #include <fstream>
@@ -96,6 +97,14 @@ class TextFile {
     fail(line.number, fmt::format("{} numbers where {} are due", line.values.size(), what));
   }
 
+  /// A line that comes again, as of two runs in one file, must say the same.
+  template <class Value>
+  void take(const Line& line, bool is_new, Value& place, const Value& value) const {
+    if (!is_new && std::abs(value - place) > 1e-6 * std::abs(place))
+      fail(line.number, "comes a second time, with other figures");
+    place = value;
+  }
+
   /// Mode from its number in the file.
   Eigen::Index mode(const Line& line, std::size_t column) const {
     const double number = line.values[column];
@@ -106,7 +115,15 @@ class TextFile {
   }
 
  private:
-  static std::optional<double> parse(const std::string& word) {
+  /// Fortran writes 1.0D-05 of double precision, and leaves the letter out before three digits,
+  /// 1.0-105.
+  static std::optional<double> parse(std::string word) {
+    const std::size_t exponent = word.find_first_of("dD");
+    if (exponent != std::string::npos) word[exponent] = 'E';
+    const std::size_t sign = word.find_last_of("+-");
+    if (sign != std::string::npos && sign > 0 && word.size() == sign + 4 &&
+        (word[sign - 1] == '.' || std::isdigit(static_cast<unsigned char>(word[sign - 1])) != 0))
+      word.insert(sign, 1, 'E');
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
     if (end == word.c_str() || *end != '\0') return std::nullopt;
@@ -246,15 +263,16 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
       if (database.infinite_added_mass.size() == 0) {
         database.infinite_added_mass = MatrixXd::Zero(modes, modes);
       }
-      database.infinite_added_mass(i, j) = scale * line.values[3];
-      infinite.emplace(i, j);
+      file.take(line, infinite.emplace(i, j).second, database.infinite_added_mass(i, j),
+                scale * line.values[3]);
       continue;
     }
     file.require_columns(line, 5, "period, two modes, added mass and damping");
     const std::size_t k = periods.index.at(period);
-    database.added_mass[k](i, j) = scale * line.values[3];
-    database.damping[k](i, j) = scale * database.frequencies[k] * line.values[4];
-    entries[k].emplace(i, j);
+    const bool is_new = entries[k].emplace(i, j).second;
+    file.take(line, is_new, database.added_mass[k](i, j), scale * line.values[3]);
+    file.take(line, is_new, database.damping[k](i, j),
+              scale * database.frequencies[k] * line.values[4]);
   }
   require_all_pairs(path, entries, infinite, database);
   std::set<Eigen::Index> radiating;
@@ -299,9 +317,9 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
       file.fail(line.number, "a mode that the .1 file does not have");
     const double scale = excitation_scale(scales.water, scales.length, i);
     const std::size_t h = headings.at(line.values[1]);
-    database.diffraction[period->second](i, static_cast<Eigen::Index>(h)) = {
-        scale * line.values[5], scale * line.values[6]};
-    found[{period->second, h}].insert(i);
+    file.take(line, found[{period->second, h}].insert(i).second,
+              database.diffraction[period->second](i, static_cast<Eigen::Index>(h)),
+              scale * std::complex<double>(line.values[5], line.values[6]));
   }
   if (found.size() < database.frequencies.size() * headings.size()) {
     throw HydrodynamicFileError(
@@ -393,9 +411,8 @@ void read_stiffness(const fs::path& path, const WamitScales& scales,
     file.require_columns(line, 3, "two modes and a stiffness");
     const Eigen::Index i = file.mode(line, 0), j = file.mode(line, 1);
     if (i >= modes || j >= modes) file.fail(line.number, "a mode that the .1 file does not have");
-    database.hydrostatic_stiffness(i, j) =
-        stiffness_scale(scales.water, scales.length, i, j) * line.values[2];
-    found.emplace(i, j);
+    file.take(line, found.emplace(i, j).second, database.hydrostatic_stiffness(i, j),
+              stiffness_scale(scales.water, scales.length, i, j) * line.values[2]);
   }
   // Between bodies there is none, and a file may leave it out.
   for (Eigen::Index i = 0; i < modes; ++i) {

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "pipeline/formats/hdf5_handle.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "tests/pipeline/formats/hydrodynamics/sample_database.h"
@@ -64,6 +66,89 @@ TEST(Wamit, RefusesCutStiffness) {
               HasSubstr("pair.hst: no stiffness of the modes 1 and 2: all 36 of a body are due"));
   own.erase(own.rfind('\n', own.size() - 2) + 1);
   EXPECT_THAT(message_with(own), HasSubstr("pair.hst: no stiffness of the modes 12 and 12"));
+}
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Two runs in one file: the second one's figures would stand in place of the first one's.
+TEST(Wamit, RefusesLinesThatContradictOthers) {
+  const test::TemporaryFolder folder;
+  const HydrodynamicDatabase database = pair_in_water_line();
+  const auto message_with = [&](const std::string& file, const std::string& line) {
+    write_wamit("pair", database);
+    folder.write(file, text_of(file) + line + "\n");
+    return refusal_of([&] { read_wamit("pair", scales_of_pair(database)); });
+  };
+  write_wamit("pair", database);
+  const std::string lines = text_of("pair.1");
+  const std::string last = lines.substr(lines.rfind('\n', lines.size() - 2) + 1);
+  const std::string again = "comes a second time, with other figures";
+  EXPECT_EQ(message_with("pair.1", last), "");
+  EXPECT_THAT(message_with("pair.1", "0 1 1 7e9"), AllOf(HasSubstr("pair.1:"), HasSubstr(again)));
+  EXPECT_THAT(message_with("pair.1", last.substr(0, 36) + " 7e9 7e9"), HasSubstr(again));
+  EXPECT_THAT(message_with("pair.hst", "3 3 7e9"), HasSubstr(again));
+}
+
+TEST(Wamit, TakesFortransNumbers) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = pair_in_water_line();
+  database.damping[1](0, 1) = database.damping[1](1, 0) = 0.0;
+  write_wamit("pair", database);
+  const auto read = [&] { return read_wamit("pair", scales_of_pair(database)); };
+  const HydrodynamicDatabase found = read();
+  std::string text = text_of("pair.1");
+  std::replace(text.begin(), text.end(), 'E', 'D');
+  // As 1.0E-120 is written where the exponent has two places. The period of a line stays.
+  const std::string none = " 0.0000000000000000D+00";
+  int replaced = 0;
+  for (std::size_t at = text.find(none, 1); at != std::string::npos; at = text.find(none, at + 1)) {
+    if (text[at - 1] == '\n') continue;
+    text.replace(at, none.size(), " 1.0000000000000000-120");
+    ++replaced;
+  }
+  ASSERT_GT(replaced, 0);
+  folder.write("pair.1", text);
+  const HydrodynamicDatabase again = read();
+  EXPECT_EQ(again.added_mass, found.added_mass);
+  EXPECT_NEAR(again.damping[1](0, 1), 0.0, 1e-100);
+  EXPECT_EQ(again.damping[1](2, 2), found.damping[1](2, 2));
+}
+
+/// Copies the whole excitation of a file's bodies to another's.
+void copy_whole_excitation(const char* from, const char* to) {
+  const hdf5::Handle source(H5Fopen(from, H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const hdf5::Handle target(H5Fopen(to, H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+  for (const std::string body : {"/body1", "/body2"}) {
+    for (const std::string part : {"re", "im"}) {
+      const std::string name = body + "/hydro_coeffs/excitation/" + part;
+      H5Ldelete(target.get(), name.c_str(), H5P_DEFAULT);
+      H5Ocopy(source.get(), name.c_str(), target.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    }
+  }
+}
+
+// Programs that do not divide the excitation leave its parts zero: no waves would act on the body.
+TEST(Bemio, HoldsPartsOfTheExcitationAgainstTheWhole) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = make_sample_database();
+  write_bemio("whole.h5", database);
+  const Eigen::MatrixXcd whole = read_bemio("whole.h5").excitation(1);
+  for (Eigen::MatrixXcd& force : database.froude_krylov) force *= 1.1;
+  write_bemio("other.h5", database);
+  copy_whole_excitation("whole.h5", "other.h5");
+  EXPECT_THAT(refusal_of([] { read_bemio("other.h5"); }),
+              AllOf(HasSubstr("the parts of \"/body1/hydro_coeffs/excitation/\""),
+                    HasSubstr("% of the largest off the whole, re and im")));
+  for (auto* parts : {&database.froude_krylov, &database.diffraction})
+    for (Eigen::MatrixXcd& force : *parts) force.setZero();
+  write_bemio("zero.h5", database);
+  copy_whole_excitation("whole.h5", "zero.h5");
+  const HydrodynamicDatabase found = read_bemio("zero.h5");
+  EXPECT_LT((found.diffraction[1] - whole).norm(), 1e-12 * whole.norm());
+  EXPECT_TRUE(found.froude_krylov[1].isZero(0.0));
 }
 
 // Gaps make added mass negative at some frequencies, waves damping nowhere.
