@@ -85,6 +85,7 @@ class LiftBuilder {
             moves ? std::optional(system(true)) : std::nullopt,
             marched_,
             water ? marine_.arrangement(place()) : dynamics::Arrangement{},
+            {},
             std::nullopt,
             held_heading};
   }
