@@ -12,7 +12,9 @@
 #include "parallel/threads.h"
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
+#include "structure/mesh/fields.h"
 #include "structure/stress/block_field.h"
+#include "structure/stress/square_about.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::pipeline {
@@ -263,30 +265,82 @@ int nearest_point(const structure::StressPoints& points, const Vector3& place) {
   return nearest;
 }
 
-// The nearest square; of a block without squares the nearest end of a bar or corner of a solid.
-StressHistory follow(const structure::UnitResponses& responses,
-                     const structure::StressRecovery& recovery, const FollowedPoint& point,
-                     const HistoryAssessment& history) {
-  const structure::CheckedStress& checked = recovery.checked();
-  if (checked.squares().empty()) {
-    const structure::StressPoints& points = recovery.points();
-    const int p = nearest_point(points, point.point_B);
-    StressHistory result;
-    result.name = point.name;
-    result.point_B = points.place(p);
-    result.part = responses.model().mesh().regions[points.region(p)].name;
-    fill_in(points.stresses(p, 1, responses.displacements()), nullptr, history,
-            history.stress_concentration, history.curve, result);
-    return result;
-  }
-  const int p = nearest_square(checked, point.point_B);
-  const structure::Square& square = checked.squares()[p];
+std::vector<FollowedPoint> default_points(const HistoryState& state) {
+  std::vector<FollowedPoint> points{{"hot spot", state.checked_von_mises.at.point_B}};
+  for (const HistoryGroup& lug : state.lugs)
+    if (lug.checked_von_mises.at.instant >= 0)
+      points.push_back({lug.name, lug.checked_von_mises.at.point_B});
+  return points;
+}
+
+// The stress in time of one square.
+StressHistory follow_square(const structure::UnitResponses& responses,
+                            const structure::CheckedStress& checked, int number,
+                            const std::string& name, const HistoryAssessment& history) {
+  const structure::Square& square = checked.squares()[number];
   StressHistory result;
-  result.name = point.name;
+  result.name = name;
   result.point_B = square.centre_B;
   result.part = responses.model().mesh().regions[square.region].name;
-  fill_in(structure::unit_stress_of_square(checked, p), nullptr, history,
+  fill_in(structure::unit_stress_of_square(checked, number), nullptr, history,
           history.stress_concentration, history.curve, result);
+  return result;
+}
+
+// Squares about chosen points; those that are checked lie up to half a metre apart in the middle of
+// a plate. One of these is taken where it is as near.
+std::vector<structure::Square> squares_about(const structure::Mesh& mesh,
+                                             const structure::CheckedStress& checked,
+                                             const std::vector<FollowedPoint>& points) {
+  const structure::PlateFields fields = structure::find_fields(mesh);
+  const structure::FieldWalker walker(mesh, fields);
+  std::vector<structure::Square> squares;
+  for (const FollowedPoint& point : points) {
+    structure::Square square = checked.squares()[nearest_square(checked, point.point_B)];
+    const auto about = structure::square_about(mesh, fields, walker, point.point_B, square.size);
+    if (about &&
+        (about->centre_B - point.point_B).norm() < (square.centre_B - point.point_B).norm())
+      square = *about;
+    squares.push_back(square);
+  }
+  return squares;
+}
+
+// Of a block without squares the nearest end of a bar or corner of a solid.
+StressHistory follow_corner(const structure::UnitResponses& responses,
+                            const structure::StressPoints& points, const FollowedPoint& point,
+                            const HistoryAssessment& history) {
+  const int p = nearest_point(points, point.point_B);
+  StressHistory result;
+  result.name = point.name;
+  result.point_B = points.place(p);
+  result.part = responses.model().mesh().regions[points.region(p)].name;
+  fill_in(points.stresses(p, 1, responses.displacements()), nullptr, history,
+          history.stress_concentration, history.curve, result);
+  return result;
+}
+
+std::vector<StressHistory> follow(const structure::UnitResponses& responses,
+                                  const structure::StressRecovery& recovery,
+                                  const std::vector<FollowedPoint>& chosen,
+                                  const HistoryAssessment& history) {
+  const structure::CheckedStress& checked = recovery.checked();
+  std::vector<StressHistory> result;
+  if (checked.squares().empty()) {
+    for (const FollowedPoint& point :
+         chosen.empty() ? default_points(history.dynamic_state) : chosen)
+      result.push_back(follow_corner(responses, recovery.points(), point, history));
+  } else if (chosen.empty()) {
+    for (const FollowedPoint& point : default_points(history.dynamic_state))
+      result.push_back(follow_square(responses, checked, nearest_square(checked, point.point_B),
+                                     point.name, history));
+  } else {
+    const structure::CheckedStress about(responses.model(), responses.displacements(),
+                                         squares_about(responses.model().mesh(), checked, chosen));
+    for (std::size_t p = 0; p < chosen.size(); ++p)
+      result.push_back(
+          follow_square(responses, about, static_cast<int>(p), chosen[p].name, history));
+  }
   return result;
 }
 
@@ -313,14 +367,6 @@ StressHistory follow(const structure::UnitResponses& responses, const FollowedHo
   fill_in(structure::hot_spot_stress(unit[0], unit[1]), &followed.spot.direction, history, 1,
           history.hot_spot_curve, result);
   return result;
-}
-
-std::vector<FollowedPoint> default_points(const HistoryState& state) {
-  std::vector<FollowedPoint> points{{"hot spot", state.checked_von_mises.at.point_B}};
-  for (const HistoryGroup& lug : state.lugs)
-    if (lug.checked_von_mises.at.instant >= 0)
-      points.push_back({lug.name, lug.checked_von_mises.at.point_B});
-  return points;
 }
 
 void compare_practices(const structure::UnitResponses& responses,
@@ -394,10 +440,7 @@ HistoryAssessment assess_history(const structure::UnitResponses& responses,
   result.weights = structure::response_weights(responses, recovery);
   compare_practices(responses, checked, block, result);
 
-  const std::vector<FollowedPoint> points =
-      settings.points.empty() ? default_points(result.dynamic_state) : settings.points;
-  for (const FollowedPoint& point : points)
-    result.points.push_back(follow(responses, recovery, point, result));
+  result.points = follow(responses, recovery, settings.points, result);
   result.hot_spot_curve = structure::fatigue_curve(settings.hot_spot_curve);
   for (const FollowedHotSpot& spot : settings.hot_spots)
     result.hot_spots.push_back(follow(responses, spot, result));

@@ -94,7 +94,8 @@ struct HistoryAssessment {
   double deformation_increase_percent() const;
 };
 
-/// A place whose stress is followed in time: the square of the checked stress that is nearest.
+/// A place whose stress is followed in time, as the mean over a square about it (square_about), or
+/// that of the nearest square of the checked stress where none fits.
 struct FollowedPoint {
   std::string name;
   structure::Vector3 point_B = structure::Vector3::Zero();  ///< m

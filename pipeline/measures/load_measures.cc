@@ -153,13 +153,24 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
+/// Angles of which each is known but for whole turns, m samples: the first within half a turn of
+/// none, each other one within half a turn of the one before it.
+void unwind(Eigen::VectorXd& angles) {
+  constexpr double whole = 2 * std::numbers::pi;
+  double before = 0;
+  for (double& angle : angles) {
+    angle = before + std::remainder(angle - before, whole);
+    before = angle;
+  }
+}
+
 }  // namespace
 
 LiftMeasure turn_of_load(const LiftRun& lift) {
   const auto attitude = [&](const dynamics::History& history, Eigen::Index sample) {
     return history.bodies[lift.model.load - 1].X_WB(sample).R;
   };
-  return make_measure(
+  LiftMeasure measure = make_measure(
       lift,
       {.subject = "load",
        .kind = "turn",
@@ -169,8 +180,11 @@ LiftMeasure turn_of_load(const LiftRun& lift) {
       [&](const dynamics::History& history, Eigen::Index sample) {
         const Eigen::Quaterniond turn(attitude(history, sample) *
                                       attitude(lift.static_history, 0).transpose());
-        return std::remainder(2 * std::atan2(turn.z(), turn.w()), 2 * std::numbers::pi);
+        return 2 * std::atan2(turn.z(), turn.w());
       });
+  unwind(measure.at_rest);
+  unwind(measure.in_motion);
+  return measure;
 }
 
 double distance_within(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& point) {

@@ -16,6 +16,7 @@
 #include "structure/large_pages.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/bilinear_shear.h"
+#include "structure/stress/square_about.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
@@ -140,6 +141,31 @@ class SquarePlacer {
   SquarePlacer(const Mesh& mesh, const FieldWalker& walker, double size)
       : mesh_(mesh), walker_(walker), size_(size) {}
 
+  /// The square with its centre nearest to a place, from a shell of its field on; see square_about.
+  std::optional<Square> about(const PlateField& field, int start_shell,
+                              const Vector3& place) const {
+    const FieldEdge& first = field.outlines.front().front();
+    const Vector3 along =
+        position_of(place_of(first, first.length)) - position_of(place_of(first, 0));
+    std::optional<Square> nearest;
+    double smallest = 2 * size_ * (1 + 1e-9);
+    ShellPlace start{start_shell, {0.5, 0.5}};
+    const Vector3 normal = normal_of(mesh_, start);
+    const Vector3 e_1 = (along - normal * normal.dot(along)).normalized(), e_2 = normal.cross(e_1);
+    if (!e_1.allFinite()) return nearest;
+    for (int i = -steps_about; i <= steps_about; ++i)
+      for (int j = -steps_about; j <= steps_about; ++j) {
+        const auto found = walker_.find(place + size_ / 4 * (i * e_1 + j * e_2), start);
+        if (!found) continue;
+        const Square square = laid(*found, e_1);
+        const double distance = (square.centre_B - place).norm();
+        if (distance >= smallest || !lies_inside(square)) continue;
+        smallest = distance;
+        nearest = square;
+      }
+    return nearest;
+  }
+
   std::vector<Square> place(const PlateField& field) {
     squares_.clear();
     for (const auto& outline : field.outlines)
@@ -150,6 +176,25 @@ class SquarePlacer {
   }
 
  private:
+  static constexpr int steps_about = 4;  // quarters of a side that a square is moved by at most
+
+  Vector3 position_of(const ShellPlace& place) const {
+    return position(mesh_, mesh_.shells[place.shell], place.xi);
+  }
+
+  /// A square with its centre at a place, its first side as nearly along e_1 as the plate lets it.
+  Square laid(const ShellPlace& at, const Vector3& e_1) const {
+    Square square;
+    square.size = size_;
+    square.shell = at.shell;
+    square.region = mesh_.shells[at.shell].region;
+    square.centre_B = position_of(at);
+    const Vector3 normal = normal_of(mesh_, at);
+    square.e_1 = (e_1 - normal * normal.dot(e_1)).normalized();
+    square.e_2 = normal.cross(square.e_1);
+    return square;
+  }
+
   bool lies_inside(const Square& square) const {
     const auto points = contour(square);
     return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
@@ -230,14 +275,7 @@ class SquarePlacer {
         const auto found = walker_.find(wanted, start);
         if (!found) continue;
         start = *found;
-        Square square;
-        square.size = size_;
-        square.shell = found->shell;
-        square.region = mesh_.shells[found->shell].region;
-        square.centre_B = position(mesh_, mesh_.shells[found->shell], found->xi);
-        const Vector3 here = normal_of(mesh_, *found);
-        square.e_1 = (e_1 - here * here.dot(e_1)).normalized();
-        square.e_2 = here.cross(square.e_1);
+        const Square square = laid(*found, e_1);
         if (lies_inside(square)) squares_.push_back(square);
       }
   }
@@ -427,6 +465,33 @@ std::vector<Square> place_squares(const Mesh& mesh, const PlateFields& fields,
     squares.insert(squares.end(), of_field.begin(), of_field.end());
   SiteMarker(mesh, fields, size, squares).mark_corners();
   return squares;
+}
+
+std::optional<Square> square_about(const Mesh& mesh, const PlateFields& fields,
+                                   const FieldWalker& walker, const Vector3& place, double size) {
+  const SquarePlacer placer(mesh, walker, size);
+  std::optional<Square> nearest;
+  for (const PlateField& field : fields.fields) {
+    int start = -1;  // the shell of the field that is the nearest by its middle
+    double from_middle = std::numeric_limits<double>::infinity(), reach = from_middle;
+    for (const int shell : field.shells) {
+      const Vector3 middle = position(mesh, mesh.shells[shell], {0.5, 0.5});
+      double radius = 0;
+      for (const int vertex : mesh.shells[shell].vertices)
+        radius = std::max(radius, (mesh.vertices[vertex] - middle).norm());
+      const double distance = (place - middle).norm();
+      reach = std::min(reach, distance - radius);
+      if (distance >= from_middle) continue;
+      from_middle = distance;
+      start = shell;
+    }
+    if (start < 0 || reach > 2 * size) continue;
+    const std::optional<Square> square = placer.about(field, start, place);
+    if (square && (!nearest || (square->centre_B - place).norm() <
+                                   (nearest->centre_B - place).norm() - 1e-6 * size))
+      nearest = square;
+  }
+  return nearest;
 }
 
 CheckedStress::CheckedStress(const ElasticModel& model,

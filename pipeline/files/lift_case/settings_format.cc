@@ -86,10 +86,11 @@ Format<StructureSettings> structure_format() {
       .by_default("most_unknowns", &StructureSettings::most_unknowns,
                   integer(Range::between(1000, 100000000)), "1000000",
                   "no finer elements are tried than make so many unknowns")
-      .optional("stress_points", &StructureSettings::stress_points, names_to(position_format()),
-                "places in the block's frame whose stress is followed in time, each at the nearest "
-                "square of the checked stress; if left out, the hot spot of the lift and that of "
-                "each lug")
+      .optional(
+          "stress_points", &StructureSettings::stress_points, names_to(position_format()),
+          "places in the block's frame whose stress is followed in time, each as the mean over "
+          "a square about it, or beside it where plating ends or meets other plating; if left "
+          "out, the hot spot of the lift and that of each lug")
       .optional("hot_spots", &StructureSettings::hot_spots, hot_spots_format(),
                 "weld toes of the block, by name, in its frame: structural stress in time, cycles "
                 "and damage")

@@ -370,6 +370,22 @@ TEST(StageLoads, HoldTheWholeLiftsMaxima) {
   EXPECT_NEAR(stages[0].load.at_rest, 10e3 * g, 1e-6 * 10e3 * g);
 }
 
+// A crane that slews by two turns takes its load along: the turn is not that but for whole turns.
+TEST(TurnOfLoad, CountsWholeTurns) {
+  WatchedLift lift = watch();
+  for (const double step : {2.0, -0.7}) {  // rad from sample to sample, less than half a turn
+    auto& pose = lift.run.static_history.bodies[lift.run.model.load - 1].pose;
+    for (Eigen::Index i = 0; i < pose.rows(); ++i) {
+      const double half = 0.5 * step * static_cast<double>(i);
+      pose.row(i).tail<4>() << std::cos(half), 0, 0, std::sin(half);
+    }
+    const LiftMeasure turn = turn_of_load(lift.run);
+    ASSERT_GT(turn.at_rest.size(), 3);
+    for (Eigen::Index i = 0; i < turn.at_rest.size(); ++i)
+      EXPECT_NEAR(turn.at_rest[i], step * static_cast<double>(i), 1e-9) << i;
+  }
+}
+
 TEST(MeasureChecks, NameTheWorstOfEachKind) {
   const WatchedLift lift = watch(
       "{tilt: 1 deg, turn: 0.001 deg, sling_angle: 60 deg, offlead: 0.1 deg, sidelead: 10 deg, "
