@@ -37,7 +37,7 @@ struct DeckAssessment {
 DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::string& name,
                            std::optional<int> degree);
 
-/// Cards of the deck that are not in its cases though they would be, as sentences; contact, for one.
+/// Cards of the deck that are not in its cases though they would be, as sentences; contact, say.
 std::vector<std::string> left_out_of_cases(const structure::Deck& deck);
 
 /// Writes summary.json, nodes.csv (motions of the deck's nodes), reactions.csv and a picture

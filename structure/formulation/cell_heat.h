@@ -41,14 +41,14 @@ class CellHeat {
   Eigen::Index cases() const { return cases_; }
   /// The same of some of the cases, which are in a row.
   CellHeat part(Eigen::Index first, Eigen::Index count) const;
-  /// Membrane forces and moments (11, 22, 12 of both; N/m, N) that hold a shell's cell at a point of
-  /// its unit square, along unit tangents e_1, e_2 and about the shell's own normal: 6 x cases.
+  /// Membrane forces and moments (11, 22, 12 of both; N/m, N) that hold a shell's cell at a point
+  /// of its unit square, along unit tangents e_1, e_2 and about the shell's own normal: 6 x cases.
   Eigen::MatrixXd shell_forces(int cell, const Eigen::Vector2d& xi, const Vector3& e_1,
                                const Vector3& e_2, double thickness) const;
   /// Strains (as BeamPoint has them) that a beam's cell takes if nothing holds it: 6 x cases.
   Eigen::MatrixXd beam_strains(int cell, double xi) const;
-  /// What the released ends of a beam's cell do of themselves for those strains, beyond what they do
-  /// for motions of its nodes (beam_motion): 6 nodes x cases.
+  /// What the released ends of a beam's cell do of themselves for those strains, beyond what they
+  /// do for motions of its nodes (beam_motion): 6 nodes x cases.
   Eigen::MatrixXd beam_release(int cell) const;
   /// Stresses that hold a solid at points where its shape functions (points x nodes) are given, Pa:
   /// 6 points x cases.

@@ -17,8 +17,8 @@ namespace blocklift::structure {
 /// its section; in a solid it is as its shape functions have it, at middles of edges that are no
 /// nodes of the file the mean of the edge's ends.
 /// @param load_cases places in Deck::load_cases. Model and deck must outlive the result.
-/// @throws ModelError naming the case if a node of a cell has no temperature, a material's expansion
-///   is not known or not constant, or the temperatures themselves cannot be computed with.
+/// @throws ModelError naming the case if a node of a cell has no temperature, a material's
+///   expansion is not known or not constant, or the temperatures cannot be computed with.
 std::optional<CellHeat> heat_of(const ElasticModel& model, const Deck& deck,
                                 const std::vector<int>& load_cases);
 

@@ -357,7 +357,7 @@ CasesOfSupports sort_cases(const Deck& deck, DeckSolution& result) {
 
 /// Where nothing holds what is hot its stress is rounding, of which no error can be told.
 /// @param held_energy what it would store if nothing moved, J.
-bool is_free(const DeckCaseSolution& solution, double held_energy) {
+bool expands_freely(const DeckCaseSolution& solution, double held_energy) {
   constexpr double rounding = 1e-7;
   return held_energy > 0 && solution.strain_energy < rounding * held_energy;
 }
@@ -406,7 +406,8 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
     stresses[c].name = name_of(deck.load_cases[result.cases[c].load_case]);
     result.cases[c].stress = std::move(stresses[c]);
     result.cases[c].estimated_error = errors[c].relative;
-    if (hot != nullptr && is_free(result.cases[c], held_energy[static_cast<Eigen::Index>(c)]))
+    if (hot != nullptr &&
+        expands_freely(result.cases[c], held_energy[static_cast<Eigen::Index>(c)]))
       result.cases[c].estimated_error = 0;
   }
   result.times.recovery = watch.lap();

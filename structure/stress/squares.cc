@@ -426,8 +426,8 @@ void take_excess_shear(const Space& space, const FieldWalker& walker, const Cell
   });
 }
 
-/// Mean membrane forces and moments that hold a square where nothing moves, along its axes and about
-/// its normal: 6 x cases.
+/// Mean membrane forces and moments that hold a square where nothing moves, along its axes and
+/// about its normal: 6 x cases.
 Eigen::MatrixXd held_forces(const CellHeat& heat, const Space& space, const FieldWalker& walker,
                             const CellFinder& cells, const Square& square, double thickness) {
   const Vector3 normal = square.e_1.cross(square.e_2);

@@ -9,8 +9,8 @@ namespace blocklift::structure {
 
 /// Temperatures as far as steps go.
 struct AbaqusTemperatures {
-  /// By vertex: the temperature, its slopes along a shell's normal or a beam's n2 and along a beam's
-  /// n1, K/m.
+  /// By vertex: the temperature, its slopes along a shell's normal or a beam's n2 and along a
+  /// beam's n1, K/m.
   std::map<int, Vector3> at_nodes;
   std::string obstacle;  ///< TemperatureField's
 };

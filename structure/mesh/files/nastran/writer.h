@@ -17,7 +17,8 @@ namespace blocklift::structure {
 /// PLOAD4, PLOAD1, GRAV, LOAD.
 ///
 /// @throws ModelError for what no card says: shells without section or curved beyond quadratic,
-///   temperatures (write_abaqus has them), supports along different axes at a vertex, springs whose arms do not meet.
+///   temperatures (write_abaqus has them), supports along different axes at a vertex, springs whose
+///   arms do not meet.
 std::string to_nastran(const Deck& deck);
 
 /// @throws ModelError also if the file cannot be written.
