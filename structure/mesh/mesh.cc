@@ -10,6 +10,7 @@
 
 #include "algebra/decompositions.h"
 #include "structure/error.h"
+#include "structure/mesh/shell_shape.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -79,22 +80,11 @@ bool is_of_bars_alone(const Mesh& mesh, int material) {
                       [&](const Solid& solid) { return solid.material == material; });
 }
 
-/// Whether no corner of a quadrangle is wider than 180 degrees, seen along the normal of its
-/// diagonals. Where one is, the map from the unit square folds: area, mass and stiffness of the
+/// Whether the straight shell between a shell's corners is folded: area, mass and stiffness of the
 /// folded part count twice.
-bool bulges_everywhere(const Mesh& mesh, const Shell& shell) {
-  if (shell.is_triangle()) return true;
-  constexpr std::array<std::size_t, 4> ring = {0, 1, 3, 2};
-  const auto place = [&](std::size_t i) -> const Vector3& {
-    return mesh.vertices[shell.vertices[ring[i % 4]]];
-  };
-  const Vector3 normal = (place(2) - place(0)).cross(place(3) - place(1)).normalized();
-  const double size = longest_edge(mesh, shell);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vector3 corner = (place(i + 1) - place(i)).cross(place(i + 3) - place(i));
-    if (corner.dot(normal) < -1e-6 * size * size) return false;
-  }
-  return true;
+bool is_folded_between_corners(const Mesh& mesh, Shell shell) {
+  shell.curvature = -1;
+  return is_folded(mesh, shell);
 }
 
 }  // namespace
@@ -276,7 +266,7 @@ void check_mesh(const Mesh& mesh) {
     const double size = longest_edge(mesh, shell);
     require(area > 1e-8 * size * size, "shell", shell.label,
             "has no area, or its corners are not in turn about it");
-    require(bulges_everywhere(mesh, shell), "shell", shell.label,
+    require(!is_folded_between_corners(mesh, shell), "shell", shell.label,
             "has a corner that points inwards, where it lies on itself: divide it otherwise");
   }
   for (const Beam& beam : mesh.beams) {

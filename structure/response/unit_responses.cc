@@ -136,8 +136,8 @@ Eigen::MatrixXd UnitResponses::solve(const Eigen::MatrixXd& loads,
 }
 
 void UnitResponses::add_loads(const Eigen::MatrixXd& added) {
-  // So many that reading the factor for each few costs little, and so few that what is needed on the
-  // way stays small beside the basis.
+  // So many that reading the factor for each few costs little, and so few that what is needed on
+  // the way stays small beside the basis.
   constexpr Eigen::Index at_once = 32;
   if (added.cols() == 0) return;
   Stopwatch watch;

@@ -7,8 +7,9 @@
 
 namespace blocklift::structure {
 
-/// The square of a given side whose centre lies nearest to a place: in the middle about it, or moved
-/// towards the inside of its field, in steps of a quarter of its side, where it would reach beyond.
+/// The square of a given side whose centre lies nearest to a place: in the middle about it, or
+/// moved towards the inside of its field, in steps of a quarter of its side, where it would reach
+/// beyond.
 /// At a joint it lies on the first of the plates that are equally near. Its site is not marked.
 /// @param place m; on plating or up to two sides away from some.
 /// @param size of a side, m

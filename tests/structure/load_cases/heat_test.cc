@@ -465,6 +465,8 @@ TEST(Heat, IsWrittenForAbaqus) {
   expect_same_in_abaqus(test::nastran(hot_case_control + distorted_plate() +
                                       "SPC1,1,123456,1,THRU,3\nTEMPD,5,70.\nTEMP,5,5,90.\n"));
   expect_same_in_abaqus(test::abaqus(plate_on_its_lower_side));
+  expect_same_in_abaqus(test::nastran(hot_case_control + hot_bar("") +
+                                      "SPC1,1,123456,1\nTEMP,5,1,30.,2,50.,3,70.\n"));
   const Deck of_elements = test::nastran(hot_case_control + distorted_plate() + hot_plate_held +
                                          "TEMPD,5,20.\nTEMPP1,5,1,70.\n");
   EXPECT_THROW(to_abaqus(of_elements), ModelError);

@@ -31,7 +31,7 @@ class BeamShapeReader {
   }
 
   // *BEAM GENERAL SECTION, SECTION = GENERAL, ELSET = , DENSITY =
-  // A, I11, I12, I22, J / n1 / E, G
+  // A, I11, I12, I22, J / n1 / E, G, coefficient of expansion
   BeamShape read_general(const SectionBlocks& blocks) {
     const AbaqusBlock& block = *blocks.block;
     const std::string kind = block.value("SECTION");
@@ -71,7 +71,8 @@ class BeamShapeReader {
       material.density = to_real(density).value_or(-1) * model_.units.density();
     check_plausible(material, "the material " + material.name, model_.units, model_.log,
                     block.line);
-    beam.material = material_place(material);
+    beam.material =
+        material_place(material, abaqus_real(elastic, 2, "coefficient of expansion", 0.0));
     beam.axis_2 = direction(blocks);
     read_details(blocks, beam, shear);
     return beam;
@@ -235,15 +236,22 @@ class BeamShapeReader {
   }
 
   /// Sections whose materials agree share one.
-  int material_place(const Material& material) {
+  /// @param coefficient of expansion, 1/K
+  int material_place(const Material& material, double coefficient) {
+    Expansions& expansions = model_.deck.expansions;
     for (std::size_t i = 0; i < mesh_.materials.size(); ++i) {
       const Material& known = mesh_.materials[i];
+      const bool expands_alike = i < expansions.of_materials.size() &&
+                                 expansions.of_materials[i].coefficient == coefficient &&
+                                 expansions.of_materials[i].obstacle.empty();
       if (known.youngs_modulus == material.youngs_modulus && known.density == material.density &&
-          std::abs(known.poisson_ratio - material.poisson_ratio) < 1e-9)
+          std::abs(known.poisson_ratio - material.poisson_ratio) < 1e-9 && expands_alike)
         return static_cast<int>(i);
     }
+    const auto place = static_cast<int>(mesh_.materials.size());
     mesh_.materials.push_back(material);
-    return static_cast<int>(mesh_.materials.size()) - 1;
+    expansions.set(place, {coefficient, 0, ""});
+    return place;
   }
 
   void read_details(const SectionBlocks& blocks, BeamShape& beam, double shear = 0) {

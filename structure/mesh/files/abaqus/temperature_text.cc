@@ -60,14 +60,21 @@ AbaqusTemperatureText::AbaqusTemperatureText(const Deck& deck)
           solid.label));
 }
 
-std::string AbaqusTemperatureText::of_material(int material) const {
-  if (!is_any_) return {};
+double AbaqusTemperatureText::coefficient_of(int material) const {
   const auto& known = deck_.expansions.of_materials;
   const std::string& name = deck_.mesh.materials[at(material)].name;
   if (at(material) >= known.size())
     throw ModelError(fmt::format("how material \"{}\" expands is not known", name));
   if (!known[at(material)].obstacle.empty()) throw ModelError(known[at(material)].obstacle);
-  return fmt::format("*EXPANSION\n{:.12e},\n", known[at(material)].coefficient);
+  return known[at(material)].coefficient;
+}
+
+std::string AbaqusTemperatureText::of_material(int material) const {
+  return is_any_ ? fmt::format("*EXPANSION\n{:.12e},\n", coefficient_of(material)) : "";
+}
+
+std::string AbaqusTemperatureText::of_general_section(int material) const {
+  return is_any_ ? fmt::format(", {:.12e}", coefficient_of(material)) : "";
 }
 
 std::string AbaqusTemperatureText::initial(const std::string& set) const {

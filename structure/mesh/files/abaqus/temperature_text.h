@@ -19,6 +19,8 @@ class AbaqusTemperatureText {
 
   /// *EXPANSION of a place in Mesh::materials.
   std::string of_material(int material) const;
+  /// The same behind the moduli of a *BEAM GENERAL SECTION, which names no material.
+  std::string of_general_section(int material) const;
   /// @param set of all nodes.
   std::string initial(const std::string& set) const;
   /// @param labels of the vertices. @param middles of each shell's edges, in the order around it.
@@ -27,6 +29,7 @@ class AbaqusTemperatureText {
   bool is_empty() const { return !is_any_; }
 
  private:
+  double coefficient_of(int material) const;
   double reference_of(const TemperatureField& field) const;
 
   const Deck& deck_;

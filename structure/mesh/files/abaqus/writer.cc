@@ -264,20 +264,20 @@ class AbaqusText {
     }
     const BeamSection& section = mesh_.beam_sections[kind.section];
     const Material& material = mesh_.materials[section.material];
-    const double square = units_.length * units_.length;
+    const double square = units_.length * units_.length, fourth = square * square;
     if (kind.is_rod) {
       line(fmt::format("*SOLID SECTION, ELSET={}, MATERIAL=M{}", set, section.material + 1));
       line(exact(section.area / square));
     } else {
       line(fmt::format("*BEAM GENERAL SECTION, ELSET={}, SECTION=GENERAL, DENSITY={}", set,
                        exact(material.density / units_.density())));
-      const double fourth = square * square;
       line(fmt::format("{}, {}, {}, {}, {}", exact(section.area / square),
                        exact(section.second_moment_2 / fourth), exact(section.product_23 / fourth),
                        exact(section.second_moment_3 / fourth), exact(section.torsion / fourth)));
       line(exact(kind.axis_2));
       line(exact(material.youngs_modulus / units_.stress()) + ", " +
-           exact(material.shear_modulus() / units_.stress()));
+           exact(material.shear_modulus() / units_.stress()) +
+           temperatures_.of_general_section(section.material));
       write_details(kind, section, material.shear_modulus());
     }
     if (section.mass_per_length > 0) {
