@@ -262,6 +262,16 @@ TEST(Heat, ABarIsHeldByItsEnds) {
   EXPECT_NEAR(rod.largest_force(), hot_stress * 0.01, 1e-8 * hot_stress);
 }
 
+// Where a beam's section changes between its grids there is none: it is as warm as between them.
+TEST(Heat, ABeamOfSeveralStationsIsWarmAlongItsLine) {
+  const HotCase hot(test::nastran(std::string(hot_case_control) +
+                                  "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nCBEAM,1,1,1,2,0.,1.,0.\n"
+                                  "PBEAM,1,1,.02,4.-6,1.-6,0.,2.-6,0.\n,NO,.5,.01\n,NO,1.,.02\n" +
+                                  hot_steel + "SPC1,1,123456,1\nTEMP,5,1,30.,2,70.\n"));
+  EXPECT_NEAR(hot.moved(1).x(), hot_coefficient * 30 * 2, 1e-10);
+  EXPECT_LT(hot.first().stress.peak_von_mises.value, 1e-7 * hot_stress);
+}
+
 // By T' across it a bar curves by alpha T' where it is free; held at both ends it has the moment
 // E I alpha T' and the stress E alpha T' h / 2 (Timoshenko 1955, part I, article 50).
 TEST(Heat, ADifferenceAcrossABarBendsIt) {

@@ -150,6 +150,25 @@ double NastranTemperatures::at_vertex(const Set& set, std::size_t vertex) const 
   return set.everywhere.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+/// Where a CBEAM's section changes between its grids there is none: what is linear between them.
+std::vector<double> NastranTemperatures::at_all_vertices(const Set& set) const {
+  const Mesh& mesh = model_.deck.mesh;
+  std::vector<double> values;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) values.push_back(at_vertex(set, v));
+  for (const auto& [label, first] : model_.beam_of) {
+    const std::vector<int> pieces = model_.pieces_of_beam(first);
+    const int from = mesh.beams[at(pieces.front())].vertices[0],
+              to = mesh.beams[at(pieces.back())].vertices[1];
+    const double whole = (model_.place(to) - model_.place(from)).norm();
+    for (std::size_t i = 0; i + 1 < pieces.size(); ++i) {
+      const int between = mesh.beams[at(pieces[i])].vertices[1];
+      const double share = (model_.place(between) - model_.place(from)).norm() / whole;
+      values[at(between)] = (1 - share) * values[at(from)] + share * values[at(to)];
+    }
+  }
+  return values;
+}
+
 TemperatureField NastranTemperatures::make(long load, long initial) const {
   const Set& hot = get(load);
   TemperatureField field;
@@ -158,22 +177,19 @@ TemperatureField NastranTemperatures::make(long load, long initial) const {
   field.obstacle = hot.obstacle;
   field.shells = hot.shells;
   field.beams = hot.beams;
-  const std::size_t count = model_.deck.mesh.vertices.size();
-  for (std::size_t v = 0; v < count; ++v) field.at_vertices.push_back(at_vertex(hot, v));
+  field.at_vertices = at_all_vertices(hot);
   if (initial == 0) return field;
   const Set& cold = get(initial);
   if (field.obstacle.empty()) field.obstacle = cold.obstacle;
   if (field.obstacle.empty() && (!cold.shells.empty() || !cold.beams.empty()))
     field.obstacle = "the initial ones are given by element (TEMPP1, TEMPRB)";
-  std::vector<double> before;
-  for (std::size_t v = 0; v < count; ++v) {
-    before.push_back(at_vertex(cold, v));
-    field.at_vertices[v] -= before[v];
-  }
+  const std::vector<double> before = at_all_vertices(cold);
+  for (std::size_t v = 0; v < before.size(); ++v) field.at_vertices[v] -= before[v];
   for (auto& [shell, of] : field.shells) {
-    double sum = 0;
-    for (const int vertex : model_.deck.mesh.shells[at(shell)].vertices) sum += before[at(vertex)];
-    of.mean -= sum / 4;
+    const Shell& one = model_.deck.mesh.shells[at(shell)];
+    const std::size_t corners = one.is_triangle() ? 3 : 4;
+    for (std::size_t i = 0; i < corners; ++i)
+      of.mean -= before[at(one.vertices[i])] / static_cast<double>(corners);
   }
   for (auto& [beam, of] : field.beams)
     for (std::size_t end = 0; end < 2; ++end)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "structure/mesh/files/nastran/model.h"
 
@@ -38,6 +39,7 @@ class NastranTemperatures {
   void add_bars(const CardView& card);
   TemperatureField make(long load, long initial) const;
   double at_vertex(const Set& set, std::size_t vertex) const;
+  std::vector<double> at_all_vertices(const Set& set) const;
 
   NastranModel& model_;
   std::map<long, Set> sets_;
