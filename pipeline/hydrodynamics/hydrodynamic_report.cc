@@ -277,8 +277,8 @@ std::string doubt_about_panels(const HydrodynamicDatabase& database) {
   const auto body = static_cast<std::size_t>(worst / modes_per_body);
   if (!std::isfinite(change))
     return fmt::format(
-        "the panels are coarse: those of twice the size have no solution for {}, and nothing is "
-        "known of the error of these; take smaller panels",
+        "the panels are coarse: those of twice the size have no solution for {}, or cannot be made "
+        "of these, and nothing is known of the error of these; take smaller panels",
         database.body_names[body]);
   std::string doubt = fmt::format(
       "the panels are coarse: the radiation force of {} in {} changes by {:.0f} % from panels of "

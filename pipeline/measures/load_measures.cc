@@ -153,22 +153,27 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-/// Angles of which each is known but for whole turns, m samples: the first within half a turn of
-/// none, each other one within half a turn of the one before it.
-void unwind(Eigen::VectorXd& angles) {
+/// Angles of which each is known but for whole turns, m samples: each within half a turn of the last
+/// one before it that counts, of none to begin with. Those of a load that is turned over do not
+/// count: about a half turn over, the turn about the plumb leaps.
+template <class Counts>
+void unwind(Eigen::VectorXd& angles, const Counts& counts) {
   constexpr double whole = 2 * std::numbers::pi;
   double before = 0;
-  for (double& angle : angles) {
-    angle = before + std::remainder(angle - before, whole);
-    before = angle;
+  for (Eigen::Index sample = 0; sample < angles.size(); ++sample) {
+    angles[sample] = before + std::remainder(angles[sample] - before, whole);
+    if (counts(sample)) before = angles[sample];
   }
 }
 
 }  // namespace
 
 LiftMeasure turn_of_load(const LiftRun& lift) {
-  const auto attitude = [&](const dynamics::History& history, Eigen::Index sample) {
-    return history.bodies[lift.model.load - 1].X_WB(sample).R;
+  const auto turned = [&](const dynamics::History& history,
+                          Eigen::Index sample) -> Eigen::Matrix3d {
+    const dynamics::BodyHistory& now = history.bodies[lift.model.load - 1];
+    const dynamics::BodyHistory& start = lift.static_history.bodies[lift.model.load - 1];
+    return now.X_WB(sample).R * start.X_WB(0).R.transpose();
   };
   LiftMeasure measure = make_measure(
       lift,
@@ -178,12 +183,14 @@ LiftMeasure turn_of_load(const LiftRun& lift) {
        .extreme = Extreme::largest_magnitude,
        .meaning = "turn of the load about the plumb away from where it hangs at the start"},
       [&](const dynamics::History& history, Eigen::Index sample) {
-        const Eigen::Quaterniond turn(attitude(history, sample) *
-                                      attitude(lift.static_history, 0).transpose());
+        const Eigen::Quaterniond turn(turned(history, sample));
         return 2 * std::atan2(turn.z(), turn.w());
       });
-  unwind(measure.at_rest);
-  unwind(measure.in_motion);
+  const auto unwind_of = [&](const dynamics::History& history, Eigen::VectorXd& angles) {
+    unwind(angles, [&](Eigen::Index sample) { return turned(history, sample)(2, 2) > 0; });
+  };
+  unwind_of(lift.static_history, measure.at_rest);
+  unwind_of(lift.dynamic_history(), measure.in_motion);
   return measure;
 }
 

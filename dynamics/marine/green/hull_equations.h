@@ -121,8 +121,8 @@ class HullEquations {
   std::vector<Parity> parities_;
   PanelClusters clusters_;  ///< of the hulls' panels
   FlatClusters flat_;
-  /// For each part, what 1/r and its image at flat clusters' middles (rows) are more than in the mean
-  /// over the clusters, of panels and cells (columns).
+  /// For each part, what 1/r and its images at flat clusters' middles (rows) are more than in the
+  /// mean over the clusters, of the hulls' panels (columns).
   std::vector<Influence<double>> at_middles_;
   /// Of 1/r + 1/r1 + 1/r2 by part, and of 1/r1 alone.
   std::vector<Influence<double>> images_, surface_images_;

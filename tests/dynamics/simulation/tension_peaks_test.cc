@@ -38,7 +38,7 @@ TEST(TensionPeaks, LargestOfAPolynomialOfThirdDegree) {
 }
 
 // A load that is let go by `amplitude` above its rest bears m g - k amplitude cos(omega t). It is
-// sampled where that is 0.948, 0.005 and 1 times as much below its mean.
+// sampled where the cosine is 1, -0.005 and 0.948: at 0, 1 and 1.8 s.
 TEST(TensionPeaks, AreThoseOfAnOscillation) {
   samples::SingleRopeLift model;
   model.duration = 1.8;
