@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -109,8 +110,7 @@ using Say = std::function<void(const std::string&)>;
 using Tell = std::function<void(double, const std::string&)>;
 
 /// The largest errors of all draughts, with the names of the bodies and nothing else.
-dynamics::HydrodynamicDatabase worst_of(
-    const std::vector<dynamics::HydrodynamicDatabase>& databases) {
+dynamics::HydrodynamicDatabase worst_of(std::span<const dynamics::HydrodynamicDatabase> databases) {
   dynamics::HydrodynamicDatabase worst;
   worst.body_names = databases.back().body_names;
   for (const dynamics::HydrodynamicDatabase& database : databases) {
@@ -145,7 +145,7 @@ std::string doubt_about_distances(const RadiationProblem& problem) {
 /// Says what is doubted of the databases of a problem.
 /// @returns the doubts as sentences.
 std::vector<std::string> say_doubts(const RadiationProblem& problem,
-                                    const std::vector<dynamics::HydrodynamicDatabase>& databases,
+                                    std::span<const dynamics::HydrodynamicDatabase> databases,
                                     const Say& say) {
   const dynamics::HydrodynamicDatabase worst = worst_of(databases);
   std::vector<std::string> sentences;
@@ -321,7 +321,11 @@ FoundRadiation find_radiation(const RadiationProblem& problem,
         calc_response_amplitudes(database, problem.drifting->mass, problem.drifting->damping),
         problem.drifting->damping);
   }
-  std::vector<std::string> doubts = say_doubts(problem, series.databases, say);
+  // What is taken of a given one for the case's bodies has lost what its maker found out about it.
+  const std::span<const dynamics::HydrodynamicDatabase> doubted =
+      problem.given ? std::span(problem.given.get(), 1)
+                    : std::span(std::as_const(series.databases));
+  std::vector<std::string> doubts = say_doubts(problem, doubted, say);
   series.memories = find_memories(series.databases, memory_fit_of_vessels(), say);
   return {std::make_shared<const dynamics::HydrodynamicSeries>(std::move(series)),
           std::move(doubts)};

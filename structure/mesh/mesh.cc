@@ -10,7 +10,6 @@
 
 #include "algebra/decompositions.h"
 #include "structure/error.h"
-#include "structure/mesh/shell_shape.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -78,13 +77,6 @@ bool is_of_bars_alone(const Mesh& mesh, int material) {
                       [&](const ShellSection& section) { return section.material == material; }) &&
          std::none_of(mesh.solids.begin(), mesh.solids.end(),
                       [&](const Solid& solid) { return solid.material == material; });
-}
-
-/// Whether the straight shell between a shell's corners is folded: area, mass and stiffness of the
-/// folded part count twice.
-bool is_folded_between_corners(const Mesh& mesh, Shell shell) {
-  shell.curvature = -1;
-  return is_folded(mesh, shell);
 }
 
 }  // namespace
@@ -266,8 +258,6 @@ void check_mesh(const Mesh& mesh) {
     const double size = longest_edge(mesh, shell);
     require(area > 1e-8 * size * size, "shell", shell.label,
             "has no area, or its corners are not in turn about it");
-    require(!is_folded_between_corners(mesh, shell), "shell", shell.label,
-            "has a corner that points inwards, where it lies on itself: divide it otherwise");
   }
   for (const Beam& beam : mesh.beams) {
     require(exists(beam.vertices[0]) && exists(beam.vertices[1]), "beam", beam.label,
