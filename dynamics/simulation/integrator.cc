@@ -8,6 +8,7 @@
 #include <cvodes/cvodes.h>
 
 #include "dynamics/simulation/energy_ledger.h"
+#include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/failure_description.h"
 
 namespace blocklift::dynamics {

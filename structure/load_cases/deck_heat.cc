@@ -31,7 +31,8 @@ class RiseFinder {
   }
 
   void fill_in(TemperatureRises& rises, Eigen::Index column) const {
-    fill_in_shells(rises.of_shells.col(column));
+    Column of_shells = rises.of_shells.col(column);
+    fill_in_shells(of_shells);
     for (std::size_t b = 0; b < mesh_.beams.size(); ++b)
       fill_in_beam(static_cast<int>(b),
                    rises.of_beams.col(column).segment<TemperatureRises::rows_of_beam>(
@@ -85,7 +86,7 @@ class RiseFinder {
     if (!obstacle.empty() && !rises.isZero(0)) refuse(obstacle);
   }
 
-  void fill_in_shells(Column rises) const {
+  void fill_in_shells(Column& rises) const {
     for (std::size_t s = 0; s < mesh_.shells.size(); ++s) {
       const Shell& shell = mesh_.shells[s];
       const ShellSection& section = mesh_.section_of(shell);
@@ -116,12 +117,12 @@ class RiseFinder {
     }
   }
 
-  static Eigen::Ref<Eigen::VectorXd> of_shell(Column rises, int shell) {
+  static Column of_shell(Column& rises, int shell) {
     return rises.segment(TemperatureRises::rows_of_shell * shell, TemperatureRises::rows_of_shell);
   }
 
   /// What the middle of a shell's edge has beyond the mean of the edge's ends.
-  void fill_in_middle(const SurfacePoint& middle, Column rises) const {
+  void fill_in_middle(const SurfacePoint& middle, Column& rises) const {
     if (field_.shells.contains(middle.shell) || std::isnan(given(middle.vertex))) return;
     const Shell& shell = mesh_.shells[at(middle.shell)];
     const bool is_along_xi = middle.xi.y() == 0 || middle.xi.y() == 1;
