@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +18,9 @@ namespace {
 
 using test::Outcome;
 using test::with;
+using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr auto barge = R"(kind: vessel
 hull: {barge: {length: 20 m, breadth: 10 m, depth: 4 m}}
@@ -151,6 +154,11 @@ radii_of_gyration: [6 m, 11 m, 11 m]
     return nlohmann::json::parse(test::text_of_file("results/summary.json"));
   }
 
+  /// Of the place, and of panels, which are large here.
+  static std::vector<std::string> warnings_of(const nlohmann::json& summary) {
+    return summary.value("warnings", std::vector<std::string>());
+  }
+
   /// The databases that are kept, with the time when each was written.
   static std::map<std::string, std::filesystem::file_time_type> kept() {
     std::map<std::string, std::filesystem::file_time_type> files;
@@ -186,8 +194,7 @@ TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
   EXPECT_NEAR(pair["distance"]["size_m"].get<double>(), 4.0, 0.5);
   EXPECT_NEAR(pair["limit_m"].get<double>(), 0.2 * 8, 1e-9);
   EXPECT_EQ(pair["share_of_time_beyond"], 1.0);
-  ASSERT_EQ(first["warnings"].size(), 1U);
-  EXPECT_THAT(first["warnings"][0].get<std::string>(), HasSubstr("B1 and load came up to"));
+  EXPECT_THAT(warnings_of(first), Contains(HasSubstr("B1 and load came up to")));
   EXPECT_THAT(out_, HasSubstr("warning: B1 and load came up to"));
   // The boat's weight goes over from the ropes to the water.
   const double weight = 80e3 * 9.81;
@@ -201,7 +208,7 @@ TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
   const nlohmann::json near = simulate(with(boat_lift, "  afloat: {position: [34 m, 0 m]}\n", ""));
   EXPECT_EQ(kept().size(), 5U + 2);  // the pontoon alone is known
   EXPECT_LT(near["radiation"]["misplacement"][0]["distance"]["size_m"].get<double>(), 0.2 * 8);
-  EXPECT_FALSE(near.contains("warnings"));
+  EXPECT_THAT(warnings_of(near), Not(Contains(HasSubstr("came up to"))));
 }
 
 }  // namespace
