@@ -27,7 +27,7 @@ _INDEX = re.compile(r"\[(\d+)\]")
 
 def _yaml() -> Any:
     """Of its own for each use: it has a state, and threads may read cases side by side."""
-    yaml = YAML()
+    yaml: Any = YAML()
     yaml.preserve_quotes = True
     yaml.width = 4096
     return yaml
