@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/simulation/tension_peaks.h"
 #include "pipeline/build/held_heading.h"
 
 namespace blocklift::pipeline {
@@ -22,7 +24,7 @@ constexpr int closer = 4;            // times, from round to round
 constexpr double closest = 0.05;     // s
 constexpr double standstill = 1e-6;  // m/s or rad/s
 
-/// Largest share of a breaking load among the watched ropes, as a run goes on.
+/// Largest share of a breaking load among the watched ropes.
 class Watch {
  public:
   Watch(const FaultInCase& fault, const BuiltLift& model) {
@@ -39,10 +41,14 @@ class Watch {
 
   Trial begin(double time) const { return {time, 0.0, "no rope", time}; }
 
-  void look(double time, const dynamics::LiftWorkspace& w, Trial& trial) const {
-    for (const Watched& rope : ropes_) {
-      const double share = w.rope_loads[rope.index].tension / rope.breaking_load;
-      if (share > trial.share) trial = {trial.time, share, rope.name, time};
+  /// Raises a trial by what ropes bear behind an instant, s.
+  void look(const dynamics::History& history, double behind, Trial& trial) const {
+    for (Eigen::Index sample = 0; sample < history.sample_count(); ++sample) {
+      if (!(history.time[sample] > behind)) continue;
+      for (const Watched& rope : ropes_) {
+        const double share = history.ropes[rope.index].tension[sample] / rope.breaking_load;
+        if (share > trial.share) trial = {trial.time, share, rope.name, history.time[sample]};
+      }
     }
   }
 
@@ -163,11 +169,12 @@ class Search {
     dynamics::IntegrationSettings settings = common_settings(undisturbed_);
     if (!to_the_end) settings.end = times_[*instants.rbegin() + 1];
     settings.observe = [&](Eigen::Index sample, double time, const dynamics::LiftWorkspace& w) {
-      watch_.look(time, w, undisturbed);
       if (instants.contains(sample)) departures.emplace(sample, dynamics::Departure::of(time, w));
     };
     const bool departs = !undisturbed_.marched.radiation;
-    if (departs || to_the_end) integrate(undisturbed_, settings);
+    if (departs || to_the_end)
+      watch_.look(integrate(undisturbed_, settings), -std::numeric_limits<double>::infinity(),
+                  undisturbed);
     for (const Eigen::Index instant : instants) {
       progress_("worst instant", count_ / (count_ + 100.0),
                 fmt::format("t = {:.1f} s", times_[instant]));
@@ -184,10 +191,7 @@ class Search {
     settings.departure = departure;
     settings.end =
         std::min(time + fault_.within + fault_.watched, model.system.operation().duration());
-    settings.observe = [&](Eigen::Index, double t, const dynamics::LiftWorkspace& w) {
-      if (t > time) watch_.look(t, w, trial);
-    };
-    integrate(model, settings);
+    watch_.look(integrate(model, settings), time, trial);
     return trial;
   }
 
@@ -202,9 +206,12 @@ class Search {
     return settings;
   }
 
-  void integrate(const BuiltLift& model, const dynamics::IntegrationSettings& settings) const {
-    dynamics::integrate(model.system, q_, Eigen::VectorXd::Zero(model.system.mechanism().nv()),
-                        settings);
+  /// With the largest loads between samples, as the lift's own run has them.
+  dynamics::History integrate(const BuiltLift& model,
+                              const dynamics::IntegrationSettings& settings) const {
+    return dynamics::integrate_with_peaks(
+               model.system, q_, Eigen::VectorXd::Zero(model.system.mechanism().nv()), settings)
+        .history;
   }
 
   const LiftCase& case_;

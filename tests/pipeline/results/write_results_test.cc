@@ -431,7 +431,9 @@ TEST_F(DoubtsOfALift, PanelsOfVesselsInTheReport) {
   of_water.clear();  // other tests have the same assessment
   EXPECT_EQ(said, panels + "\n");
   const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
-  EXPECT_EQ(summary.at("warnings").front(), panels);
+  // The sample's ropes damp its bounce by much.
+  EXPECT_THAT(summary.at("warnings").get<std::vector<std::string>>(),
+              ::testing::ElementsAre(panels, ::testing::StartsWith("The motion \"load: bounce\"")));
   EXPECT_THAT(test::text_of_file("results/report.html"), ::testing::HasSubstr(panels));
 }
 
