@@ -449,6 +449,10 @@ BarCard read_rod(NastranModel& model, const CardView& card) {
     bar.section.area = card.real(2, "area", 0.0);
     bar.section.torsion = card.real(3, "J", 0.0);
     scale(bar.section, model.units.length);
+    const double arm = card.real(4, "C", 0.0) * model.units.length;  // of tau = T C / J
+    if (arm < 0) throw CardError{fmt::format("PROD {}: C is negative", card.text(0))};
+    if (arm > 0 && bar.section.torsion > 0)
+      bar.section.shear_points = {{.of_torsion = arm / bar.section.torsion}};
     bar.section.mass_per_length = line_mass(model, card.real(5, "mass beyond the rod's", 0.0));
     return bar;
   }
@@ -462,6 +466,7 @@ BarCard read_rod(NastranModel& model, const CardView& card) {
         wall > 0 && wall < radius ? pipe(radius, radius - wall) : solid_circle(radius);
     bar.section.area = profile.section.area;
     bar.section.torsion = profile.section.torsion;
+    bar.section.shear_points = {{.of_torsion = profile.section.shear_points.front().of_torsion}};
   } catch (const ModelError& error) {
     throw CardError{fmt::format("PTUBE {}: {}", card.text(0), error.what())};
   }
