@@ -15,7 +15,6 @@
 namespace blocklift::structure {
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using Vector2 = Eigen::Vector2d;
 
 /// Torsion moment about the shear centre and forces across.
@@ -44,7 +43,7 @@ double largest_shear(const BeamSection& section, const Across& across) {
 // 16 T / (pi d^3), by von Mises the square root of three times: 408 MPa of 60 mm and 10 kN m.
 TEST(SectionShear, RoundBar) {
   const BeamSection bar = solid_circle(0.03).section;
-  const double torsion = 16 * 1e4 / (pi * std::pow(0.06, 3));
+  const double torsion = 16 * 1e4 / (std::numbers::pi * std::pow(0.06, 3));
   EXPECT_NEAR(largest_shear(bar, {.torsion = 1e4}), torsion, 1e-12 * torsion);
   EXPECT_NEAR(std::sqrt(3.0) * torsion, 408.4e6, 0.1e6);
   // Timoshenko (1955), section 26: 4/3 of the mean.
@@ -65,7 +64,8 @@ TEST(SectionShear, RoundBar) {
 TEST(SectionShear, ThinTube) {
   const double r = 0.2, t = 2e-4;
   const BeamSection tube = pipe(r + t / 2, r - t / 2).section;
-  const double torsion = 1 / (2 * pi * r * r * t), force = 1 / (pi * r * t);
+  const double torsion = 1 / (2 * std::numbers::pi * r * r * t),
+               force = 1 / (std::numbers::pi * r * t);
   EXPECT_NEAR(largest_shear(tube, {.torsion = 1}), torsion, t / r * torsion);
   EXPECT_NEAR(largest_shear(tube, {.force = {0, 1}}), force, t / r * force);
 }
@@ -208,7 +208,8 @@ TEST(SectionShear, SolidPolygons) {
   expect_covers({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 4.808);
   expect_covers({{0, 0}, {1, 0}, {0.5, std::sqrt(0.75)}}, 20);
   std::vector<Vector2> hexagon;
-  for (int i = 0; i < 6; ++i) hexagon.emplace_back(std::cos(i * pi / 3), std::sin(i * pi / 3));
+  for (int i = 0; i < 6; ++i)
+    hexagon.emplace_back(std::cos(i * std::numbers::pi / 3), std::sin(i * std::numbers::pi / 3));
   const double across = std::sqrt(3.0), area = 1.5 * std::sqrt(3.0);
   expect_covers(hexagon, 1 / (0.217 * across * area));
 }
