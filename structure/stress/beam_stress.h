@@ -14,7 +14,7 @@ namespace blocklift::structure {
 /// points_of_beam(), a column a motion (freedoms x k).
 ///
 /// The normal stress along the beam is s = E (stretch + x_3 k_2 - x_2 k_3), of a rod that of its
-/// stretch alone; the shear stress (12) is that of SectionPoint, of a rod that of its torsion alone.
+/// stretch alone; the shear stress (12) is that of SectionPoint, of a rod that of torsion alone.
 /// All other components are zero, and von Mises' stress is sqrt(s^2 + 3 tau^2).
 /// Ends that are released turn and move as the release lets them.
 /// @param cell place in Space::beams(); @param xi on its unit length.

@@ -92,8 +92,8 @@ TEST(ShearOfBars, TwistedBox) {
               expected, 1e-6 * expected);
 }
 
-// V S / (I t) in the web of an I under a force at its end, whose bending a moment there takes out of
-// the middle: at the clamp F l / 2 is left, within a stress that the web's shear exceeds.
+// V S / (I t) in the web of an I under a force at its end. A moment there takes half of the bending
+// from the clamp: F l / 2 is left, whose stress the web's shear exceeds.
 TEST(ShearOfBars, ForceThroughTheWebOfAnI) {
   const double h = 0.4, t = 0.006, b = 0.2, flange = 0.02, force = 1e5;
   const double level = h - flange;
