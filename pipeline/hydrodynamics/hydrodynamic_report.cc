@@ -13,6 +13,7 @@
 #include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 #include "pipeline/terminal/text_table.h"
@@ -261,8 +262,15 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
         "\nerror of retardation functions: they miss added mass and damping by {:.2g} % of "
         "the waves' largest share at most\n",
         100.0 * calc_memory_error(database));
-    for (const std::string& doubt : {doubt_about_panels(database), doubt_about_excitation(database),
-                                     doubt_about_runs(database), doubt_about_memory(database)}) {
+    std::vector<std::string> doubts = {doubt_about_panels(database),
+                                       doubt_about_excitation(database), doubt_about_runs(database),
+                                       doubt_about_memory(database)};
+    // What this program computed has its conventions.
+    if (file.origin.starts_with(imported_from)) {
+      for (std::string& doubt : doubts_about_conventions(database))
+        doubts.push_back(std::move(doubt));
+    }
+    for (const std::string& doubt : doubts) {
       if (!doubt.empty()) text += "\nwarning: " + doubt + "\n";
     }
   }

@@ -311,8 +311,8 @@ class Doubts {
   void doubt_sea() {
     std::string of_sea = doubt_about_sea(case_, case_.gravity);
     if (!of_sea.empty()) list_.push_back(std::move(of_sea));
-    std::string of_database = doubt_about_database(case_.vessels);
-    if (!of_database.empty()) list_.push_back(std::move(of_database));
+    for (std::string& of_database : doubts_about_database(case_.vessels))
+      list_.push_back(std::move(of_database));
   }
 
   void doubt_water() {

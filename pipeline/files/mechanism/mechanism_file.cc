@@ -119,7 +119,7 @@ void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return;
   if (std::string doubt = doubt_about_sea(mechanism, -g.z()); !doubt.empty())
     mechanism.doubts.push_back(std::move(doubt));
-  if (std::string doubt = doubt_about_database(mechanism.vessels); !doubt.empty())
+  for (std::string& doubt : doubts_about_database(mechanism.vessels))
     mechanism.doubts.push_back(std::move(doubt));
 }
 
