@@ -164,11 +164,13 @@ std::vector<SectionPoint> checked_points(const BeamSection& section) {
   if (!has_second_moments(section)) return {{Vector2::Zero(), of_torsion, Vector2::Zero()}};
   const Vector2 of_force(estimated_force(section.area, section.shear_area_2),
                          estimated_force(section.area, section.shear_area_3));
+  constexpr double inner = 0.8;
   std::vector<SectionPoint> points;
+  for (const Vector2& place : places) points.push_back({place, of_torsion, Vector2::Zero()});
   for (const Vector2& place : places)
     for (const Vector2& signs : {Vector2(1, 1), Vector2(1, -1), Vector2(-1, 1), Vector2(-1, -1)})
       if (of_torsion > 0 || signs[0] > 0)  // without torsion the other signs say the same
-        points.push_back({place, of_torsion, signs.cwiseProduct(of_force)});
+        points.push_back({inner * place, of_torsion, signs.cwiseProduct(of_force)});
   return points;
 }
 

@@ -43,7 +43,7 @@ std::vector<SectionPoint> shear_points_of_polygon(const std::vector<Eigen::Vecto
 std::vector<Eigen::Vector2d> stress_points(const BeamSection& section);
 
 /// Points of a beam's section at which all of its stress is looked at: BeamSection::shear_points,
-/// or, where its shape is not known, an estimate of the shear at each of its stress_points().
+/// or, where its shape is not known, an estimate of the shear by its stress_points().
 ///
 /// Torsion is T c / J, c the smaller of sqrt(6 J / A) and the section's reach from its centroid.
 /// The first is more than there is in solid bars, in closed walls, and in open ones of which half
@@ -54,7 +54,11 @@ std::vector<Eigen::Vector2d> stress_points(const BeamSection& section);
 ///
 /// A force has 5 / (4 A_s) by its shear area, as a rectangle has; 2 / A, as a thin pipe, where none
 /// is given or the area itself stands for it. What runs upright in an I-beam may have several times
-/// as much: give its shear area. The sum counts in every point with the signs of either force.
+/// as much: give its shear area. At the stress points themselves there is none, for at the edge
+/// nothing flows across it; all of it, with the signs of either force, counts at four fifths of
+/// their way from the centroid. So slender bars keep the stress of their bending, as solid ones
+/// have it. Where the web of an I ends, at 0.93 of its height with 0.9 of the largest shear, the
+/// sum may be 8 % more.
 std::vector<SectionPoint> checked_points(const BeamSection& section);
 
 /// Is the shear of checked_points() an estimate? Not of a section that has none: without torsion

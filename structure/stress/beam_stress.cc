@@ -45,12 +45,15 @@ Eigen::MatrixXd own_motion_of(const Space& space, int cell,
   return own;
 }
 
-/// Strains by the cell's own polynomials, beyond those of heat, which no force belongs to.
+/// Strains by the cell's own polynomials, beyond those of heat, which no force belongs to; of a rod
+/// stretch and twist alone.
 /// @param own motion of the cell's ends (own_motion_of).
 Eigen::MatrixXd own_strains_of(const Space& space, int cell, double xi, const Eigen::MatrixXd& own,
                                const CellHeat* heat) {
   Eigen::MatrixXd strains = beam_point(space, cell, xi).strain * own;
   if (heat != nullptr) strains -= heat->beam_strains(cell, xi);
+  if (beam_of(space, cell).is_rod)
+    for (const Eigen::Index row : {1, 2, 4, 5}) strains.row(row).setZero();
   return strains;
 }
 
@@ -91,8 +94,7 @@ SectionState state_at(const Space& space, int cell, double xi,
   state.forces = carried_forces(space, cell, xi, law, own, heat);
   if (beam.end_section < 0) {
     state.strains = own_strains_of(space, cell, xi, own, heat);
-    for (const Eigen::Index row : {0, 3, 4, 5})
-      state.forces.row(row) = law.row(row) * state.strains;
+    for (const Eigen::Index row : {0, 4, 5}) state.forces.row(row) = law.row(row) * state.strains;
   } else {
     state.strains = algebra::least_squares(law, state.forces);
   }

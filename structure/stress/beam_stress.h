@@ -11,10 +11,11 @@
 namespace blocklift::structure {
 
 /// Stress of a beam at the points of its section, Pa: rows 6 point + component of Stress for
-/// points_of_beam(), a column a motion (freedoms x k). The normal
-/// stress along the beam is s = E (stretch + x_3 k_2 - x_2 k_3), of a rod that of its stretch alone;
-/// the shear stress (12) is that of SectionPoint, of a rod that of its torsion alone. All other
-/// components are zero, and von Mises' stress is sqrt(s^2 + 3 tau^2).
+/// points_of_beam(), a column a motion (freedoms x k).
+///
+/// The normal stress along the beam is s = E (stretch + x_3 k_2 - x_2 k_3), of a rod that of its
+/// stretch alone; the shear stress (12) is that of SectionPoint, of a rod that of its torsion alone.
+/// All other components are zero, and von Mises' stress is sqrt(s^2 + 3 tau^2).
 /// Ends that are released turn and move as the release lets them.
 /// @param cell place in Space::beams(); @param xi on its unit length.
 /// @param heat of as many cases as there are motions; null: none.
@@ -34,8 +35,8 @@ Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double 
 
 /// Section forces along a beam in its axes about the centroid: rows N, Q_2, Q_3, M_1, M_2, M_3 (N,
 /// N m; beam_stiffness_law), a column a motion; of a rod all but N and M_1 are zero. Forces across
-/// are those of the Gauss points, carried to the place: between these the shear strain of a slender
-/// beam's polynomials is no force's.
+/// and torsion are those of the Gauss points, carried to the place: between these the shear strain
+/// of a slender beam's polynomials is no force's.
 Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
                             const Eigen::Ref<const Eigen::MatrixXd>& motions,
                             const CellHeat* heat = nullptr);

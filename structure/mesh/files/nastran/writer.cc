@@ -270,7 +270,11 @@ class NastranText {
                  i2 = fourth(section.second_moment_2), i12 = fourth(section.product_23),
                  j = fourth(section.torsion), mass = per_length(section.mass_per_length);
     if (is_rod) {
-      out_.card("PROD", {property, material, a, j, CardField(), mass});
+      const bool has_shear = section.shear_points.size() == 1 && section.torsion > 0;
+      const CardField arm =
+          has_shear ? CardField(length(section.shear_points[0].of_torsion * section.torsion))
+                    : CardField();
+      out_.card("PROD", {property, material, a, j, arm, mass});
       return property;
     }
     const auto factor = [&](double shear_area) {
