@@ -17,6 +17,7 @@
 #include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/files/vessel/wetted_mesh.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
@@ -61,14 +62,26 @@ void print_panels(const HydrodynamicState& state) {
   std::fflush(stdout);
 }
 
+double displaced_mass(const HydrodynamicBody& body, const dynamics::Pose& X_WB, double density) {
+  return density * calc_hydrostatics(dynamics::HullClusters(body.hull), X_WB).volume;
+}
+
 /// Of each body once, at its deepest: draughts ascend.
-void say_doubts_about_keels(const HydrodynamicProblem& problem,
+void say_doubts_about_hulls(const HydrodynamicProblem& problem,
                             const std::vector<HydrodynamicState>& states) {
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     const HydrodynamicBody& body = problem.bodies[b];
-    const std::string doubt =
-        doubt_about_keel(body.name, body.hull, states.back().poses[b], problem.water.depth);
-    if (!doubt.empty()) say_warning(doubt);
+    const dynamics::Pose& X_WB = states.back().poses[b];
+    const std::string mass =
+        body.as_meshed
+            ? doubt_about_mass(body.name, displaced_mass(body, X_WB, problem.water.density),
+                               body.body.mass)
+            : std::string();
+    for (const std::string& doubt :
+         {doubt_about_size("vessel " + body.name, body.hull), mass,
+          doubt_about_keel(body.name, body.hull, X_WB, problem.water.depth)}) {
+      if (!doubt.empty()) say_warning(doubt);
+    }
   }
 }
 
@@ -143,7 +156,7 @@ int compute_vessel(const HydroOptions& options) {
   const fs::path output = output_of(options, *problem);
   require_writable_file(output);
   const std::vector<HydrodynamicState> states = prepare(*problem);
-  say_doubts_about_keels(*problem, states);
+  say_doubts_about_hulls(*problem, states);
   std::vector<Eigen::MatrixXd> masses;
   for (const HydrodynamicState& state : states) masses.push_back(state.mass);
   HydrodynamicFile file;

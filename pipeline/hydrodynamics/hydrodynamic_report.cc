@@ -327,6 +327,16 @@ std::string doubt_about_runs(const HydrodynamicDatabase& database) {
       mode_names[worst % modes_per_body]);
 }
 
+std::string doubt_about_mass(const std::string& name, double displaced, double mass) {
+  constexpr double acceptable = 0.05;
+  if (std::abs(mass - displaced) <= acceptable * displaced) return {};
+  return fmt::format(
+      "vessel {} displaces {:.5g} t as it is meshed, and its mass is {:.5g} t: with that it floats "
+      "at another draught, unless moorings hold it; give the mass that is displaced, or leave out "
+      "water_line and give the hull up to its deck",
+      name, displaced / 1e3, mass / 1e3);
+}
+
 std::string note_on_groups(const dynamics::PanelModel& model,
                            const std::vector<dynamics::BodyGroup>& groups) {
   if (groups.size() < 2) return {};

@@ -16,6 +16,7 @@
 #include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/files/vessel/wetted_mesh.h"
 #include "pipeline/lift/parallel_baskets.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
@@ -400,6 +401,8 @@ class Doubts {
   }
 
   void doubt_vessel(const std::string& who, const Vessel& vessel) {
+    if (std::string size = doubt_about_size(who, vessel.hull); !size.empty())
+      list_.push_back(std::move(size));
     const auto [low, high] = vessel.hull.bounds();
     // Masts and cranes that a vessel's mass includes may stand above its deck.
     Box box{0.5 * (low + high), 0.5 * (high - low)};

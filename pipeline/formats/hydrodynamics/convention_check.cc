@@ -222,13 +222,17 @@ std::string error_of_scale(double ratio, const Water& water) {
   const auto is = [&](double factor) { return std::abs(ratio / factor - 1) < 0.05; };
   std::string text =
       fmt::format("the excitation were {:.3g} times the right one", 1 / std::sqrt(ratio));
-  if (is(4)) text += " (half of it: for the wave's height in place of its amplitude)";
-  if (is(0.25)) text += " (twice it: for the wave's height in place of its amplitude)";
+  if (is(4)) text += " (for the wave's height in place of its amplitude)";
+  if (is(0.25)) text += " (for twice the wave's amplitude)";
+  if (is(1e6)) text += " (in kN)";
   if (is(std::pow(water.density * water.gravity, 2))) text += " (still over rho g)";
-  text += fmt::format(", or the lengths by which the file is scaled {:.3g} times the right ones",
-                      1 / ratio);
+  constexpr double most_lengths = 2000;  // mm and feet are within
+  if (std::abs(std::log(ratio)) < std::log(most_lengths)) {
+    text += fmt::format(", or the lengths by which the file is scaled {:.3g} times the right ones",
+                        1 / ratio);
+  }
   if (is(water.density) || is(1 / water.density)) {
-    text += ", or one of the two, damping or excitation, were scaled by another density";
+    text += ", or the two were scaled by different densities";
   }
   return text;
 }
@@ -470,7 +474,8 @@ std::vector<std::string> doubts_about_conventions(const HydrodynamicDatabase& da
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
   };
   if (database.headings.empty() || database.added_mass.empty()) return doubts;
-  add(doubt_about_haskind(database));
+  // Headings of another unit go round by chance.
+  if (words_about_headings(database) == nullptr) add(doubt_about_haskind(database));
   add(doubt_about_phases(database));
   if (doubts.empty()) add(doubt_about_heading_units(database));
   return doubts;
