@@ -486,6 +486,15 @@ void expect_same_in_abaqus(const Deck& deck) {
         << "vertex " << v;
 }
 
+// Each step says the temperatures of all nodes: initial ones of those that the case has none for.
+TEST(Heat, NodesWithoutATemperatureAreWrittenForAbaqus) {
+  const std::string text =
+      to_abaqus(test::nastran(hot_case_control + hot_bar("") +
+                              "GRID,9,,5.,0.,0.\nSPC1,1,123456,1\nTEMP,5,1,30.,2,50.,3,70.\n"));
+  EXPECT_THAT(text, HasSubstr("\n3, 5.000000000000e+01\n"));
+  EXPECT_THAT(text, HasSubstr("\n9, 0.000000000000e+00\n"));
+}
+
 TEST(Heat, IsWrittenForAbaqus) {
   std::string temperatures;
   for (int n = 0; n < 12; ++n)

@@ -162,8 +162,8 @@ MAT1,7,206.+9,,.3,7850.
   expect_near(section.twist_centre(), section.shear_centre, 0);
 }
 
-// The axis of a CBAR is its centroids', about which it twists, too; a tee keeps its shear centre for
-// what is checked of stiffeners.
+// The axis of a CBAR is its centroids', about which it twists, too; a tee keeps its shear centre
+// for what is checked of stiffeners.
 TEST(NastranReader, BarsTwistAboutTheirCentroid) {
   const Deck deck = nastran(
       "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nCBAR,1,5,1,2,0.,0.,1.\n"
