@@ -1,5 +1,7 @@
 #include "structure/load_cases/deck_loads.h"
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -8,6 +10,7 @@
 #include "structure/error.h"
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
+#include "structure/formulation/solid.h"
 #include "structure/mesh/files/deck/coordinate_systems.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
@@ -111,26 +114,121 @@ class LoadAdder {
     }
   }
 
-  /// A load per length of the line between a beam's vertices.
   void add(const BeamLoad& along, double factor) {
-    // Exact for the beams' degrees: a square's rule seen along one side, whose weights sum to one.
+    if (along.is_at_a_place()) {
+      add_at_a_place(along, factor);
+      return;
+    }
+    // Exact for the beams' degrees, a force and an arm that are linear in place: a square's rule
+    // seen along one side, whose weights sum to one.
     const Eigen::Matrix3Xd rule = square_rule(space_.degree() + 2);
-    const auto& vertices = space_.mesh().vertices;
+    const double length = line_of(along).norm();
     for (const BeamCell& cell : space_.beams()) {
       if (cell.beam != along.beam) continue;
-      const Beam& beam = space_.mesh().beams[cell.beam];
-      const double length =
-          cell.size * (vertices[beam.vertices[1]] - vertices[beam.vertices[0]]).norm();
-      for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-        const std::vector<double> values = lagrange_values(cell.degree, rule(0, q));
-        for (std::size_t i = 0; i < values.size(); ++i)
-          load_.segment<3>(row_of(cell.nodes[i])) +=
-              factor * rule(2, q) * length * values[i] * along.force_per_length;
-      }
+      const double from = std::max(cell.origin, along.span[0]),
+                   to = std::min(cell.origin + cell.size, along.span[1]);
+      if (!(to > from)) continue;
+      for (Eigen::Index q = 0; q < rule.cols(); ++q)
+        add_in_cell(cell, along, from + (to - from) * rule(0, q),
+                    factor * rule(2, q) * (to - from) * length);
     }
   }
 
+  void add(const EdgeLoad& along, double factor) {
+    const Shell& shell = space_.mesh().shells[along.shell];
+    // Sides of the unit square in turn; of a triangle the third one is a point.
+    const int side = shell.is_triangle() && along.edge == 2 ? 3 : along.edge;
+    const Eigen::Matrix3Xd rule = square_rule(space_.degree() + 2);
+    for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell) {
+      const ShellCell& located = space_.shells()[cell];
+      if (located.shell != along.shell || !is_on_side(located, side)) continue;
+      for (Eigen::Index q = 0; q < rule.cols(); ++q)
+        add_on_side(along, cell, side, rule(0, q), factor * rule(2, q));
+    }
+  }
+
+  void add(const VolumeLoad& in_solid, double factor) {
+    const Mesh& mesh = space_.mesh();
+    for (const SolidPoint& point : solid_points(mesh, mesh.solids[in_solid.solid]))
+      for (Eigen::Index i = 0; i < point.values.size(); ++i)
+        load_.segment<3>(row_of(space_.solid_nodes(in_solid.solid)[i])) +=
+            factor * point.weight * point.values[i] * in_solid.force;
+  }
+
  private:
+  static bool is_on_side(const ShellCell& cell, int side) {
+    constexpr double rounding = 1e-9;
+    const Eigen::Vector2d last = cell.origin + Eigen::Vector2d::Constant(cell.size);
+    const std::array<double, 4> gap{cell.origin.y(), 1 - last.x(), 1 - last.y(), cell.origin.x()};
+    return gap[static_cast<std::size_t>(side)] < rounding;
+  }
+
+  /// A point of a side of the unit square, a distance away from the side, as corners turn.
+  static Eigen::Vector2d beside(int side, double t, double away) {
+    if (side == 0) return {t, away};
+    if (side == 1) return {1 - away, t};
+    if (side == 2) return {1 - t, 1 - away};
+    return {away, 1 - t};
+  }
+
+  /// An edge load at a point of a cell's side. Cells are quadratic at most: their slopes are those
+  /// of parabolas through three points.
+  void add_on_side(const EdgeLoad& along, int cell, int side, double t, double weight) {
+    const auto place = [&](double at, double away) -> Vector3 {
+      return space_.place(cell, beside(side, at, away));
+    };
+    const double h = std::min(t, 1 - t);
+    constexpr double in = 0.5;
+    const Vector3 edge = (place(t + h, 0) - place(t - h, 0)) / (2 * h);
+    const Vector3 away = 4 * place(t, in) - 3 * place(t, 0) - place(t, 2 * in);
+    const Vector3 tangent = edge.normalized(), normal = edge.cross(away).normalized();
+    const Vector3 force = along.force + along.own[0] * tangent +
+                          along.own[1] * normal.cross(tangent) + along.own[2] * normal;
+    const Eigen::VectorXd values = space_.shell_values(beside(side, t, 0));
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      load_.segment<3>(row_of(space_.shell_nodes(cell)[i])) +=
+          weight * edge.norm() * values[i] * force;
+  }
+
+  /// The line that bears a load, from end to end of its beam.
+  Vector3 line_of(const BeamLoad& along) const {
+    const Mesh& mesh = space_.mesh();
+    const Beam& beam = mesh.beams[along.beam];
+    return mesh.vertices[beam.vertices[1]] + along.arm[1] - mesh.vertices[beam.vertices[0]] -
+           along.arm[0];
+  }
+
+  /// Cells that meet at the place have a node there: either takes all of it.
+  void add_at_a_place(const BeamLoad& load, double factor) {
+    constexpr double rounding = 1e-9;
+    for (const BeamCell& cell : space_.beams()) {
+      if (cell.beam != load.beam || load.span[0] < cell.origin - rounding ||
+          load.span[0] > cell.origin + cell.size + rounding)
+        continue;
+      add_in_cell(cell, load, load.span[0], factor);
+      return;
+    }
+  }
+
+  /// What a beam's load is at a share of its length, times a weight: a point at an arm a from the
+  /// nodes' line moves by u + theta x a.
+  void add_in_cell(const BeamCell& cell, const BeamLoad& along, double share, double weight) {
+    const double t =
+        along.is_at_a_place() ? 0 : (share - along.span[0]) / (along.span[1] - along.span[0]);
+    const auto between = [](const std::array<Vector3, 2>& ends, double at) -> Vector3 {
+      return (1 - at) * ends[0] + at * ends[1];
+    };
+    const Vector3 force = weight * between(along.force, t);
+    const Vector3 moment =
+        weight * between(along.moment, t) + between(along.arm, share).cross(force);
+    const std::vector<double> values =
+        lagrange_values(cell.degree, (share - cell.origin) / cell.size);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      load_.segment<3>(row_of(cell.nodes[i])) += values[i] * force;
+      load_.segment<3>(row_of(cell.nodes[i]) + 3) += values[i] * moment;
+    }
+  }
+
   void add_pressure(const PlateLoad& plate, int cell, const Vector3& point_of_rule,
                     const ShellPoint& point, double factor) {
     const ShellCell& located = space_.shells()[cell];
@@ -180,6 +278,8 @@ Eigen::VectorXd load_of(const ElasticModel& model, const Deck& deck,
     adder.add_plates(set, factor);
     for (const SolidLoad& on_face : set.solid_loads) adder.add(on_face, factor);
     for (const BeamLoad& along : set.beam_loads) adder.add(along, factor);
+    for (const EdgeLoad& along : set.edge_loads) adder.add(along, factor);
+    for (const VolumeLoad& in_solid : set.volume_loads) adder.add(in_solid, factor);
     if (!set.gravity.isZero(0))
       load -= factor * (model.inertia_loads().leftCols<3>() * set.gravity);
     for (const PartPull& pull : set.pulls)

@@ -63,7 +63,9 @@ struct SectionPoint {
 /// Cross-section of a beam about its own centroid; its axes 2 and 3 lie across the beam.
 struct BeamSection {
   std::string name;
-  int material = 0;            ///< place in Mesh::materials
+  int material = 0;  ///< place in Mesh::materials
+  /// Shear acts through the centroid wherever the shear centre lies, as in Nastran's CBAR.
+  bool twists_about_centroid = false;
   double area = 0;             ///< m^2
   double second_moment_2 = 0;  ///< I_2 = int x_3^2 dA, bending about axis 2, m^4
   double second_moment_3 = 0;  ///< I_3 = int x_2^2 dA, m^4
@@ -79,6 +81,11 @@ struct BeamSection {
   Eigen::Vector2d shear_centre = Eigen::Vector2d::Zero();  ///< (x_2, x_3), m
   double mass_per_length = 0;                              ///< beyond the beam's own, kg/m
   long label = 0;                                          ///< the property's number in its file
+
+  /// (x_2, x_3) of what a force across the beam goes through without twisting it, m.
+  Eigen::Vector2d twist_centre() const {
+    return twists_about_centroid ? Eigen::Vector2d::Zero() : shear_centre;
+  }
 };
 
 /// Which of the six freedoms (displacements, rotations along the beam's own axes 1, 2, 3) one end

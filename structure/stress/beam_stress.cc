@@ -33,7 +33,10 @@ double modulus_of(const Mesh& mesh, const BeamSection& section) {
 
 BeamSection section_of(const Space& space, int cell, double xi) {
   const BeamCell& located = space.beams()[cell];
-  return section_at(space.mesh(), beam_of(space, cell), located.origin + located.size * xi);
+  const Beam& beam = beam_of(space, cell);
+  BeamSection section = section_at(space.mesh(), beam, located.origin + located.size * xi);
+  if (beam.is_rod) section.twists_about_centroid = true;  // it bears no shear
+  return section;
 }
 
 /// Motion of a cell's own ends.
@@ -131,7 +134,7 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
   const SectionState state = state_at(space, cell, xi, motions, heat);
   const std::vector<SectionPoint> points = points_of(state.section, beam_of(space, cell).is_rod);
   const double modulus = modulus_of(space.mesh(), state.section);
-  const Eigen::RowVectorXd torsion = torsion_about_shear_centre(state.section, state.forces);
+  const Eigen::RowVectorXd torsion = torsion_about_twist_centre(state.section, state.forces);
   constexpr Eigen::Index normal = 0, shear = 3;  // 11 and 12 of Stress
   Eigen::MatrixXd stresses =
       Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(points.size()), motions.cols());
@@ -161,10 +164,10 @@ Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
   return state_at(space, cell, xi, motions, heat).forces;
 }
 
-Eigen::RowVectorXd torsion_about_shear_centre(const BeamSection& section,
+Eigen::RowVectorXd torsion_about_twist_centre(const BeamSection& section,
                                               const Eigen::MatrixXd& forces) {
-  return forces.row(3) -
-         (section.shear_centre[0] * forces.row(2) - section.shear_centre[1] * forces.row(1));
+  const Eigen::Vector2d centre = section.twist_centre();
+  return forces.row(3) - (centre[0] * forces.row(2) - centre[1] * forces.row(1));
 }
 
 BeamMotion beam_motion_at(const Space& space, int cell, double xi,

@@ -41,10 +41,10 @@ Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
                             const Eigen::Ref<const Eigen::MatrixXd>& motions,
                             const CellHeat* heat = nullptr);
 
-/// Torsion moment that a section feels, about its shear centre: M_1 of the forces about the
-/// centroid less the moment of Q_2 and Q_3, which act through the shear centre without twisting it.
+/// Torsion moment that twists a section, about BeamSection::twist_centre(): M_1 of the forces about
+/// the centroid less the moment of Q_2 and Q_3, which act there without twisting it (G J twist).
 /// @param forces rows of beam_forces.
-Eigen::RowVectorXd torsion_about_shear_centre(const BeamSection& section,
+Eigen::RowVectorXd torsion_about_twist_centre(const BeamSection& section,
                                               const Eigen::MatrixXd& forces);
 
 /// Motion of a point of a beam's centroid line for one motion of the block, and the one case of its

@@ -187,9 +187,9 @@ TEST(BeamStress, ForceThroughTheShearCentreTwistsNothing) {
   forces[1] = force[0];
   forces[2] = force[1];
   forces[3] = centre[0] * force[1] - centre[1] * force[0];
-  EXPECT_NEAR(torsion_about_shear_centre(section, forces)[0], 0, 1e-15);
+  EXPECT_NEAR(torsion_about_twist_centre(section, forces)[0], 0, 1e-15);
   forces[3] += 7;
-  EXPECT_NEAR(torsion_about_shear_centre(section, forces)[0], 7, 1e-12);
+  EXPECT_NEAR(torsion_about_twist_centre(section, forces)[0], 7, 1e-12);
 }
 
 }  // namespace

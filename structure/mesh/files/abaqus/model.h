@@ -119,7 +119,8 @@ void read_abaqus_cells(AbaqusModel& model, const std::vector<AbaqusBlock>& block
 void read_abaqus_sections(AbaqusModel& model);
 /// Systems of axes at nodes, which springs, links, supports and loads count along.
 void read_abaqus_transforms(AbaqusModel& model);
-/// Vertices at the corners of a solid's face S1 to S6. @throws CardError for another name.
+/// Vertices at the corners of a solid's face S1 to S6, each once.
+/// @throws CardError for another name, and for a face whose nodes fall together.
 std::vector<int> corners_of_face(const AbaqusDeckElement& solid, const std::string& face);
 /// Masses, springs, couplings, rigid bodies, equations.
 void read_abaqus_links(AbaqusModel& model);

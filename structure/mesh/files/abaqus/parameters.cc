@@ -18,7 +18,8 @@ struct KnownParameters {
 };
 
 const KnownParameters* parameters_of(const std::string& keyword) {
-  static const KnownParameters of_loads{{"OP", "AMPLITUDE", "FOLLOWER", "INPUT"}, {"REGION TYPE"}};
+  static const KnownParameters of_loads{{"OP", "AMPLITUDE", "FOLLOWER", "INPUT"},
+                                        {"REGION TYPE", "CONSTANT RESULTANT"}};
   static const KnownParameters of_shells{
       {"ELSET", "MATERIAL", "COMPOSITE", "OFFSET", "ORIENTATION", "NODAL THICKNESS",
        "SHELL THICKNESS", "DENSITY", "SYMMETRIC", "BENDING ONLY", "MEMBRANE ONLY"},

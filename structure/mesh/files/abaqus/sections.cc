@@ -358,8 +358,8 @@ class Sections {
       }
       shell.curvature = static_cast<int>(mesh_.curved_shells.size());
       mesh_.curved_shells.push_back(quadratic_points(at_corners, at_middles));
-    } else if (count == 4 && corners[2] == corners[3]) {
-      corners.pop_back();
+    } else if (count == 4) {
+      drop_repeated(element, corners);
     }
     shell.vertices = lexicographic(corners);
     if (is_folded(mesh_, shell))
@@ -370,6 +370,23 @@ class Sections {
                       shell.label,
                       shell.curvature < 0 ? "" : ", or middles of its edges lie far off"));
     mesh_.shells.push_back(shell);
+  }
+
+  /// A quadrangle with neighbouring corners in one node is a triangle.
+  void drop_repeated(const AbaqusDeckElement& element, std::vector<int>& corners) const {
+    std::vector<int> left = corners;
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    if (left.size() > 1 && left.front() == left.back()) left.pop_back();
+    if (left.size() == 4) return;
+    if (left.size() < 3) {
+      model_.log.complain(
+          element.line,
+          fmt::format("*ELEMENT: element {} has corners in one node and no area", element.label));
+      return;
+    }
+    model_.log.remark(element.line,
+                      "*ELEMENT: a quadrangle with one node twice is read as a triangle");
+    corners = left;
   }
 
   void add_beams(const SectionBlocks& blocks, const BeamShape& shape) {

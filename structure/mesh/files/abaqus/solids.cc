@@ -11,6 +11,7 @@
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/abaqus/orientation.h"
+#include "structure/mesh/files/deck/collapsed_solid.h"
 #include "structure/mesh/files/deck/given_solids.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/solid_shape.h"
@@ -70,13 +71,18 @@ void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const Abaqu
     Solid solid;
     solid.shape = shape_by_nodes(element.nodes.size());
     solid.vertices = element.nodes;
-    const auto corners = solid.vertices.begin() + topology_of(solid.shape).corners;
-    for (auto corner = solid.vertices.begin(); corner != corners; ++corner)
-      if (std::find(corner + 1, corners, *corner) != corners)
-        throw CardError{
-            fmt::format("element {} has one node twice: a solid whose corners fall together is "
-                        "not known; give it as a C3D6, C3D5 or C3D4",
-                        element.label)};
+    if (has_repeated_corners(solid)) {
+      const std::optional<Solid> left = without_repeated_corners(solid);
+      if (!left)
+        throw CardError{fmt::format(
+            "element {} has one node twice, and what is left of it is no wedge, pyramid or "
+            "tetrahedron",
+            element.label)};
+      model.log.remark(element.line,
+                       "*ELEMENT: a solid with one node at several corners is read as the wedge, "
+                       "pyramid or tetrahedron that is left of it");
+      solid = *left;
+    }
     solid.material = material;
     solid.region = region;
     solid.label = element.label;
@@ -93,9 +99,10 @@ void complete_abaqus_solids(AbaqusModel& model) {
   std::vector<GivenSolid> given(mesh.solids.size());
   for (const AbaqusDeckElement& element : model.elements) {
     if (element.solid < 0) continue;
-    const int corners = topology_of(mesh.solids[element.solid].shape).corners;
+    const Solid& solid = mesh.solids[element.solid];
+    const int corners = topology_of(solid.shape).corners;
     given[element.solid] = {"*ELEMENT", element.line,
-                            static_cast<int>(element.nodes.size()) > corners};
+                            static_cast<int>(solid.vertices.size()) > corners};
   }
   complete_solids(model.deck, given, model.log);
 }
@@ -109,7 +116,14 @@ std::vector<int> corners_of_face(const AbaqusDeckElement& solid, const std::stri
     throw CardError{fmt::format("face {} of element {} ({}) is not known; S1 to S{} are", face,
                                 solid.label, solid.type, own.size())};
   std::vector<int> corners;
-  for (const int i : own[number]) corners.push_back(solid.nodes[i]);
+  for (const int i : own[number])
+    if (std::find(corners.begin(), corners.end(), solid.nodes[i]) == corners.end())
+      corners.push_back(solid.nodes[i]);
+  if (corners.size() < 3)
+    throw CardError{
+        fmt::format("face {} of element {} is an edge or a point: its nodes fall "
+                    "together",
+                    face, solid.label)};
   return corners;
 }
 

@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/abaqus/model.h"
+#include "structure/mesh/files/abaqus/spread_loads.h"
 #include "structure/mesh/files/abaqus/temperatures.h"
-#include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
 
@@ -69,6 +69,8 @@ struct SpreadLoads {
     plates.for_each([&](const Key&, const PlateLoad& load) { set.plate_loads.push_back(load); });
     solids.for_each([&](const Key&, const SolidLoad& load) { set.solid_loads.push_back(load); });
     beams.for_each([&](const Key&, const BeamLoad& load) { set.beam_loads.push_back(load); });
+    edges.for_each([&](const Key&, const EdgeLoad& load) { set.edge_loads.push_back(load); });
+    volumes.for_each([&](const Key&, const VolumeLoad& load) { set.volume_loads.push_back(load); });
     gravity.for_each([&](const Key&, const PartPull& pull) {
       if (pull.part)
         set.pulls.push_back(pull);
@@ -77,11 +79,21 @@ struct SpreadLoads {
     });
     spins.for_each([&](const Key&, const Spin& spin) { set.spins.push_back(spin); });
   }
+  /// Adds loads on elements. @param kind what they are, and on which face of which surface.
+  void add(const std::string& kind, const LoadSet& set) {
+    for (const PlateLoad& load : set.plate_loads) plates.add({kind, load.shell}, load);
+    for (const SolidLoad& load : set.solid_loads) solids.add({kind, load.solid}, load);
+    for (const BeamLoad& load : set.beam_loads) beams.add({kind, load.beam}, load);
+    for (const EdgeLoad& load : set.edge_loads) edges.add({kind, load.shell}, load);
+    for (const VolumeLoad& load : set.volume_loads) volumes.add({kind, load.solid}, load);
+  }
   template <typename Visit>
   void for_each_kind(const Visit& visit) {
     visit(plates);
     visit(solids);
     visit(beams);
+    visit(edges);
+    visit(volumes);
     visit(gravity);
     visit(spins);
   }
@@ -89,6 +101,8 @@ struct SpreadLoads {
   GivenBySteps<Key, PlateLoad> plates;
   GivenBySteps<Key, SolidLoad> solids;
   GivenBySteps<Key, BeamLoad> beams;
+  GivenBySteps<Key, EdgeLoad> edges;
+  GivenBySteps<Key, VolumeLoad> volumes;
   GivenBySteps<Key, PartPull> gravity;
   GivenBySteps<Key, Spin> spins;
 };
@@ -327,7 +341,8 @@ class StepBlocks {
   /// Is there a load in a set at all? Those that are not known here have been left out.
   static bool acts(const LoadSet& loads) {
     return !loads.point_loads.empty() || !loads.plate_loads.empty() || !loads.solid_loads.empty() ||
-           !loads.beam_loads.empty() || loads.is_on_masses();
+           !loads.beam_loads.empty() || !loads.edge_loads.empty() || !loads.volume_loads.empty() ||
+           loads.is_on_masses();
   }
 
   // *CLOAD / node or set, freedom, value
@@ -350,8 +365,9 @@ class StepBlocks {
     });
   }
 
-  // *DLOAD / element or set, P | P1 ... | GRAV | PX ..., magnitude, direction, or CENTRIF, square
-  // of the angular velocity, place on the axis, its direction; *DSLOAD / surface, P, magnitude
+  // *DLOAD / element or set, kind, magnitude, and what the kind needs: directions, levels, or of
+  // CENTRIF, whose magnitude is the square of the angular velocity, place on the axis and its
+  // direction; *DSLOAD / surface, kind, magnitude ...
   void add_spread_loads(const AbaqusBlock& block) {
     model_.for_lines(block, [&](const Fields& fields) {
       if (fields.size() < 3) throw CardError{"elements, kind and magnitude are due"};
@@ -366,11 +382,16 @@ class StepBlocks {
         return;
       }
       if (block.name == "DSLOAD") {
-        add_surface_pressure(block, fields, kind, value);
+        add_surface_loads(block, fields, kind);
         return;
       }
-      for (const int e : model_.elements_of(*scope_, fields[0]))
-        add_load(block, model_.elements[e], kind, value);
+      for (const int e : model_.elements_of(*scope_, fields[0])) {
+        const auto load = abaqus_element_load(model_, model_.elements[e], kind, fields);
+        if (load)
+          now_.on_elements.add(kind, *load);
+        else
+          leave_out(block, kind, fmt::format("loads other than {}", known_element_loads));
+      }
     });
   }
 
@@ -438,73 +459,17 @@ class StepBlocks {
                       fmt::format("*{}: a load {} is left out: {}", block.name, kind, what));
   }
 
-  void add_load(const AbaqusBlock& block, const AbaqusDeckElement& element, const std::string& kind,
-                double value) {
-    if (element.kind == AbaqusKind::solid) {
-      if (element.solid < 0 || kind.size() != 2 || kind[0] != 'P' || kind[1] < '1' || kind[1] > '9')
-        leave_out(block, kind, "loads other than P1 to P6, GRAV and CENTRIF of solids");
-      else
-        now_.on_elements.solids.add({kind, element.solid},
-                                    face_pressure(element, std::string{'S', kind[1]}, value));
-      return;
-    }
-    if (kind == "P" && element.shell >= 0) {
-      now_.on_elements.plates.add({kind, element.shell}, pressure(element.shell, value));
-      return;
-    }
-    static const std::map<std::string, Vector3> directions{
-        {"PX", Vector3::UnitX()}, {"PY", Vector3::UnitY()}, {"PZ", Vector3::UnitZ()}};
-    const auto direction = directions.find(kind);
-    if (direction == directions.end() || element.beams.empty()) {
-      leave_out(block, kind, "loads other than P of shells, PX, PY, PZ of beams, GRAV and CENTRIF");
-      return;
-    }
-    for (const int beam : element.beams)
-      now_.on_elements.beams.add(
-          {kind, beam},
-          BeamLoad{beam, value * model_.units.force / model_.units.length * direction->second});
-  }
-
-  PlateLoad pressure(int shell, double value) const {
-    PlateLoad load;
-    load.shell = shell;
-    load.pressure.fill(value * model_.units.stress());
-    return load;
-  }
-
-  SolidLoad face_pressure(const AbaqusDeckElement& element, const std::string& face,
-                          double value) const {
-    SolidLoad load;
-    load.solid = element.solid;
-    load.face = face_of(model_.deck.mesh.solids[element.solid], corners_of_face(element, face));
-    load.pressure.fill(value * model_.units.stress());
-    return load;
-  }
-
-  void add_surface_pressure(const AbaqusBlock& block, const Fields& fields, const std::string& kind,
-                            double value) {
+  void add_surface_loads(const AbaqusBlock& block, const Fields& fields, const std::string& kind) {
     const auto surface = model_.surfaces.find(upper(fields[0]));
     if (surface == model_.surfaces.end())
       throw CardError{fmt::format("surface {} does not exist", fields[0])};
-    if (kind != "P") throw CardError{fmt::format("a load {} is not known; P is", kind)};
     for (const auto& [e, face] : surface->second.faces) {
       const AbaqusDeckElement& element = model_.elements[e];
-      if (element.kind == AbaqusKind::solid) {
-        if (element.solid < 0 || face == "SPOS")
-          leave_out(block, kind, "pressure on solids whose faces are not named (S1 ...)");
-        else
-          now_.on_surfaces.solids.add({surface->first + " " + face, element.solid},
-                                      face_pressure(element, face, value));
-        continue;
-      }
-      if (element.shell < 0 || (face != "SPOS" && face != "SNEG"))
-        throw CardError{
-            fmt::format("pressure on face {} of element {}; SPOS and SNEG of shells are "
-                        "known",
-                        face, element.label)};
-      // Pressure pushes against its surface: on the upper side, against the normal.
-      now_.on_surfaces.plates.add({surface->first + " " + face, element.shell},
-                                  pressure(element.shell, face == "SPOS" ? -value : value));
+      if (element.kind == AbaqusKind::solid && (element.solid < 0 || face == "SPOS"))
+        leave_out(block, kind, "pressure on solids whose faces are not named (S1 ...)");
+      else
+        now_.on_surfaces.add(fmt::format("{} {} {}", surface->first, face, kind),
+                             abaqus_surface_load(model_, element, face, kind, fields));
     }
   }
 

@@ -16,6 +16,7 @@
 #include "structure/mesh/files/abaqus/temperature_text.h"
 #include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
+#include "structure/mesh/files/deck/line_loads.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
@@ -293,7 +294,7 @@ class AbaqusText {
     line("*CENTROID");
     line(pair(kind.centroid));
     line("*SHEAR CENTER");
-    line(pair(kind.centroid + section.shear_centre));
+    line(pair(kind.centroid + section.twist_centre()));
     if (std::isfinite(section.shear_area_2) && std::isfinite(section.shear_area_3)) {
       line("*TRANSVERSE SHEAR STIFFNESS");
       line(exact(section.shear_area_3 * shear / units_.force) + ", " +
@@ -504,16 +505,8 @@ class AbaqusText {
             line(fmt::format("{}, {}, {}, {}", label(support.vertex), i + 1, i + 1,
                              exact(i < 3 ? support.value[i] / units_.length : support.value[i])));
     line("*CLOAD, OP=NEW");
-    std::map<int, std::pair<Vector3, Vector3>> at_vertices;
-    for (const auto& [set, factor] : one.loads)
-      for (const PointLoad& load : deck_.load_sets[set].point_loads) {
-        const auto [sum, is_new] =
-            at_vertices.try_emplace(load.vertex, Vector3::Zero(), Vector3::Zero());
-        sum->second.first += factor * load.force;
-        sum->second.second += factor * load.moment;
-      }
-    for (const auto& [vertex, load] : at_vertices)
-      write_point_load(vertex, load.first, load.second);
+    for (const PointLoad& load : loads_at_vertices(deck_, one))
+      write_point_load(load.vertex, load.force, load.moment);
     line("*DLOAD, OP=NEW");
     for (const auto& [set, factor] : one.loads) write_spread_loads(deck_.load_sets[set], factor);
     text_ += temperatures_.of_step(one, node_number_, middles_);
@@ -554,11 +547,10 @@ class AbaqusText {
                        exact(factor * load.pressure[0] / units_.stress())));
     }
     for (const BeamLoad& load : set.beam_loads)
-      for (int i = 0; i < 3; ++i)
-        if (load.force_per_length[i] != 0)
-          line(
-              fmt::format("{}, P{}, {}", beam_number_[load.beam], static_cast<char>('X' + i),
-                          exact(factor * load.force_per_length[i] * units_.length / units_.force)));
+      for (int i = 0; i < 3 && is_even_between_vertices(load); ++i)
+        if (load.force[0][i] != 0)
+          line(fmt::format("{}, P{}, {}", beam_number_[load.beam], static_cast<char>('X' + i),
+                           exact(factor * load.force[0][i] * units_.length / units_.force)));
     for (const Spin& spin : set.spins) {
       if (!spin.acceleration.isZero(0) || factor < 0 || spin.part)
         throw ModelError("a rotation that grows, pulls inwards or is a part's is not written here");
@@ -566,6 +558,8 @@ class AbaqusText {
           "EVERYTHING, CENTRIF, {}, {}, {}", exact(factor * spin.velocity.squaredNorm()),
           exact(Vector3(spin.place / units_.length)), exact(Vector3(spin.velocity.normalized()))));
     }
+    if (!set.edge_loads.empty() || !set.volume_loads.empty())
+      throw ModelError("loads of edges and per volume are not written here");
     if (!set.pulls.empty()) throw ModelError("gravity on a part of the masses is not written here");
     const double gravity = factor * set.gravity.norm() / units_.length;
     if (gravity != 0)

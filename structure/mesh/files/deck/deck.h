@@ -99,9 +99,35 @@ struct SolidLoad {
   std::shared_ptr<const LocalSystem> system = nullptr;  ///< as a plate's
 };
 
+/// Load along a beam between two shares of its length, linear in place; at one place where both
+/// are the same.
 struct BeamLoad {
   int beam = 0;
-  Vector3 force_per_length = Vector3::Zero();  ///< N/m, along the world's axes
+  std::array<double, 2> span{0, 1};  ///< from the beam's first vertex
+  /// Where it begins and ends, along the world's axes: N and N m per m of the line that bears it,
+  /// or, at one place, N and N m (the first alone).
+  std::array<Vector3, 2> force{Vector3::Zero(), Vector3::Zero()};
+  std::array<Vector3, 2> moment{Vector3::Zero(), Vector3::Zero()};
+  /// Of the line that bears it from that between the vertices, at the beam's ends, m.
+  std::array<Vector3, 2> arm{Vector3::Zero(), Vector3::Zero()};
+
+  bool is_at_a_place() const { return span[0] == span[1]; }
+};
+
+/// Force per length of a shell's edge.
+struct EdgeLoad {
+  int shell = 0;
+  int edge = 0;                     ///< from 0, the corners taken in turn around the shell
+  Vector3 force = Vector3::Zero();  ///< along the world's axes, N/m
+  /// Along the edge as the corners turn, from it into the shell along its surface, and along the
+  /// shell's normal, N/m.
+  Vector3 own = Vector3::Zero();
+};
+
+/// Force per volume of a solid.
+struct VolumeLoad {
+  int solid = 0;
+  Vector3 force = Vector3::Zero();  ///< along the world's axes, N/m^3
 };
 
 /// Turning about an axis that stays, as a load: what all masses feel of it.
@@ -125,6 +151,8 @@ struct LoadSet {
   std::vector<PlateLoad> plate_loads;
   std::vector<SolidLoad> solid_loads;
   std::vector<BeamLoad> beam_loads;
+  std::vector<EdgeLoad> edge_loads;
+  std::vector<VolumeLoad> volume_loads;
   Vector3 gravity = Vector3::Zero();  ///< acceleration that all masses feel, m/s^2
   std::vector<PartPull> pulls;        ///< besides
   std::vector<Spin> spins;

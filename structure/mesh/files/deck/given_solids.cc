@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/mesh/solid_shape.h"
@@ -19,19 +21,58 @@ bool complete(Mesh& mesh, Solid& solid, SolidEdgeMiddles& middles) {
                      solid.vertices.begin());
 }
 
+/// Pairs of opposite faces, corners of one over those of the other.
+struct OppositeFaces {
+  std::vector<int> lower, upper;
+};
+
+const std::vector<OppositeFaces>& opposite_faces(SolidShape shape) {
+  static const std::vector<OppositeFaces> none, of_wedge{{{0, 1, 2}, {3, 4, 5}}},
+      of_hexahedron{
+          {{0, 1, 2, 3}, {4, 5, 6, 7}}, {{0, 1, 5, 4}, {3, 2, 6, 7}}, {{1, 2, 6, 5}, {0, 3, 7, 4}}};
+  if (shape == SolidShape::hexahedron) return of_hexahedron;
+  return shape == SolidShape::wedge ? of_wedge : none;
+}
+
+/// Is a face turned against the opposite one by a quarter or more? The Jacobian may be positive
+/// everywhere then. Judged by the mean cosine between edges over one another, which bent solids,
+/// whose faces lean to one another, keep by the edges that they lean about.
+bool is_twisted(const Mesh& mesh, const Solid& solid) {
+  constexpr double least_cosine = 0.2;
+  const auto edge = [&](const std::vector<int>& face, std::size_t i) -> Vector3 {
+    const int from = solid.vertices[face[i]], to = solid.vertices[face[(i + 1) % face.size()]];
+    return (mesh.vertices[to] - mesh.vertices[from]).normalized();
+  };
+  for (const OppositeFaces& faces : opposite_faces(solid.shape)) {
+    double cosines = 0;
+    for (std::size_t i = 0; i < faces.lower.size(); ++i)
+      cosines += edge(faces.lower, i).dot(edge(faces.upper, i));
+    if (cosines < least_cosine * static_cast<double>(faces.lower.size())) return true;
+  }
+  return false;
+}
+
 void refuse_folded_solids(const Mesh& mesh, const std::vector<GivenSolid>& given, DeckLog& log) {
   constexpr int most_named = 10;
   int count = 0;
   for (std::size_t s = 0; s < mesh.solids.size(); ++s) {
-    if (least_jacobian_ratio(mesh, mesh.solids[s]) > 0) continue;
-    if (++count <= most_named)
+    const Solid& solid = mesh.solids[s];
+    const bool is_folded_solid = !(least_jacobian_ratio(mesh, solid) > 0);
+    if (!is_folded_solid && !is_twisted(mesh, solid)) continue;
+    if (++count > most_named)
+      log.complain(given[s].line,
+                   fmt::format("{}: one more element is folded or twisted", given[s].card));
+    else if (is_folded_solid)
       log.complain(given[s].line,
                    fmt::format("{}: element {} is folded or has no volume: its Jacobian is not "
                                "positive everywhere; are its nodes in their order, and the middles "
                                "of its edges where they belong?",
-                               given[s].card, mesh.solids[s].label));
+                               given[s].card, solid.label));
     else
-      log.complain(given[s].line, fmt::format("{}: one more element is folded", given[s].card));
+      log.complain(given[s].line,
+                   fmt::format("{}: element {} is twisted: two opposite faces are turned against "
+                               "each other; are the nodes of both in the same order?",
+                               given[s].card, solid.label));
   }
 }
 

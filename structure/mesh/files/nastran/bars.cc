@@ -309,8 +309,9 @@ BarCard read_shaped(NastranModel& model, const CardView& card) {
     }
   };
   bar.section = build(figures);
+  // A beam's axis is its shear centre's, a bar's its centroid's, about which it twists.
+  bar.section.twists_about_centroid = !is_beam;
   if (!is_beam) return bar;
-  // A beam's axis is its shear centre's, a bar's its centroid's.
   bar.centroid = bar.end_centroid = -bar.section.shear_centre;
   const auto figures_at = [&](std::size_t i, Figures here) {
     for (std::size_t j = 0; j < count; ++j)
@@ -516,11 +517,14 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
       throw CardError{
           fmt::format("a bar, beam or rod has property {}, which is a {}", property, name)};
     NastranBar read;
+    read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
+    // A rod bears no shear that would go through a point of its own.
+    if (read.is_rod) bar.section.twists_about_centroid = true;
+    if (read.is_rod && bar.end) bar.end->twists_about_centroid = true;
     read.section = add_section(model, name, bar.material, bar.section, property);
     if (bar.end) read.end_section = add_section(model, name, bar.material, *bar.end, property);
     read.centroid = bar.centroid;
     read.end_centroid = bar.end_centroid;
-    read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
     if (read.is_rod && !bar.stations.empty())
       throw CardError{
           "its section is not linear from end to end, and it does not bend: a rod cannot be "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/deck/shell_geometry.h"
+#include "structure/mesh/files/nastran/line_loads.h"
 #include "structure/mesh/files/nastran/model.h"
 #include "structure/mesh/shell_shape.h"
 
@@ -192,6 +194,11 @@ class Bars {
   explicit Bars(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
 
   void read() {
+    for (const NastranCard& card : model_.bulk.cards) {
+      if (card.name != "PLOAD1") continue;
+      const CardView load(model_.bulk, card);
+      if (const auto label = to_integer(load.text(1))) loads_.emplace(*label, load);
+    }
     model_.for_each(
         {{"BAROR", [&](const CardView& card) { take_defaults(card, bar_defaults_); }},
          {"BEAMOR", [&](const CardView& card) { take_defaults(card, beam_defaults_); }}});
@@ -261,9 +268,11 @@ class Bars {
     add_pieces(beam, bar, property);
   }
 
-  /// A beam, in pieces from station to station where its section is not linear from end to end.
+  /// A beam, in pieces from station to station where its section is not linear from end to end, and
+  /// to where loads want it divided.
   void add_pieces(const Beam& whole, const NastranBar& bar, long property) {
     const auto [first, last] = whole.vertices;
+    model_.offsets_of_bar[static_cast<int>(mesh_.beams.size())] = whole.offset;
     if (!bar.stations.empty() && runs_along_shell(first, last))
       throw CardError{fmt::format(
           "the section of property {} is not linear from end to end, and its beam runs along the "
@@ -275,25 +284,71 @@ class Bars {
       return whole.offset[0] + share * (whole.offset[1] - whole.offset[0]) +
              axes.rightCols<2>() * centroid;
     };
+    // Without stations it may taper from end to end; with them it ends as the last of these says.
+    NastranStation end{1, whole.section, bar.end_centroid};
+    if (whole.end_section >= 0) end.section = whole.end_section;
+    std::vector<NastranStation> stations = with_divisions(whole, bar, end);
+    stations.push_back(end);
     Beam piece = whole;
     piece.offset[0] = offset(0, bar.centroid);
-    for (const NastranStation& station : bar.stations) {
-      piece.vertices[1] = new_vertex(from + station.share * line);
-      piece.end_section = station.section;
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      const NastranStation& station = stations[i];
+      const bool is_last = i + 1 == stations.size();
+      piece.vertices[1] = is_last ? last : new_vertex(from + station.share * line);
+      piece.end_section = station.section == piece.section ? -1 : station.section;
       piece.offset[1] = offset(station.share, station.centroid);
-      piece.release[1] = BeamRelease{};
+      piece.release[1] = is_last ? whole.release[1] : BeamRelease{};
       add(piece, property);
       piece.vertices[0] = piece.vertices[1];
       piece.section = station.section;
       piece.offset[0] = piece.offset[1];
       piece.release[0] = BeamRelease{};
     }
-    piece.vertices[1] = last;
-    piece.end_section =
-        whole.end_section >= 0 || bar.stations.empty() ? whole.end_section : whole.section;
-    piece.offset[1] = offset(1, bar.end_centroid);
-    piece.release[1] = whole.release[1];
-    add(piece, property);
+  }
+
+  /// The stations of a bar's section, and places between them at which its loads want it divided.
+  /// Along a plate's edge it stays whole, and a rod's pieces would be hinged to each other.
+  std::vector<NastranStation> with_divisions(const Beam& whole, const NastranBar& bar,
+                                             const NastranStation& end) {
+    std::vector<NastranStation> all = bar.stations;
+    const auto [first, last] = loads_.equal_range(whole.label);
+    if (first == last || whole.is_rod || runs_along_shell(whole.vertices[0], whole.vertices[1]))
+      return all;
+    const double length = (model_.place(whole.vertices[1]) + whole.offset[1] -
+                           model_.place(whole.vertices[0]) - whole.offset[0])
+                              .norm();
+    for (auto load = first; load != last; ++load) {
+      try {
+        for (const double share :
+             divisions_by_line_load(load->second, length / model_.units.length))
+          divide(all, {0, whole.section, bar.centroid}, end, share);
+      } catch (const CardError&) {  // said where loads are read
+      }
+    }
+    return all;
+  }
+
+  /// Adds a station, whose section lies between its neighbours', unless there is one.
+  void divide(std::vector<NastranStation>& stations, const NastranStation& begin,
+              const NastranStation& end, double share) {
+    constexpr double least = 1e-6;
+    const auto next = std::find_if(stations.begin(), stations.end(), [&](const auto& station) {
+      return station.share > share - least;
+    });
+    if (next != stations.end() && next->share < share + least) return;
+    const NastranStation& a = next == stations.begin() ? begin : *std::prev(next);
+    const NastranStation& b = next == stations.end() ? end : *next;
+    const double t = (share - a.share) / (b.share - a.share);
+    NastranStation station{share, a.section, a.centroid + t * (b.centroid - a.centroid)};
+    if (a.section != b.section) {
+      Beam between;
+      between.section = a.section;
+      between.end_section = b.section;
+      const BeamSection section = section_at(mesh_, between, t);
+      station.section = static_cast<int>(mesh_.beam_sections.size());
+      mesh_.beam_sections.push_back(section);
+    }
+    stations.insert(next, station);
   }
 
   /// A vertex that no grid of the deck is: it has a number beyond all of theirs.
@@ -400,6 +455,7 @@ class Bars {
   NastranModel& model_;
   Mesh& mesh_;
   Defaults bar_defaults_, beam_defaults_;
+  std::unordered_multimap<long, CardView> loads_;  ///< PLOAD1 by their elements
   std::set<std::pair<int, int>>
       edges_;            ///< of shells, by their corners; found when they are needed
   long next_label_ = 0;  ///< of vertices that are made here; 0: not known yet

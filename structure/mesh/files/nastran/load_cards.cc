@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "structure/mesh/files/deck/coordinate_systems.h"
 
@@ -24,7 +26,71 @@ void write_turning(long label, const Vector3& radians, std::size_t field, CardWr
   out.card("RFORCE", std::move(fields));
 }
 
+/// Forces and moments of a load along a bar, per length of a line at some offsets from its nodes.
+struct AlongLine {
+  Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
+};
+
+/// @param beside of the line that bears the load from the one it is written on, at the beam's ends.
+AlongLine at_share_of_span(const BeamLoad& load, const std::array<Vector3, 2>& beside,
+                           double stretch, double t) {
+  const auto between = [](const std::array<Vector3, 2>& ends, double at) -> Vector3 {
+    return (1 - at) * ends[0] + at * ends[1];
+  };
+  const double share = load.span[0] + t * (load.span[1] - load.span[0]);
+  AlongLine along;
+  along.force = stretch * between(load.force, t);
+  along.moment = stretch * between(load.moment, t) + between(beside, share).cross(along.force);
+  return along;
+}
+
+void write_component(const std::string& type, const BeamLoad& load, double from, double to,
+                     std::vector<CardField> fields, CardWriter& out) {
+  if (from == 0 && to == 0) return;
+  for (const CardField& field :
+       {CardField(type), CardField("FR"), CardField(load.span[0]), CardField(from)})
+    fields.push_back(field);
+  if (!load.is_at_a_place()) {
+    fields.emplace_back(load.span[1]);
+    fields.emplace_back(to);
+  }
+  out.card("PLOAD1", std::move(fields));
+}
+
 }  // namespace
+
+void write_line_load(const Mesh& mesh, const BeamLoad& load, long set, long number,
+                     const std::array<Vector3, 2>& offsets, const UnitSystem& units,
+                     CardWriter& out) {
+  constexpr double rounding = 1e-9;
+  const auto& vertices = mesh.beams[load.beam].vertices;
+  const Vector3 line = mesh.vertices[vertices[1]] - mesh.vertices[vertices[0]];
+  double stretch = 1, length = 1;
+  if (!load.is_at_a_place()) {
+    stretch = (line + load.arm[1] - load.arm[0]).norm() / (line + offsets[1] - offsets[0]).norm();
+    length = units.length;
+  }
+  std::array<Vector3, 2> beside{load.arm[0] - offsets[0], load.arm[1] - offsets[1]};
+  for (Vector3& arm : beside)
+    if (arm.norm() < rounding * line.norm()) arm.setZero();
+  const AlongLine from = at_share_of_span(load, beside, stretch, 0),
+                  middle = at_share_of_span(load, beside, stretch, 0.5),
+                  to = at_share_of_span(load, beside, stretch, load.is_at_a_place() ? 0 : 1);
+  const Vector3 bulge = middle.moment - (from.moment + to.moment) / 2;
+  if (!load.is_at_a_place() && bulge.norm() > rounding * line.norm() * middle.force.norm())
+    throw ModelError(
+        fmt::format("beam {}: a load beside the line that its offsets lead to, whose "
+                    "moments are not linear in place, is not written here",
+                    mesh.beams[load.beam].label));
+  for (int i = 0; i < 3; ++i) {
+    const char axis = static_cast<char>('X' + i);
+    const double force = length / units.force, moment = length / units.moment();
+    write_component(std::string("F") + axis, load, force * from.force[i], force * to.force[i],
+                    {set, number}, out);
+    write_component(std::string("M") + axis, load, moment * from.moment[i], moment * to.moment[i],
+                    {set, number}, out);
+  }
+}
 
 void write_loads_of_masses(const LoadSet& set, long label, const UnitSystem& units,
                            CardWriter& out) {

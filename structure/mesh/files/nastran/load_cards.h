@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace blocklift::structure {
 /// origin is one through it and the acceleration of its place.
 void write_loads_of_masses(const LoadSet& set, long label, const UnitSystem& units,
                            CardWriter& out);
+
+/// Writes a load along a bar: PLOAD1 for each of its components.
+/// @param number of the bar. @param offsets that are written with it, m: the line they lead to bears
+///   PLOAD1, and what bears the load beside it makes moments.
+/// @throws ModelError if these are not linear in place, as no PLOAD1 says.
+void write_line_load(const Mesh& mesh, const BeamLoad& load, long set, long number,
+                     const std::array<Vector3, 2>& offsets, const UnitSystem& units,
+                     CardWriter& out);
 
 /// Writes pressures, with the systems about a cylinder or sphere in which their directions are.
 class PressureCards {

@@ -1,12 +1,16 @@
 // Loads by their sets.
 
+#include <algorithm>
 #include <memory>
 #include <unordered_map>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/mesh/files/deck/label_range.h"
+#include "structure/mesh/files/deck/line_loads.h"
+#include "structure/mesh/files/nastran/line_loads.h"
 #include "structure/mesh/files/nastran/model.h"
 #include "structure/mesh/files/nastran/solid_faces.h"
 #include "structure/mesh/solid_shape.h"
@@ -279,37 +283,43 @@ class Loads {
 
   // PLOAD1 SID EID TYPE SCALE X1 P1 X2 P2
   void add_line_load(const CardView& card) {
-    const auto found = model_.beam_of.find(card.label(1, "element"));
-    if (found == model_.beam_of.end()) {
-      const long label = card.label(1, "element");
-      if (model_.any_elements.count(label) == 0)
-        throw CardError{fmt::format("a load of set {} is on element {}, which does not exist",
-                                    card.text(0), label)};
+    const long label = card.label(1, "element");
+    if (model_.any_elements.count(label) == 0)
+      throw CardError{fmt::format("a load of set {} is on element {}, which does not exist",
+                                  card.text(0), label)};
+    const auto found = model_.beam_of.find(label);
+    const bool is_beam = found != model_.beam_of.end();
+    const bool is_bar = is_beam && model_.offsets_of_bar.count(found->second) > 0;
+    if (!is_bar && (is_beam || model_.shell_of.count(label) > 0 || solid_of_.count(label) > 0))
+      throw CardError{fmt::format(
+          "a load of set {} is on element {}, which is no CBAR or CBEAM: a rod bears none between "
+          "its grids, where FORCE and MOMENT act, and other elements have PLOAD2 and PLOAD4",
+          card.text(0), label)};
+    if (!is_bar) {
       leave_out(card, "loads on what is no bar");
       return;
     }
-    const Beam& beam = mesh_.beams[found->second];
-    const Beam& last = mesh_.beams[model_.pieces_of_beam(found->second).back()];
-    const Vector3 line = model_.place(last.vertices[1]) - model_.place(beam.vertices[0]);
-    const Vector3 axis_1 = line.normalized();
-    const Vector3 axis_3 = axis_1.cross(beam.axis_2).normalized();
-    const std::map<std::string, Vector3> directions{
-        {"FX", Vector3::UnitX()}, {"FY", Vector3::UnitY()},      {"FZ", Vector3::UnitZ()},
-        {"FXE", axis_1},          {"FYE", axis_3.cross(axis_1)}, {"FZE", axis_3}};
-    const auto direction = directions.find(upper(card.text(2)));
-    const double p = card.real(5, "load"), from = card.real(4, "place");
-    const bool relative = card.is(3, "FR");
-    const double end = relative ? 1.0 : line.norm() / model_.units.length;
-    const bool is_whole = (relative || card.is(3, "LE")) && std::abs(from) < 1e-6 * end &&
-                          card.has(6) && std::abs(card.real(6, "place") - end) < 1e-4 * end &&
-                          std::abs(card.real(7, "load", p) - p) <= 1e-6 * std::abs(p);
-    if (direction == directions.end() || !is_whole) {
-      leave_out(card, "loads other than even forces over the whole length");
+    const std::vector<BeamLoad> loads = line_loads(model_, card, found->second);
+    if (std::any_of(loads.begin(), loads.end(),
+                    [&](const BeamLoad& load) { return acts_on_released_ends(mesh_, load); })) {
+      leave_out(card, "loads along a motion that pin flags leave free");
       return;
     }
-    for (const int piece : model_.pieces_of_beam(found->second))
-      set(card).beam_loads.push_back(
-          {piece, p * model_.units.force / model_.units.length * direction->second});
+    remark_on_undivided(card, loads);
+    std::vector<BeamLoad>& of_set = set(card).beam_loads;
+    of_set.insert(of_set.end(), loads.begin(), loads.end());
+  }
+
+  /// Bars are divided where loads begin and end, but not along edges of plates.
+  void remark_on_undivided(const CardView& card, const std::vector<BeamLoad>& loads) {
+    const auto is_inside = [](double share) { return share > 0 && share < 1; };
+    if (std::any_of(loads.begin(), loads.end(), [&](const BeamLoad& load) {
+          return !mesh_.beams[load.beam].is_rod &&
+                 (is_inside(load.span[0]) || is_inside(load.span[1]));
+        }))
+      model_.log.remark(card.line(),
+                        "PLOAD1: loads begin or end between the grids of bars along edges of "
+                        "plates, which are not divided there: their largest moment may be missed");
   }
 
   NastranModel& model_;

@@ -78,7 +78,9 @@ struct NastranModel {
   double mass_factor = 1;     ///< PARAM WTMASS
   std::unordered_map<long, int> vertex_of, shell_of, region_of;
   std::unordered_map<long, int> beam_of;  ///< of several pieces the first; they are in a row
-  std::vector<long> output_system;        ///< of each vertex
+  /// What CBAR and CBEAM give, m, by their first pieces: lines that bear their PLOAD1.
+  std::unordered_map<int, std::array<Vector3, 2>> offsets_of_bar;
+  std::vector<long> output_system;  ///< of each vertex
   /// Numbers that are taken: by plates, bars and springs; by rigid elements; by masses.
   std::array<std::unordered_set<long>, 3> elements;
   std::unordered_set<long> solids;                   ///< read or left out

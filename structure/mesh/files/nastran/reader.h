@@ -23,7 +23,7 @@ namespace blocklift::structure {
 ///   PBUSH1D; RSPLINE; CSHEAR with PSHEAR
 /// - TEMP, TEMPD, TEMPP1, TEMPRB, with A and TREF of the materials, by TEMPERATURE of case control
 /// - SPC, SPC1, SPCADD, SPCD, permanent constraints; FORCE and MOMENT with 1 and 2, PLOAD, PLOAD1
-///   (even, whole length), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
+///   (of CBAR and CBEAM), PLOAD2, PLOAD4, GRAV, LOAD; SUBCASE
 ///
 /// Solids are left out if so asked. Cards of aeroelasticity, optimisation, dynamics and the like
 /// are in the ledger as left out; any other card is an error.

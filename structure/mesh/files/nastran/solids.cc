@@ -1,5 +1,6 @@
 // Solid elements and their property.
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "structure/index.h"
 #include "structure/mesh/directional.h"
+#include "structure/mesh/files/deck/collapsed_solid.h"
 #include "structure/mesh/files/deck/given_solids.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/nastran/model.h"
@@ -61,15 +63,8 @@ class Solids {
     solid.shape = known.shape;
     solid.label = model_.new_element(card);
     solid.vertices.assign(topology.nodes(), -1);
-    for (int i = 0; i < topology.corners; ++i) {
+    for (int i = 0; i < topology.corners; ++i)
       solid.vertices[i] = model_.vertex(card, at(2 + i), "corner");
-      for (int j = 0; j < i; ++j)
-        if (solid.vertices[j] == solid.vertices[i])
-          throw CardError{
-              fmt::format("element {} has grid {} twice: a solid whose corners fall "
-                          "together is not known; give it as a CPENTA or CTETRA",
-                          solid.label, card.text(at(2 + i)))};
-    }
     bool tells_middles = false;
     for (std::size_t i = 0; i < known.middles.size(); ++i) {
       const std::size_t field = at(2 + topology.corners) + i;
@@ -77,17 +72,36 @@ class Solids {
       solid.vertices[known.middles[i]] = model_.vertex(card, field, "middle of an edge");
       tells_middles = true;
     }
+    if (has_repeated_corners(solid)) solid = collapsed(card, solid);
     const long property = card.label(1, "property");
     const SolidProperty& of = property_of(property);
     solid.material = of.material;
     if (of.elasticity) {
       if (directional_++ == 0) first_directional_ = card.line();
-      solid.elasticity = elasticity_of(property, of, solid, topology.corners);
+      solid.elasticity = elasticity_of(property, of, solid, topology_of(solid.shape).corners);
     }
     solid.region = nastran_region(model_, property, solid.material);
     model_.solids.insert(solid.label);
     model_.deck.mesh.solids.push_back(std::move(solid));
     given_.push_back({card.name(), card.line(), tells_middles});
+  }
+
+  Solid collapsed(const CardView& card, const Solid& solid) {
+    const std::optional<Solid> left = without_repeated_corners(solid);
+    if (!left) {
+      std::size_t i = 1;
+      while (std::find(solid.vertices.begin(), solid.vertices.begin() + static_cast<long>(i),
+                       solid.vertices[i]) == solid.vertices.begin() + static_cast<long>(i))
+        ++i;
+      throw CardError{fmt::format(
+          "element {} has grid {} twice, and what is left of it is no wedge, pyramid or "
+          "tetrahedron",
+          solid.label, card.text(2 + i))};
+    }
+    model_.log.remark(card.line(), card.name() +
+                                       ": a solid with one grid at several corners is read as the "
+                                       "wedge, pyramid or tetrahedron that is left of it");
+    return *left;
   }
 
   /// Of a property the place of its material in the mesh, and where that depends on the direction

@@ -14,6 +14,7 @@
 #include "structure/index.h"
 #include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
+#include "structure/mesh/files/deck/line_loads.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
@@ -290,7 +291,7 @@ class NastranText {
     };
     const Fields points = points_of(section);
     const double k1 = factor(section.shear_area_2), k2 = factor(section.shear_area_3);
-    if (section.shear_centre.isZero() && end < 0) {
+    if (section.twist_centre().isZero() && end < 0) {
       Fields fields{property, material, a, i1, i2, j, mass, CardField()};
       fields.insert(fields.end(), points.begin(), points.end());
       for (const double value : {k1, k2, i12}) fields.emplace_back(value);
@@ -317,7 +318,7 @@ class NastranText {
     for (const double value : {k1, k2}) fields.emplace_back(value);
     fields.resize(before + 12);
     for (const BeamSection* of : {&section, &last})
-      for (int i = 0; i < 2; ++i) fields.emplace_back(length(-of->shear_centre[i]));
+      for (int i = 0; i < 2; ++i) fields.emplace_back(length(-of->twist_centre()[i]));
     out_.card("PBEAM", fields);
     return property;
   }
@@ -334,7 +335,7 @@ class NastranText {
       const Vector3 axis_2 = axis_3.cross(line).normalized();
       for (std::size_t end = 0; end < 2; ++end) {
         const Eigen::Vector2d centre =
-            section_at(mesh_, beam, static_cast<double>(end)).shear_centre;
+            section_at(mesh_, beam, static_cast<double>(end)).twist_centre();
         offsets[end] = beam.offset[end] + centre[0] * axis_2 + centre[1] * axis_3;
       }
     }
@@ -352,7 +353,7 @@ class NastranText {
         out_.card("CROD", {number, property, label(a), label(b)});
         continue;
       }
-      const bool is_bar = mesh_.section_of(beam).shear_centre.isZero() && beam.end_section < 0;
+      const bool is_bar = mesh_.section_of(beam).twist_centre().isZero() && beam.end_section < 0;
       Fields fields{number, property, label(a), label(b)};
       append(fields, axes_[a].transpose() * beam.axis_2.normalized());
       fields.emplace_back();
@@ -514,20 +515,12 @@ class NastranText {
   void write_loads() {
     for (std::size_t s = 0; s < deck_.load_sets.size(); ++s) {
       const LoadSet& set = deck_.load_sets[s];
-      for (const PointLoad& load : set.point_loads) {
-        write_vector("FORCE", load_label_[s], load.vertex, load.force / units_.force);
-        write_vector("MOMENT", load_label_[s], load.vertex, load.moment / units_.moment());
-      }
+      for (const PointLoad& load : set.point_loads) write_point_load(load_label_[s], load);
       for (const PlateLoad& load : set.plate_loads) write_plate_load(load_label_[s], load);
       for (const SolidLoad& load : set.solid_loads) write_solid_load(load_label_[s], load);
-      for (const BeamLoad& load : set.beam_loads)
-        for (int i = 0; i < 3; ++i) {
-          const double value = load.force_per_length[i] * units_.length / units_.force;
-          if (value == 0) continue;
-          out_.card("PLOAD1",
-                    {load_label_[s], beam_number_[load.beam],
-                     std::string("F") + static_cast<char>('X' + i), "FR", 0.0, value, 1.0, value});
-        }
+      for (const BeamLoad& load : set.beam_loads) write_beam_load(load_label_[s], load);
+      if (!set.edge_loads.empty() || !set.volume_loads.empty())
+        throw ModelError("loads of edges or per volume: Nastran knows none");
       write_loads_of_masses(set, load_label_[s], units_, out_);
     }
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) {
@@ -539,6 +532,20 @@ class NastranText {
       }
       out_.card("LOAD", fields);
     }
+  }
+
+  void write_beam_load(long set, const BeamLoad& load) {
+    const Beam& beam = mesh_.beams[load.beam];
+    if (beam.is_rod)  // has no PLOAD1
+      for (const PointLoad& at_end : loads_at_ends(mesh_, load)) write_point_load(set, at_end);
+    else
+      write_line_load(mesh_, load, set, beam_number_[load.beam], offsets_of_centres(beam), units_,
+                      out_);
+  }
+
+  void write_point_load(long set, const PointLoad& load) {
+    write_vector("FORCE", set, load.vertex, load.force / units_.force);
+    write_vector("MOMENT", set, load.vertex, load.moment / units_.moment());
   }
 
   void write_vector(const char* name, long set, int vertex, const Vector3& value) {

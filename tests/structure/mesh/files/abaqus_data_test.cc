@@ -267,9 +267,9 @@ TEST(AbaqusData, ShearStiffnessOfLayers) {
 
 // A step lacks what is left out of it: that is said at the keyword's line.
 TEST(AbaqusData, LoadsThatAreLeftOutAreSaidAtTheirLine) {
-  const Deck deck = abaqus(plate_of_two + "*STEP\n*STATIC\n*DLOAD\nA, HP, 5., 1., 0.\n*END STEP\n");
+  const Deck deck = abaqus(plate_of_two + "*STEP\n*STATIC\n*DLOAD\nA, VP, 5.\n*END STEP\n");
   const auto said = std::find_if(deck.remarks.begin(), deck.remarks.end(), [](const auto& remark) {
-    return remark.text.find("*DLOAD: a load HP is left out") != std::string::npos;
+    return remark.text.find("*DLOAD: a load VP is left out") != std::string::npos;
   });
   ASSERT_NE(said, deck.remarks.end());
   EXPECT_THAT(said->place, HasSubstr("deck.inp:20"));

@@ -159,9 +159,11 @@ void expect_same_cases(const Deck& a, const Deck& b, double tolerance) {
         for (int i = 0; i < 4; ++i) sums(i, load.shell) += factor * load.pressure[i];
         sums.col(load.shell).tail<3>() = load.direction;
       }
-      for (const BeamLoad& load : deck.load_sets[set].beam_loads)
-        sums.col(static_cast<long>(deck.mesh.shells.size()) + load.beam).head<3>() +=
-            factor * load.force_per_length;
+      for (const BeamLoad& load : deck.load_sets[set].beam_loads) {
+        auto of_beam = sums.col(static_cast<long>(deck.mesh.shells.size()) + load.beam);
+        of_beam.head<3>() += factor * (load.force[0] + load.force[1]);
+        of_beam.segment<3>(3) += factor * (load.moment[0] + load.moment[1]);
+      }
     }
     return sums;
   };

@@ -62,9 +62,49 @@ TEST(NastranLoads, WhatIsLeftOutIsSaidAtItsLine) {
   ASSERT_EQ(deck.load_cases.size(), 1U);
   EXPECT_TRUE(deck.load_cases[0].loads.empty());
   EXPECT_FALSE(entry(deck, "PLOAD4").is_wish);
+  // Along the plate's edge the bar is not divided.
   EXPECT_THAT(
       nastran(plate_and_bar + "PLOAD1,2,20,FZ,FR,0.,1.,.5,1.\nENDDATA\n").remarks.at(0).text,
-      HasSubstr("PLOAD1: a load of set 2 is left out: loads other than even forces"));
+      HasSubstr("PLOAD1: loads begin or end between the grids of bars along edges of plates"));
+}
+
+TEST(NastranLoads, LinesThatBearNoLoadAreRefused) {
+  const auto said = [](const std::string& cards) {
+    return complaints_of_nastran(plate_and_bar + "GRID,5,,0.,4.,0.\nCROD,30,9,4,5\nPROD,9,7,.01\n" +
+                                 cards);
+  };
+  EXPECT_THAT(said("PLOAD1,2,30,FX,FR,0.,1.,1.,1.\n"),
+              HasSubstr("deck.bdf:14: error: PLOAD1: a load of set 2 is on element 30, which is no "
+                        "CBAR or CBEAM: a rod bears none between its grids"));
+  EXPECT_THAT(said("PLOAD1,2,10,FX,FR,0.,1.,1.,1.\n"), HasSubstr("element 10, which is no CBAR"));
+  EXPECT_THAT(said("PLOAD1,2,20,QX,FR,0.,1.,1.,1.\n"),
+              HasSubstr("the type \"QX\" of a load of set 2 is not known; FX, FY, FZ, MX"));
+  EXPECT_THAT(said("PLOAD1,2,20,FX,FRAC,0.,1.,1.,1.\n"),
+              HasSubstr("SCALE \"FRAC\" of a load of set 2 is not known; LE, FR, LEPR and FRPR"));
+  EXPECT_THAT(said("PLOAD1,2,20,FX,FR,0.,1.,1.5,1.\n"),
+              HasSubstr("X2 = 1.5 of a load of set 2 on element 20 is not on it; 0 to 1 is due"));
+  EXPECT_THAT(said("PLOAD1,2,20,FX,LE,2.5,1.\n"),
+              HasSubstr("X1 = 2.5 of a load of set 2 on element 20 is not on it; 0 to 2 is due"));
+  EXPECT_THAT(said("PLOAD1,2,20,FX,FR,.8,1.,.3,1.\n"),
+              HasSubstr("X2 = .3 of a load of set 2 lies"));
+  EXPECT_THAT(said("PLOAD1,2,20,MX,FRPR,0.,1.,1.,1.\n"),
+              HasSubstr("SCALE FRPR of moments (set 2) is not known"));
+}
+
+TEST(NastranLoads, ALoadAlongWhatPinFlagsLeaveFreeIsLeftOut) {
+  const auto deck_with = [](const std::string& load) {
+    return nastran(
+        "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nCBAR,20,8,1,2,0.,0.,1.\n,1,56\nPBAR,8,7,.01,1.-5,1.-5,"
+        "1.-5\nMAT1,7,206.+9,,.3,7850.\n" +
+        load);
+  };
+  for (const std::string load : {"PLOAD1,2,20,FX,FR,0.,1.,1.,1.\n", "PLOAD1,2,20,MY,FR,.5,1.\n"}) {
+    const Deck deck = deck_with(load);
+    EXPECT_THAT(entry(deck, "PLOAD1").left_out, HasSubstr("a motion that pin flags leave free"));
+    ASSERT_EQ(deck.remarks.size(), 1U) << load;
+    EXPECT_THAT(deck.remarks[0].place, HasSubstr("deck.bdf:7"));
+  }
+  EXPECT_TRUE(deck_with("PLOAD1,2,20,FZ,FR,0.,1.,1.,1.\n").remarks.empty());
 }
 
 TEST(NastranLoads, ASetOfWrongLoadsIsNotSaidToBeMissing) {

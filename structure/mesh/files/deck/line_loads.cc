@@ -1,0 +1,99 @@
+#include "structure/mesh/files/deck/line_loads.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace blocklift::structure {
+
+namespace {
+
+Vector3 at_share(const std::array<Vector3, 2>& ends, double share) {
+  return (1 - share) * ends[0] + share * ends[1];
+}
+
+Vector3 line_between(const Mesh& mesh, const Beam& beam, const std::array<Vector3, 2>& arms) {
+  return mesh.vertices[beam.vertices[1]] + arms[1] - mesh.vertices[beam.vertices[0]] - arms[0];
+}
+
+}  // namespace
+
+std::array<PointLoad, 2> loads_at_ends(const Mesh& mesh, const BeamLoad& load) {
+  const Beam& beam = mesh.beams[load.beam];
+  std::array<PointLoad, 2> at_ends;
+  for (std::size_t end = 0; end < 2; ++end) at_ends[end].vertex = beam.vertices[end];
+  const auto add = [&](double t, double weight) {
+    const double share = load.span[0] + t * (load.span[1] - load.span[0]);
+    const Vector3 force = weight * at_share(load.force, t);
+    const Vector3 moment =
+        weight * at_share(load.moment, t) + at_share(load.arm, share).cross(force);
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double value = end == 0 ? 1 - share : share;
+      at_ends[end].force += value * force;
+      at_ends[end].moment += value * moment;
+    }
+  };
+  if (load.is_at_a_place()) {
+    add(0, 1);
+    return at_ends;
+  }
+  // Two points of Gauss: exact for what is linear in place thrice over.
+  const double length = (load.span[1] - load.span[0]) * line_between(mesh, beam, load.arm).norm();
+  for (const double side : {-1, 1}) add((1 + side / std::sqrt(3.0)) / 2, length / 2);
+  return at_ends;
+}
+
+bool is_even_between_vertices(const BeamLoad& load) {
+  return load.span == std::array<double, 2>{0, 1} && load.force[0] == load.force[1] &&
+         load.moment[0].isZero(0) && load.moment[1].isZero(0) && load.arm[0].isZero(0) &&
+         load.arm[1].isZero(0);
+}
+
+std::vector<PointLoad> loads_at_vertices(const Deck& deck, const DeckLoadCase& load_case) {
+  std::map<int, PointLoad> of_vertex;
+  const auto add = [&](const PointLoad& load, double factor) {
+    PointLoad& sum = of_vertex[load.vertex];
+    sum.vertex = load.vertex;
+    sum.force += factor * load.force;
+    sum.moment += factor * load.moment;
+  };
+  for (const auto& [set, factor] : load_case.loads) {
+    for (const PointLoad& load : deck.load_sets[set].point_loads) add(load, factor);
+    for (const BeamLoad& load : deck.load_sets[set].beam_loads)
+      if (!is_even_between_vertices(load))
+        for (const PointLoad& at_end : loads_at_ends(deck.mesh, load)) add(at_end, factor);
+  }
+  std::vector<PointLoad> loads;
+  for (const auto& [vertex, load] : of_vertex) loads.push_back(load);
+  return loads;
+}
+
+bool acts_on_released_ends(const Mesh& mesh, const BeamLoad& load) {
+  constexpr double rounding = 1e-9;
+  const Beam& beam = mesh.beams[load.beam];
+  if (beam.release == std::array<BeamRelease, 2>{}) return false;
+  Eigen::Matrix3d axes;
+  axes.col(0) = line_between(mesh, beam, beam.offset).normalized();
+  axes.col(2) = axes.col(0).cross(beam.axis_2).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  const double size = line_between(mesh, beam, beam.offset).norm();
+  const std::size_t values = load.is_at_a_place() ? 1 : 2;
+  for (std::size_t end = 0; end < 2; ++end)
+    for (std::size_t v = 0; v < values; ++v) {
+      const Vector3& force = load.force[v];
+      // About the centroid, which stays where a released rotation turns the end.
+      const Vector3 moment = load.moment[v] + (load.arm[end] - beam.offset[end]).cross(force);
+      const double least = rounding * std::max(size * force.norm(), load.moment[v].norm());
+      for (int c = 0; c < 6; ++c) {
+        if (!beam.release[end][c]) continue;
+        const double along = c < 3 ? size * force.dot(axes.col(c)) : moment.dot(axes.col(c - 3));
+        if (std::abs(along) > least) return true;
+      }
+    }
+  return false;
+}
+
+}  // namespace blocklift::structure
