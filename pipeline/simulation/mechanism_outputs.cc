@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/multibody/loop_constraint.h"
+#include "dynamics/rope/mooring_line.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -148,6 +149,11 @@ void OutputRecorder::add_everything(const MechanismFile& file) {
   for (const RopeInCase& rope : file.ropes) {
     add_rope(rope.name.value + "_tension", rope.name.value, "tension");
   }
+  const auto add_tension = [&](const auto& line) {
+    if (!file.find_rope(line.name.value)) add_line(line.name.value + "_tension", line.name.value);
+  };
+  std::for_each(file.moorings.begin(), file.moorings.end(), add_tension);
+  std::for_each(file.tuggers.begin(), file.tuggers.end(), add_tension);
   for (const LoopModel& loop : file.loops) {
     add_loop(loop.name.value + "_force", loop.name.value, "");
   }
@@ -282,8 +288,12 @@ void OutputRecorder::add_spring(const std::string& name, const std::string& spri
 
 void OutputRecorder::add_rope(const std::string& name, const std::string& rope,
                               const std::string& quantity) {
-  const auto i = static_cast<std::size_t>(mechanism_.system.rope_index(rope));
   using Row = Eigen::Ref<Eigen::RowVectorXd>;
+  const std::vector<dynamics::Rope>& ropes = mechanism_.system.ropes();
+  const bool is_rope = std::any_of(ropes.begin(), ropes.end(),
+                                   [&](const dynamics::Rope& of) { return of.name() == rope; });
+  if (!is_rope) return add_line(name, rope);
+  const auto i = static_cast<std::size_t>(mechanism_.system.rope_index(rope));
   const std::string description = fmt::format("{} of rope {}", quantity, rope);
   if (quantity == "tension") {
     add_series(name, description, {{"", "N"}},
@@ -304,6 +314,24 @@ void OutputRecorder::add_rope(const std::string& name, const std::string& rope,
     add_series(name, description + ", between its points", {{"", "m"}},
                [i](const Instant& now, Row row) { row[0] = now.w.rope_loads[i].length; });
   }
+}
+
+void OutputRecorder::add_line(const std::string& name, const std::string& line) {
+  using Row = Eigen::Ref<Eigen::RowVectorXd>;
+  if (const auto* mooring = find_element<dynamics::MooringLine>(mechanism_.system, line)) {
+    add_series(name, fmt::format("tension of mooring {} at its fairlead", line), {{"", "N"}},
+               [mooring](const Instant& now, Row row) {
+                 const dynamics::MotionState state{now.time, now.w.q, now.w.v, now.w.kinematics};
+                 row[0] = mooring->calc_shape(state).tension;
+               });
+    return;
+  }
+  const auto* tugger = find_element<dynamics::TuggerLine>(mechanism_.system, line);
+  add_series(name, fmt::format("tension of tugger {}", line), {{"", "N"}},
+             [tugger](const Instant& now, Row row) {
+               const dynamics::MotionState state{now.time, now.w.q, now.w.v, now.w.kinematics};
+               row[0] = tugger->calc_tension(state);
+             });
 }
 
 void OutputRecorder::add_loop(const std::string& name, const std::string& loop,

@@ -57,6 +57,8 @@ class OutputRecorder {
   void add_point(const std::string& name, const PointModel& point, const std::string& quantity);
   void add_spring(const std::string& name, const std::string& spring, const std::string& quantity);
   void add_rope(const std::string& name, const std::string& rope, const std::string& quantity);
+  /// The tension of a mooring or a tugger.
+  void add_line(const std::string& name, const std::string& line);
   void add_loop(const std::string& name, const std::string& loop, const std::string& quantity);
   void add_energy(const std::string& name, const std::string& energy);
   void add_everything(const MechanismFile& file);

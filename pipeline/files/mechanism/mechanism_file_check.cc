@@ -317,7 +317,7 @@ class MechanismCheck {
     if (output.joint) find(file_.joints, *output.joint, user, "joint");
     if (output.point) check_point(file_, *output.point, user, reading_);
     if (output.spring) find(file_.springs, *output.spring, user, "spring");
-    if (output.rope) find(file_.ropes, *output.rope, user, "rope");
+    if (output.rope) check_output_of_rope(output, user);
     if (output.loop) find(file_.loops, *output.loop, user, "loop");
     if (!output.quantity) return;
     const std::string subject = output_subject(output);
@@ -337,6 +337,27 @@ class MechanismCheck {
       reading_.error(output.quantity->mark,
                      fmt::format("{} asks for the force of joint {}, which no drive moves", user,
                                  joint->name.value));
+    }
+  }
+
+  /// Of a rope, a mooring or a tugger; of the latter two the tension is known alone.
+  void check_output_of_rope(const OutputModel& output, const std::string& user) {
+    const Located<std::string>& name = *output.rope;
+    const bool is_rope = file_.find_rope(name.value) != nullptr;
+    const auto has_name = [&](const auto& line) { return line.name.value == name.value; };
+    const bool is_line = std::any_of(file_.moorings.begin(), file_.moorings.end(), has_name) ||
+                         std::any_of(file_.tuggers.begin(), file_.tuggers.end(), has_name);
+    if (!is_line) return find(file_.ropes, name, user, "rope");
+    if (is_rope) {
+      reading_.error(name.mark,
+                     fmt::format("{} names {}, which is a rope and a mooring or tugger, too", user,
+                                 name.value),
+                     {"give one of them another name"});
+    } else if (output.quantity && output.quantity->value != "tension") {
+      reading_.error(output.quantity->mark,
+                     fmt::format("{} asks for the {} of {}, a mooring or tugger", user,
+                                 output.quantity->value, name.value),
+                     {"ask for its tension, or leave quantity out"});
     }
   }
 

@@ -160,7 +160,8 @@ Format<OutputModel> output_format() {
       .optional("spring", &OutputModel::spring, reference(), "its force or elongation")
       .optional("rope", &OutputModel::rope, reference(),
                 "its tension, elongation or length; first_tension and last_tension are those "
-                "of its two ends, which friction at sheaves makes unequal")
+                "of its two ends, which friction at sheaves makes unequal; of a mooring or a "
+                "tugger, by name, the tension")
       .optional(
           "loop", &OutputModel::loop, reference(),
           "its force on the second body in the world (moment, then force, at the loop's frame), "

@@ -130,6 +130,40 @@ simulate: {duration: 0.1 s}
   EXPECT_NEAR(bar(0, 4), 1, 1e-15);  // and half-way along it
 }
 
+// A chain between level ends, L = 2 a sinh(X / 2 a) with a = 200 m: w a cosh(X / 2 a) at either. Asked
+// for or not, tensions of moorings and tuggers are among the results.
+TEST(SimulateCommand, TellsTheTensionsOfMooringsAndTuggers) {
+  const TemporaryFolder folder;
+  const std::string lines = R"(mechanism: lines
+bodies:
+  hung: {mass: 2 t, radii_of_gyration: [1 m, 1 m, 1 m]}
+  float: {mass: 1000 t, radii_of_gyration: [1 m, 1 m, 1 m]}
+joints:
+  rail: {kind: prismatic, child: hung}
+  slide: {kind: prismatic, child: float, axis: [1, 0, 0]}
+moorings:
+  chain: {anchor: {body: world, position: [-100 m, 0 m, 0 m]}, fairlead: {body: float}, length: 101.04492672 m, submerged_mass: 10 kg/m, axial_stiffness: 1000000 MN, on_seabed: false}
+tuggers:
+  tail: {from: {body: world, position: [0 m, 0 m, 10 m]}, to: {body: hung}, tension: 20 kN}
+simulate: {duration: 0.1 s, sample_interval: 0.1 s}
+)";
+  folder.write("all.yaml", lines);
+  folder.write("asked.yaml", lines + "outputs: {chain_tension: {rope: chain}}\n");
+  for (const std::string name : {"all", "asked"}) {
+    const Outcome outcome = run_blocklift("simulate " + name + ".yaml -o " + name);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const ResultsReader results(name + "/results.h5");
+    const double due = 10 * 9.80665 * 200 * std::cosh(0.25);
+    EXPECT_NEAR(results.read("/outputs/chain_tension")(0), due, 1e-4 * due);
+  }
+  EXPECT_NEAR(ResultsReader("all/results.h5").read("/outputs/tail_tension")(0), 20e3, 1e-6);
+
+  folder.write("wrong.yaml", lines + "outputs: {s: {rope: chain, quantity: length}}\n");
+  EXPECT_THAT(run_blocklift("simulate wrong.yaml").err,
+              HasSubstr("output s asks for the length of chain, a mooring or tugger\n"
+                        "    ask for its tension, or leave quantity out"));
+}
+
 TEST(SimulateCommand, RunsARobotDescription) {
   const TemporaryFolder folder;
   folder.write("arm.urdf", R"(<robot name="arm">
