@@ -54,11 +54,14 @@ void print_panels(const HydrodynamicState& state) {
   const std::string note = note_on_groups(*state.model, state.groups);
   if (!note.empty()) log_entry(note);
   if (!note.empty() && !is_quiet()) print_wrapped(note);
-  const std::string doubt =
-      state.groups.empty()
-          ? std::string{}
-          : doubt_about_coupling(*state.model, state.groups, state.settings.frequencies.back());
-  if (!doubt.empty()) say_warning(doubt);
+  const double highest = state.settings.frequencies.back();
+  if (!state.groups.empty()) {
+    if (const auto lost = find_lost_coupling(*state.model, state.groups, highest)) {
+      std::vector<std::string> names;
+      for (const dynamics::WettedBody& body : state.model->bodies()) names.push_back(body.name);
+      say_warning(doubt_about_coupling(names, *lost, state.model->water(), highest));
+    }
+  }
   std::fflush(stdout);
 }
 
