@@ -172,7 +172,7 @@ LostCoupling find_coupling(const RadiationProblem& problem) {
   if (!folder.empty()) {
     if (const auto known = read_coupling(file, problem.bodies.size())) return *known;
   }
-  const LostCoupling lost = compute_or_refuse(problem, [](const RadiationProblem& p) {
+  LostCoupling lost = compute_or_refuse(problem, [](const RadiationProblem& p) {
     const dynamics::PanelModel model = make_panel_model(p);
     const double highest = p.frequencies.back();
     return find_lost_coupling(model, find_distant_groups(model, highest), highest);
