@@ -174,9 +174,9 @@ RatioSpread spread_of(const std::vector<RadiatedPower>& powers, const Ratio& rat
   return {quantile(ratios, 0.5), quantile(ratios, 0.25), quantile(ratios, 0.75)};
 }
 
-/// Of this program's own databases (seven hulls, deep and shallow water, both methods) the mode that
-/// most frequencies tell of has medians within 3 % of one and, without lids, spreads below 1.17; one
-/// error in the frequencies taken for another has 1.5 and more.
+/// Of this program's own databases (seven hulls, deep and shallow water, both methods) the mode
+/// that most frequencies tell of has medians within 3 % of one and, without lids, spreads below
+/// 1.17. An error in the frequencies that is taken for another has spreads of 1.5 and more.
 constexpr double acceptable_ratio = 1.25, spread_of_one_factor = 1.2, fitting_median = 1.15;
 
 bool fits_one(const RatioSpread& ratios) {
@@ -281,8 +281,8 @@ std::string doubt_about_haskind(const HydrodynamicDatabase& database) {
                     ratios.low, ratios.high);
 }
 
-/// Long waves lift a body as its stiffness says, short ones hardly. Half a sentence; empty: it is so,
-/// or the frequencies are too near to each other to tell.
+/// Long waves lift a body as its stiffness says, short ones hardly. Half a sentence; empty: it is
+/// so, or the frequencies are too near to each other to tell.
 std::string doubt_about_periods(const HydrodynamicDatabase& database) {
   constexpr double little = 0.3, whole = 0.8, more_than_whole = 1.25;
   if (database.hydrostatic_stiffness.size() == 0) return {};

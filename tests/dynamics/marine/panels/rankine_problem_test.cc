@@ -237,8 +237,8 @@ PanelModel make_even_box(int length, int breadth, int draught, double depth) {
           {true, true}};
 }
 
-// Besides the coarser matrices those rows that have their equations at the middles of flat clusters,
-// with the finer panels still: a quarter of the bodies' here.
+// Besides the coarser matrices those rows that have their equations at the middles of flat
+// clusters, with the finer panels still: a quarter of the bodies' here.
 TEST(RankineProblem, MemoryCountsTheEquationsAtMiddles) {
   for (const double depth : {std::numeric_limits<double>::infinity(), 8.0}) {
     const PanelModel model = make_even_box(20, 8, 2, depth);

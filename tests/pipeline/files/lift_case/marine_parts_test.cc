@@ -561,8 +561,8 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
               HasSubstr("has the name of a body or joint"));
 }
 
-// What the figures of a database tell of its conventions (doubts_about_conventions) is said by the name
-// of the file.
+// What the figures of a database tell of its conventions (doubts_about_conventions) is said by the
+// name of the file.
 TEST(VesselDatabase, IsDoubtedByName) {
   dynamics::HydrodynamicDatabase database;
   database.body_names = {"float"};
