@@ -54,11 +54,14 @@ void print_panels(const HydrodynamicState& state) {
   const std::string note = note_on_groups(*state.model, state.groups);
   if (!note.empty()) log_entry(note);
   if (!note.empty() && !is_quiet()) print_wrapped(note);
-  const std::string doubt =
-      state.groups.empty()
-          ? std::string{}
-          : doubt_about_coupling(*state.model, state.groups, state.settings.frequencies.back());
-  if (!doubt.empty()) say_warning(doubt);
+  const double highest = state.settings.frequencies.back();
+  if (!state.groups.empty()) {
+    if (const auto lost = find_lost_coupling(*state.model, state.groups, highest)) {
+      std::vector<std::string> names;
+      for (const dynamics::WettedBody& body : state.model->bodies()) names.push_back(body.name);
+      say_warning(doubt_about_coupling(names, *lost, state.model->water(), highest));
+    }
+  }
   std::fflush(stdout);
 }
 
@@ -249,6 +252,21 @@ std::string lack_of_waves(const std::string& origin) {
       "holds no force of waves{}; what names the database can float in calm water alone", where);
 }
 
+/// What another program's file lacks, or has in other units. The table says the latter, too, where
+/// it is printed.
+void say_doubts_about_import(const HydroOptions& options, const HydrodynamicFile& file) {
+  const dynamics::HydrodynamicDatabase& database = file.series.databases.front();
+  const auto say = [&](const std::string& what) { say_warning(*options.import + ": " + what); };
+  if (!file.origin.starts_with(imported_from)) return;
+  if (lacks_volumes(database) && file.origin.ends_with("(BEMIO)")) {
+    say("bodies displace nothing (disp_vol 0): cb and cg are not taken for centres of buoyancy and "
+        "mass, and weight acts where the vessel has it");
+  }
+  if (database.headings.empty()) say(lack_of_waves(file.origin));
+  if (!options.export_format) return;
+  for (const std::string& doubt : doubts_about_conventions(database)) say(doubt);
+}
+
 /// Takes a file over and writes it as our own, or as that of another program.
 int convert(const HydroOptions& options) {
   WamitScales scales;
@@ -267,19 +285,7 @@ int convert(const HydroOptions& options) {
     refuse(*options.import, "the file that is to be made has no name", {"give it by -o FILE"});
   }
   const fs::path output = *options.output;
-  if (lacks_volumes(file.series.databases.front()) && file.origin.ends_with("(BEMIO)")) {
-    say_warning(*options.import +
-                ": bodies displace nothing (disp_vol 0): cb and cg are not taken for centres of "
-                "buoyancy and mass, and weight acts where the vessel has it");
-  }
-  if (file.series.databases.front().headings.empty() && file.origin.starts_with(imported_from)) {
-    say_warning(*options.import + ": " + lack_of_waves(file.origin));
-  }
-  // The table says what is doubtful, where it is printed.
-  if (options.export_format && file.origin.starts_with(imported_from)) {
-    for (const std::string& doubt : doubts_about_conventions(file.series.databases.front()))
-      say_warning(*options.import + ": " + doubt);
-  }
+  say_doubts_about_import(options, file);
   if (!options.export_format) {
     write_with_page(output, file, hydrodynamic_page(file, file.origin, {}));
     if (is_quiet()) return exit_code::done;

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/hydrodynamics/convention_check.h"
@@ -231,6 +230,10 @@ pre {{ overflow-x: auto; background: #f6f6f6; padding: 10px; }}
 </style></head><body><h1>{0}</h1><p>{1}</p>
 )";
 
+double wave_length(double frequency, const dynamics::Water& water) {
+  return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, water);
+}
+
 std::string origin_text(const HydrodynamicFile& file) {
   const dynamics::Water& water = file.series.databases[0].water;
   return fmt::format(
@@ -360,9 +363,9 @@ std::string note_on_groups(const dynamics::PanelModel& model,
       fmt::join(names, ", "), nearest);
 }
 
-std::string doubt_about_coupling(const dynamics::PanelModel& model,
-                                 const std::vector<dynamics::BodyGroup>& groups,
-                                 double highest_frequency) {
+std::optional<dynamics::CouplingReach> find_lost_coupling(
+    const dynamics::PanelModel& model, const std::vector<dynamics::BodyGroup>& groups,
+    double highest_frequency) {
   std::optional<dynamics::CouplingReach> reach;
   for (const dynamics::CouplingReach& pair : find_coupling_reaches(model)) {
     const bool together =
@@ -374,19 +377,22 @@ std::string doubt_about_coupling(const dynamics::PanelModel& model,
         });
     if (together && (!reach || pair.shortest > reach->shortest)) reach = pair;
   }
-  const auto length = [&](double frequency) {
-    return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, model.water());
-  };
-  if (!reach || reach->shortest <= length(highest_frequency)) return {};
-  const auto name = [&](int body) { return model.bodies()[body].name; };
+  if (reach && reach->shortest <= wave_length(highest_frequency, model.water())) reach.reset();
+  return reach;
+}
+
+std::string doubt_about_coupling(const std::vector<std::string>& names,
+                                 const dynamics::CouplingReach& lost, const dynamics::Water& water,
+                                 double highest_frequency) {
   return fmt::format(
       "{} and {} lie {:.4g} m apart: waves shorter than {:.4g} m, above {:.3g} rad/s in deep "
       "water, "
       "are lost between them, so that each is computed as if it lay alone there; the shortest "
       "wave asked for is {:.4g} m long",
-      name(reach->first), name(reach->second), reach->gap, reach->shortest,
-      std::sqrt(2.0 * std::numbers::pi * model.water().gravity / reach->shortest),
-      length(highest_frequency));
+      names.at(static_cast<std::size_t>(lost.first)),
+      names.at(static_cast<std::size_t>(lost.second)), lost.gap, lost.shortest,
+      std::sqrt(2.0 * std::numbers::pi * water.gravity / lost.shortest),
+      wave_length(highest_frequency, water));
 }
 
 std::string hydrodynamic_page(const HydrodynamicFile& file, const std::string& title,

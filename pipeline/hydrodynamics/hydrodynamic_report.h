@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/distant_groups.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 
@@ -36,10 +38,16 @@ std::string doubt_about_mass(const std::string& name, double displaced, double m
 std::string note_on_groups(const dynamics::PanelModel& model,
                            const std::vector<dynamics::BodyGroup>& groups);
 
-/// A sentence for bodies of one group so far apart that the waves of a frequency (rad/s) are lost
-/// between them on the surface's mesh; else empty.
-std::string doubt_about_coupling(const dynamics::PanelModel& model,
-                                 const std::vector<dynamics::BodyGroup>& groups,
+/// The bodies of one group between which the waves of a frequency (rad/s) are lost on the surface's
+/// mesh, those that lose the longest; none: all waves arrive.
+std::optional<dynamics::CouplingReach> find_lost_coupling(
+    const dynamics::PanelModel& model, const std::vector<dynamics::BodyGroup>& groups,
+    double highest_frequency);
+
+/// Half a sentence about them.
+/// @param names of the bodies.
+std::string doubt_about_coupling(const std::vector<std::string>& names,
+                                 const dynamics::CouplingReach& lost, const dynamics::Water& water,
                                  double highest_frequency);
 
 /// A page of HTML that needs nothing else: added mass, damping, retardation functions, excitation

@@ -1,8 +1,10 @@
 #include "pipeline/hydrodynamics/radiation_cache.h"
 
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <optional>
 #include <span>
 #include <system_error>
@@ -14,6 +16,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
+#include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/hull_hash.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "pipeline/formats/hydrodynamics/memory_file.h"
@@ -126,6 +129,58 @@ dynamics::HydrodynamicDatabase worst_of(std::span<const dynamics::HydrodynamicDa
   return worst;
 }
 
+/// Between which bodies waves are lost; none: between none.
+using LostCoupling = std::optional<dynamics::CouplingReach>;
+
+constexpr const char* title_of_coupling = "waves lost between bodies, 1";
+
+/// What a file of the cache says about it; none if it is not there or of no use for so many bodies.
+std::optional<LostCoupling> read_coupling(const fs::path& file, std::size_t bodies) {
+  std::ifstream stream(file);
+  std::string title, kind;
+  if (!std::getline(stream, title) || title != title_of_coupling || !(stream >> kind))
+    return std::nullopt;
+  if (kind == "none") return LostCoupling{};
+  dynamics::CouplingReach lost;
+  if (kind != "lost" || !(stream >> lost.first >> lost.second >> lost.gap >> lost.shortest))
+    return std::nullopt;
+  const auto is_body = [&](int body) {
+    return body >= 0 && static_cast<std::size_t>(body) < bodies;
+  };
+  const bool sound = is_body(lost.first) && is_body(lost.second) && lost.gap >= 0.0 &&
+                     lost.shortest > 0.0 && std::isfinite(lost.gap + lost.shortest);
+  if (!sound) return std::nullopt;
+  return lost;
+}
+
+void write_coupling(const fs::path& file, const LostCoupling& lost) {
+  try {
+    write_file(file, fmt::format("{}\n{}\n", title_of_coupling,
+                                 lost ? fmt::format("lost {} {} {:.17g} {:.17g}", lost->first,
+                                                    lost->second, lost->gap, lost->shortest)
+                                      : std::string("none")));
+  } catch (const std::runtime_error&) {
+    // What cannot be kept is found again.
+  }
+}
+
+/// Of bodies that stay. The surface is meshed for it, which a database from the cache spares:
+/// therefore it lies beside that.
+LostCoupling find_coupling(const RadiationProblem& problem) {
+  const fs::path folder = cache_folder();
+  const fs::path file = folder / (identity_of(problem) + ".coupling");
+  if (!folder.empty()) {
+    if (const auto known = read_coupling(file, problem.bodies.size())) return *known;
+  }
+  LostCoupling lost = compute_or_refuse(problem, [](const RadiationProblem& p) {
+    const dynamics::PanelModel model = make_panel_model(p);
+    const double highest = p.frequencies.back();
+    return find_lost_coupling(model, find_distant_groups(model, highest), highest);
+  });
+  if (!folder.empty()) write_coupling(file, lost);
+  return lost;
+}
+
 /// doubt_about_coupling of the bodies at their deepest draughts, where panels on the water couple
 /// them.
 std::string doubt_about_distances(const RadiationProblem& problem) {
@@ -135,11 +190,11 @@ std::string doubt_about_distances(const RadiationProblem& problem) {
   const int lowered = problem.lowered_body();
   const RadiationProblem deepest =
       lowered < 0 ? problem : at_draught(problem, problem.bodies[lowered].draughts.back());
-  return compute_or_refuse(deepest, [](const RadiationProblem& p) {
-    const dynamics::PanelModel model = make_panel_model(p);
-    const double highest = p.frequencies.back();
-    return doubt_about_coupling(model, find_distant_groups(model, highest), highest);
-  });
+  const LostCoupling lost = find_coupling(deepest);
+  if (!lost) return {};
+  std::vector<std::string> names;
+  for (const RadiationProblem::Body& body : deepest.bodies) names.push_back(body.name);
+  return doubt_about_coupling(names, *lost, deepest.water, deepest.frequencies.back());
 }
 
 /// Says what is doubted of the databases of a problem.

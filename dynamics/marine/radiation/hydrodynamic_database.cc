@@ -270,6 +270,10 @@ double database_bytes(const PanelModel& model, const DatabaseSettings& settings)
   if (rankine.coarser) {
     const int coarser = rankine.coarser->surface.count;
     bytes += bytes_of(rankine.coarser->bodies.count, coarser);
+    // Its equations at the middles of flat clusters are made with the finer panels.
+    const auto middles = static_cast<double>(
+        find_flat_clusters(model.body_mesh(), rankine.coarser->bodies).clusters.size());
+    bytes += 8.0 * middles * (2.0 * bodies + (finite_depth ? 2.0 : 1.0) * surface);
     if (!settings.headings.empty())
       bytes += elevation_bytes(static_cast<double>(coarser) * model.mode_count(),
                                settings.frequencies.size());

@@ -72,7 +72,7 @@ Format<VesselHullModel> hull_format() {
   file.required("file", &HullFileModel::path, located(text()),
                 "beside the model: .msh, .geo, .stl (Gmsh) or .gdf (WAMIT)")
       .by_default("close_openings", &HullFileModel::close_openings, boolean(), "false",
-                  "close flat openings by lids: for meshes of the wetted surface alone")
+                  "close flat openings at the top by lids: for meshes of the wetted surface alone")
       .by_default("symmetric_in", &HullFileModel::symmetric_in,
                   list_of(choice<int>({{"x", 0}, {"y", 1}}), 0, 2), "[]",
                   "planes in which the hull, if not its mesh, is symmetric: [y] the centre plane, "

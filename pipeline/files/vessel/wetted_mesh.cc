@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -126,11 +128,12 @@ Hull with_freeboard(const Hull& wetted) {
     }
     return known->second;
   };
+  std::set<std::pair<int, int>> rim;
   for (const auto& [edge, panels] : edges) {
     if (panels.size() != 1) continue;
-    const auto [from, to] = panels.front().second ? edge : std::array{edge[1], edge[0]};
-    hull.add_panel({to, from, raise(from), raise(to)});
+    rim.insert(panels.front().second ? std::pair(edge[0], edge[1]) : std::pair(edge[1], edge[0]));
   }
+  for (const auto& [from, to] : rim) hull.add_panel({to, from, raise(from), raise(to)});
   return with_lids(hull, tolerance);
 }
 

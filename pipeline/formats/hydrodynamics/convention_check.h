@@ -19,6 +19,8 @@ namespace blocklift::pipeline {
 ///   The mode of displacement that most frequencies tell of is doubted if the median of its ratio
 ///   is more than 25 % off, or an error in the frequencies explains it better. Lids and damping
 ///   that no wave carries off are seen, too, where no mode is free of them.
+/// - Heave's excitation against its stiffness, which it tends to in long waves: what does so at the
+///   highest frequency has periods in place of frequencies.
 /// - Phases of surge, sway and heave in long waves, where a body is held against water that moves
 ///   as a whole: X = (C - w^2 (rho V + A) + i w B) eta in heave, (i g k (rho V + A) + B g k/w) eta
 ///   along the wave, as in the relative motion of Morison's equation.

@@ -202,6 +202,27 @@ TEST_F(HydroCommand, RefusesBodiesThatIntersectBelowTheWater) {
   EXPECT_EQ(pair("9 m").exit_code, 0);
 }
 
+// What other programs' databases lack, or have in other units, is told.
+TEST_F(HydroCommand, DoubtsWhatItTakesOver) {
+  const std::string settings = pontoon.substr(0, pontoon.find("  frequencies"));
+  folder_.write("pontoon/vessel.yaml",
+                settings +
+                    "  frequencies: {lowest: 0.5 rad/s, highest: 2.5 rad/s, count: 6}\n"
+                    "  headings: [0 deg, 30 deg, 60 deg, 90 deg]\n");
+  ASSERT_EQ(run("pontoon/vessel.yaml -o db.h5").exit_code, 0);
+  ASSERT_EQ(run("--import db.h5 --export wamit -o wec.1").exit_code, 0);
+  const Outcome right = run("--import wec.1 -o back.h5");
+  EXPECT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_THAT(right.out, Not(HasSubstr("contradict")));
+  EXPECT_THAT(right.out, Not(HasSubstr("long waves")));
+  const Outcome scaled = run("--import wec.1 --wamit-length 4 -o back.h5");
+  EXPECT_THAT(scaled.out, HasSubstr("warning: damping and excitation contradict each other"));
+  fs::remove("wec.3");
+  const Outcome calm = run("--import wec.1 -o back.h5");
+  EXPECT_EQ(calm.exit_code, 0);
+  EXPECT_THAT(calm.out, HasSubstr("warning: wec.1: holds no force of waves"));
+}
+
 // Databases of other programs, spoilt.
 TEST_F(HydroCommand, RefusesImportsWithoutNumbersOrFrequencies) {
   ASSERT_EQ(run("pontoon/vessel.yaml -o db.h5").exit_code, 0);
@@ -329,10 +350,31 @@ TEST_F(HydroCommand, DiagnosesMeshes) {
     return outcome.err;
   };
   EXPECT_THAT(complaint_about(box_panels(-2, true, false)), HasSubstr("open"));
+  EXPECT_THAT(complaint_about(test::text_of_file("box/hull.gdf").replace(14, 3, "1 0")),
+              HasSubstr("ISX is 1 in line 3, so that the panels are one side of x = 0, but they "
+                        "reach from x = -2 m to 2 m; give 0 if the mesh is whole"));
   EXPECT_THAT(complaint_about(box_panels(-2, false, true)), HasSubstr("normals"));
   EXPECT_THAT(complaint_about(box_panels(1, false, false)),
               AllOf(HasSubstr("box/vessel.yaml:2:21: error: hull \"box\": it reaches from z = 1 m"),
                     HasSubstr("all panels are above the water line; lower the hull")));
+}
+
+// A box of 4 x 4 x 4 m, half in the water, displaces 32.8 t.
+TEST_F(HydroCommand, DoubtsAMassThatIsNotDisplaced) {
+  const auto said_of = [&](const std::string& mass) {
+    folder_.write("box/hull.gdf", box_panels(-2, false, false));
+    folder_.write("box/vessel.yaml",
+                  "kind: vessel\nhull: {mesh: {file: hull.gdf}}\npanel_size: 4 m\nmass: " + mass +
+                      "\n"
+                      "centre_of_mass: [0 m, 0 m, 0 m]\nradii_of_gyration: [1 m, 1 m, 1 m]\n"
+                      "hydrodynamics: {water_line: as meshed, headings: [0 deg],\n"
+                      "  frequencies: {lowest: 0.8 rad/s, highest: 1 rad/s, count: 2}}\n");
+    const Outcome outcome = run("box -o box.h5");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_THAT(said_of("33 t"), Not(HasSubstr("as it is meshed")));
+  EXPECT_THAT(said_of("20 t"), HasSubstr("warning: vessel box displaces 32.8 t as it is meshed"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <numbers>
 
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull/hull_shapes.h"
+#include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -148,6 +150,52 @@ TEST(RadiationCache, DoubtsAreThoseOfTheFirstRun) {
     if (database.change_from_coarser.size() > 0)
       largest = std::max(largest, database.change_from_coarser.maxCoeff());
   EXPECT_THAT(kept.doubts.front(), HasSubstr(fmt::format("changes by {:.0f} %", 100 * largest)));
+}
+
+// What the surface's mesh tells of the waves between bodies lies in the cache beside the database,
+// so that it is not meshed again.
+TEST(RadiationCache, KeepsWhichWavesAreLost) {
+  const OwnCache cache;
+  RadiationProblem problem = lowered_box();
+  problem.bodies.front().draughts.clear();
+  problem.bodies.push_back(problem.bodies.front());
+  problem.bodies.front().X_DB.p.y() = -4;
+  problem.bodies.back().X_DB.p.y() = 4;
+  problem.bodies.back().name = "other";
+  const FoundRadiation computed = find_radiation(problem, {});
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(std::getenv("BLOCKLIFT_CACHE")))
+    if (entry.path().extension() == ".coupling") files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 1U);
+  EXPECT_EQ(find_radiation(problem, {}).doubts, computed.doubts);
+  std::ofstream(files[0]) << "waves lost between bodies, 1\nlost 0 1 4 77\n";
+  EXPECT_THAT(find_radiation(problem, {}).doubts,
+              Contains(HasSubstr("ox and other lie 4 m apart: waves shorter than 77 m")));
+  // What is damaged is found again.
+  std::ofstream(files[0]) << "waves lost between bodies, 1\nlost 0 2 4 77\n";
+  EXPECT_EQ(find_radiation(problem, {}).doubts, computed.doubts);
+}
+
+/// What this program computes is of its own conventions, and what is spoilt is told.
+TEST(RadiationCache, WhatIsComputedHasItsConventions) {
+  const OwnCache cache;
+  RadiationProblem problem = lowered_box();
+  problem.bodies.front().draughts.clear();
+  problem.frequencies = {0.6, 0.9, 1.2, 1.5, 1.8, 2.1};
+  problem.headings.clear();
+  for (int h = 0; h < 12; ++h) problem.headings.push_back(std::numbers::pi / 6 * h);
+  dynamics::HydrodynamicDatabase database = find_radiation(problem, {}).series->databases.front();
+  database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(6, 6);
+  database.hydrostatic_stiffness(2, 2) = database.water.density * database.water.gravity * 8 * 4;
+  EXPECT_THAT(doubts_about_conventions(database), testing::IsEmpty());
+  dynamics::HydrodynamicDatabase spoilt = database;
+  for (auto* forces : {&spoilt.froude_krylov, &spoilt.diffraction})
+    for (Eigen::MatrixXcd& X : *forces) X = Eigen::MatrixXcd(-X);
+  EXPECT_THAT(doubts_about_conventions(spoilt),
+              ElementsAre(HasSubstr("if the forces had the opposite sign")));
+  spoilt = database;
+  for (Eigen::MatrixXd& B : spoilt.damping) B *= 3;
+  EXPECT_THAT(doubts_about_conventions(spoilt), ElementsAre(HasSubstr("contradict each other")));
 }
 
 // What one method found is not taken for what another would; the marched surface's names stay.

@@ -237,6 +237,30 @@ PanelModel make_even_box(int length, int breadth, int draught, double depth) {
           {true, true}};
 }
 
+// Besides the coarser matrices those rows that have their equations at the middles of flat
+// clusters, with the finer panels still: a quarter of the bodies' here.
+TEST(RankineProblem, MemoryCountsTheEquationsAtMiddles) {
+  for (const double depth : {std::numeric_limits<double>::infinity(), 8.0}) {
+    const PanelModel model = make_even_box(20, 8, 2, depth);
+    DatabaseSettings settings = short_settings();
+    settings.headings.clear();
+    const double without = database_bytes(model, settings);
+    settings.with_coarser = true;
+    const double with = database_bytes(model, settings);
+    const PanelClusters clusters = cluster_panels(model.body_mesh());
+    const auto rows =
+        static_cast<double>(find_flat_clusters(model.body_mesh(), clusters).clusters.size());
+    const double bodies = model.body_mesh().size(), surface = model.surface_mesh().size();
+    EXPECT_EQ(rows, bodies / 4);
+    const bool deep = is_deep(model.water());
+    // The surface's clusters are at least a quarter of its panels.
+    const int fewest = model.surface_mesh().size() / 4;
+    const double coarser = rankine_part_bytes(clusters.count, fewest, !deep) +
+                           FreeSurfaceMarch::operator_bytes(fewest);
+    EXPECT_GT(with - without, coarser + 8.0 * rows * (2.0 * bodies + (deep ? 1.0 : 2.0) * surface));
+  }
+}
+
 // Panels of 2 m taken together are what panels of 4 m are: at infinite frequency the added mass of
 // heave, surge and pitch changes as much, to a quarter. With equations in the mean over the
 // clusters heave changed by half of that. So it is where the bottom's image is nearer than a panel

@@ -10,6 +10,7 @@
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/pipeline/sample_lift.h"
@@ -558,6 +559,26 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
               HasSubstr("lacks the key \"peak_period\""));
   EXPECT_THAT(complaints_of_change("mast: {", "B1: {"),
               HasSubstr("has the name of a body or joint"));
+}
+
+// What the figures of a database tell of its conventions (doubts_about_conventions) is said by the
+// name of the file.
+TEST(VesselDatabase, IsDoubtedByName) {
+  dynamics::HydrodynamicDatabase database;
+  database.body_names = {"float"};
+  database.frequencies = {0.5};
+  database.added_mass = {Eigen::MatrixXd::Identity(6, 6)};
+  database.damping = {Eigen::MatrixXd::Zero(6, 6)};
+  database.headings = {0, 45, 90};  // degrees
+  VesselInCase vessel;
+  vessel.database = Located<std::string>{"rm3.h5", {}};
+  vessel.hydrodynamics = std::make_shared<const dynamics::HydrodynamicDatabase>(database);
+  EXPECT_THAT(
+      doubts_about_database({vessel}),
+      testing::ElementsAre("Database rm3.h5: its 3 headings lie between 0 and 5157 degrees, "
+                           "as if the headings were in degrees, and were read as radians."));
+  vessel.radiation.value = RadiationMethod::none;
+  EXPECT_THAT(doubts_about_database({vessel}), testing::IsEmpty());
 }
 
 }  // namespace

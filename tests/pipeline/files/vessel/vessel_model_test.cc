@@ -1,8 +1,12 @@
 #include "pipeline/files/vessel/vessel_model.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "dynamics/marine/hull/hull_shapes.h"
+#include "pipeline/files/vessel/wetted_mesh.h"
 #include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
@@ -76,6 +80,66 @@ TEST(VesselModel, AMeshThatEndsAtTheWaterGoesOnUpright) {
     EXPECT_NEAR(dynamics::calc_enclosed_volume(vessel->hull).volume, 16.0, 1e-12);
     EXPECT_EQ(vessel->hull.bounds()[1].z(), 1.0);
   }
+}
+
+/// What is said of a box 4 x 2 x 1 m that ends at the water line, by the panels of its mesh.
+std::string said_of_wetted_box(const std::string& panels, const std::string& symmetry = "0 0") {
+  const test::TemporaryFolder folder;
+  const auto count = std::count(panels.begin(), panels.end(), '\n');
+  folder.write("box.gdf",
+               "box\n1 9.80665\n" + symmetry + "\n" + std::to_string(count) + "\n" + panels);
+  folder.write("vessel.yaml", replaced(cube, "{barge: {length: 5 m, breadth: 5 m, depth: 5 m}}",
+                                       "{mesh: {file: box.gdf}}") +
+                                  "hydrodynamics: {water_line: as meshed}\n");
+  Diagnostics diagnostics;
+  read_vessel("vessel.yaml", diagnostics);
+  return diagnostics.to_text();
+}
+
+// What was closed without a word, and is another hull then.
+TEST(VesselModel, AMeshMustBeClosedBelowTheWater) {
+  const std::string bottom = "-2 -1 -1 -2 1 -1 2 1 -1 2 -1 -1\n",
+                    starboard = "-2 -1 -1 2 -1 -1 2 -1 0 -2 -1 0\n",
+                    rest =
+                        "2 -1 -1 2 1 -1 2 1 0 2 -1 0\n"
+                        "2 1 -1 -2 1 -1 -2 1 0 2 1 0\n"
+                        "-2 1 -1 -2 -1 -1 -2 -1 0 -2 1 0\n";
+  EXPECT_EQ(said_of_wetted_box(bottom + starboard + rest), "");
+  EXPECT_THAT(said_of_wetted_box(starboard + rest),
+              testing::AllOf(HasSubstr("vessel.yaml:2:"),
+                             HasSubstr("has no panel on its other side, and lies below the water "
+                                       "line z = 0, where alone a mesh may end (4 such edges); add "
+                                       "the panels that are missing")));
+  const std::string turned = "-2 -1 0 2 -1 0 2 -1 -1 -2 -1 -1\n";
+  EXPECT_THAT(said_of_wetted_box(bottom + turned + rest),
+              testing::AllOf(HasSubstr("one of the two is turned round"),
+                             HasSubstr("panel 1 (counted from 0) is turned round against all "
+                                       "neighbours: reverse the order of its vertices")));
+}
+
+TEST(VesselModel, AHalfIsToldFromAWhole) {
+  const std::string half =
+      "-2 0 -1 -2 1 -1 2 1 -1 2 0 -1\n"
+      "2 0 -1 2 1 -1 2 1 0 2 0 0\n"
+      "2 1 -1 -2 1 -1 -2 1 0 2 1 0\n"
+      "-2 1 -1 -2 0 -1 -2 0 0 -2 1 0\n";
+  EXPECT_EQ(said_of_wetted_box(half, "0 1"), "");
+  EXPECT_THAT(
+      said_of_wetted_box(half),
+      HasSubstr("all its open edges lie in y = 0, and all of it on one side: it is the half "
+                "of a hull; ISY 1 in line 3 of a .gdf mirrors it"));
+}
+
+TEST(VesselModel, AMeshInMillimetresIsDoubted) {
+  const dynamics::Hull metres =
+      dynamics::make_barge({.length = 40, .breadth = 20, .depth = 6}, {4, 2, 2, 1});
+  EXPECT_EQ(doubt_about_size("vessel barge", metres), "");
+  const dynamics::Hull millimetres =
+      dynamics::make_barge({.length = 40e3, .breadth = 20e3, .depth = 6e3}, {4, 2, 2, 1});
+  EXPECT_EQ(
+      doubt_about_size("vessel barge", millimetres),
+      "The hull of vessel barge is 4e+04 x 2e+04 x 6000 m large: lengths of a mesh are metres, "
+      "and the file may have millimetres (then 40 m long).");
 }
 
 // A box whose mesh is not symmetric: its ends are divided along one diagonal. By key it is.

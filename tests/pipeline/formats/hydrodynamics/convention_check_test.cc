@@ -146,6 +146,24 @@ TEST(Conventions, FrequenciesThatAreNone) {
               ElementsAre(HasSubstr("if the frequencies were in Hz, and not in rad/s")));
 }
 
+// Headings that do not go round leave heave in long waves, which is buoyancy's.
+TEST(Conventions, PeriodsShowInHeave) {
+  HydrodynamicDatabase database = column(2);
+  database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(6, 6);
+  database.hydrostatic_stiffness(2, 2) = 1e5;
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const double wave_number = calc_wave_number(database.frequencies[k], database.water);
+    database.diffraction[k].row(2).setConstant(1e5 * std::exp(-4 * wave_number));
+  }
+  EXPECT_THAT(doubts_about_conventions(database), IsEmpty());
+  take_for(database, [](double w) { return 2 * pi / w; });
+  EXPECT_THAT(doubts_about_conventions(database),
+              ElementsAre("the excitation of column heave is 0.20 of its stiffness at the lowest "
+                          "frequency and 0.88 at the highest, where long waves have all of it; it "
+                          "would be so if periods were taken for frequencies, or these for "
+                          "periods"));
+}
+
 TEST(Conventions, PhasesOfAnotherTimeFactor) {
   HydrodynamicDatabase database = column();
   for (Eigen::MatrixXcd& X : database.diffraction) X = Eigen::MatrixXcd(X.conjugate());

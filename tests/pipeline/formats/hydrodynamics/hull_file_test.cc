@@ -50,6 +50,21 @@ TEST(HullFile, ReadsWamitPanelsWithTheirSymmetries) {
   EXPECT_NEAR(calc_enclosed_volume(closed).volume, 4 * 2 * 2, 1e-12);
 }
 
+// A lid where the bottom is missing would mostly make another hull.
+TEST(HullFile, ClosesNothingButTheTop) {
+  const TemporaryFolder folder;
+  const std::string whole = quarter_gdf;
+  const auto refuses = [&](const std::string& text, const std::string& message) {
+    const auto path = put(folder, "open.gdf", text);
+    EXPECT_THAT(
+        [&] { read_hull(path, {.close_openings = true}); },
+        ThrowsMessage<HullFileError>(testing::AllOf(
+            HasSubstr("close_openings closes what is open at the top"), HasSubstr(message))));
+  };
+  std::string without_bottom = whole.substr(0, whole.find("0 0 -2  0 1 -2"));
+  refuses(without_bottom.replace(without_bottom.find("\n3\n"), 3, "\n2\n"), "looks down");
+}
+
 TEST(HullFile, GivesBackWhatItWrites) {
   const TemporaryFolder folder;
   const Hull ship = dynamics::make_ship({.length = 100,

@@ -1,10 +1,13 @@
 // Databases of other programs that are incomplete, or of no body.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -90,6 +93,42 @@ TEST(Wamit, RefusesLinesThatContradictOthers) {
   EXPECT_THAT(message_with("pair.1", "0 1 1 7e9"), AllOf(HasSubstr("pair.1:"), HasSubstr(again)));
   EXPECT_THAT(message_with("pair.1", last.substr(0, 36) + " 7e9 7e9"), HasSubstr(again));
   EXPECT_THAT(message_with("pair.hst", "3 3 7e9"), HasSubstr(again));
+}
+
+// What should be nothing is the rounding of what is not, another one in each run.
+TEST(Wamit, TakesTheRoundingOfASecondRun) {
+  const test::TemporaryFolder folder;
+  HydrodynamicDatabase database = pair_in_water_line();
+  database.damping[1](0, 1) = database.damping[1](1, 0) = 1e-9 * database.damping[1](0, 0);
+  write_wamit("pair", database);
+  const std::string masses = text_of("pair.1");
+  const std::string period =
+      fmt::format("{:.17g} ", 2 * std::numbers::pi / database.frequencies[1]);
+  const auto message_with = [&](double damping) {
+    folder.write("pair.1", masses + period +
+                               fmt::format("1 2 {:.17g} {:.17g}\n",
+                                           database.added_mass[1](0, 1) / database.water.density,
+                                           damping / database.water.density));
+    return refusal_of([&] { read_wamit("pair", scales_of_pair(database)); });
+  };
+  const double rate = database.damping[1](0, 0) / database.frequencies[1];
+  EXPECT_EQ(message_with(-2e-9 * rate), "");
+  EXPECT_THAT(message_with(1e-3 * rate), HasSubstr("comes a second time, with other figures"));
+}
+
+// By Haskind's relation, where there is none of the diffraction potential; without either there are
+// no waves.
+TEST(Wamit, TakesExcitationFromEitherFile) {
+  const test::TemporaryFolder folder;
+  const HydrodynamicDatabase database = pair_in_water_line();
+  write_wamit("pair", database);
+  const HydrodynamicDatabase found = read_wamit("pair", scales_of_pair(database));
+  std::filesystem::rename("pair.3", "pair.2");
+  const HydrodynamicDatabase same = read_wamit("pair", scales_of_pair(database));
+  EXPECT_EQ(same.headings, found.headings);
+  EXPECT_EQ(same.diffraction[1], found.diffraction[1]);
+  std::filesystem::remove("pair.2");
+  EXPECT_TRUE(read_wamit("pair", scales_of_pair(database)).headings.empty());
 }
 
 TEST(Wamit, TakesFortransNumbers) {
