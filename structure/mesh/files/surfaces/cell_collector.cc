@@ -1,6 +1,7 @@
 #include "structure/mesh/files/surfaces/cell_collector.h"
 
 #include <unordered_map>
+#include <unordered_set>
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -57,10 +58,21 @@ class Collector {
     for (std::size_t i = 0; i < tags.size(); ++i) place_of_tag_[tags[i]] = i;
   }
 
+  /// Tells the middles of a surface's edges, before its curves are added.
+  void note_middles(int surface) {
+    for_each_element(2, surface, [&](std::size_t, const std::size_t* nodes, CellKind kind) {
+      if (kind.nodes > kind.corners)
+        edge_middles_.insert(nodes + kind.corners, nodes + 2 * kind.corners);
+    });
+  }
+
   void add_curve(int curve, int region) {
     for_each_element(1, curve, [&](std::size_t tag, const std::size_t* nodes, CellKind kind) {
       const int first = vertex(nodes[0]), last = vertex(nodes[1]);
-      const int middle = kind.nodes == 3 ? vertex(nodes[2]) : last;
+      // Along a straight edge of a shell a beam bends with all of it, and not at three nodes alone.
+      const bool is_whole = kind.nodes == 2 || (edge_middles_.contains(nodes[2]) &&
+                                                is_straight(nodes[0], nodes[2], nodes[1]));
+      const int middle = is_whole ? last : vertex(nodes[2]);
       add_beam(tag, first, middle, region, curve);
       if (middle != last) add_beam(tag, middle, last, region, curve);
     });
@@ -134,6 +146,12 @@ class Collector {
     return length_ * Vector3(of_node[0], of_node[1], of_node[2]);
   }
 
+  /// Does a node lie in the middle between two others?
+  bool is_straight(std::size_t from, std::size_t middle, std::size_t to) const {
+    const Vector3 begin = place(from), end = place(to);
+    return (place(middle) - (begin + end) / 2).norm() <= straight * (end - begin).norm();
+  }
+
   int vertex(std::size_t tag) {
     const auto [known, is_new] =
         vertex_of_tag_.try_emplace(tag, static_cast<int>(mesh_.vertices.size()));
@@ -157,7 +175,6 @@ class Collector {
   /// Gives a second-order shell its middles unless all of them lie where a plain one has them.
   void bend(Shell& shell, const std::vector<int>& corners, const std::size_t* others,
             CellKind kind) {
-    constexpr double straight = 1e-6;  // of an edge
     std::vector<Vector3> at_corners, at_middles;
     for (const int corner : corners) at_corners.push_back(mesh_.vertices[corner]);
     bool is_curved = false;
@@ -192,6 +209,8 @@ class Collector {
         vertices.push_back(known->second);
   }
 
+  static constexpr double straight = 1e-6;  // of an edge
+
   double length_;
   Deck& deck_;
   Mesh& mesh_;
@@ -200,12 +219,14 @@ class Collector {
   std::unordered_map<std::size_t, int> vertex_of_tag_;
   std::map<std::pair<int, int>, std::vector<int>> cells_of_;
   std::vector<std::pair<std::size_t, SurfacePoint>> middles_;
+  std::unordered_set<std::size_t> edge_middles_;
 };
 
 }  // namespace
 
 void collect_cells(const EntityRegions& entities, double length, Deck& deck) {
   Collector collector(length, deck);
+  for (const auto& [surface, region] : entities.surfaces) collector.note_middles(surface);
   for (const auto& [curve, region] : entities.curves) collector.add_curve(curve, region);
   for (const auto& [surface, region] : entities.surfaces) collector.add_surface(surface, region);
   collector.fasten_middles();
