@@ -126,8 +126,10 @@ TEST(RiggingFacts, CentreBoxOfAHookLeavesItsBlockOut) {
     ASSERT_TRUE(computed.centre_box);
     EXPECT_NEAR(*computed.centre_box, 1.1, 5e-4);
   }
-  // The crane bears all of the load wherever its centre is.
+  // The crane bears all of the load wherever its centre is, and however it tilts.
   EXPECT_NEAR(rigging.of_crane(0, 0).centre_box.value(), 1, 1e-6);
+  EXPECT_TRUE(rigging.of_hook(0, 0).two_hooks);
+  EXPECT_FALSE(rigging.of_crane(0, 0).two_hooks);
 }
 
 // Second method: the equilibrium of a lift whose centre of mass is where the box has its corner.
