@@ -108,9 +108,9 @@ LiftCase spreader_case(const test::TemporaryFolder& folder) {
   return lift_case;
 }
 
-// A rule of levers: lugs and sheaves are 4 m apart, so that a centre 0.2 m out of the middle brings a
-// hook 2.2 / 2 of the load, whatever its own block weighs. The load tilts by its ropes' stretch, which
-// moves its centre by some tenths of a millimetre.
+// A rule of levers: lugs and sheaves are 4 m apart, so that a centre 0.2 m out of the middle brings
+// a hook 2.2 / 2 of the load, whatever its own block weighs. The load tilts by its ropes' stretch,
+// which moves its centre by some tenths of a millimetre.
 TEST(RiggingFacts, CentreBoxOfAHookLeavesItsBlockOut) {
   const test::TemporaryFolder folder;
   test::SampleLift lift;
