@@ -225,10 +225,20 @@ ComputedFactors RiggingFacts::of_crane(std::size_t crane, Index sample) const {
   if (!(at_rest > 0)) return computed;
   for (const VectorXd& tension : state.at_corners_of_box)
     computed.centre_box = std::max(computed.centre_box.value_or(1), sum(tension) / at_rest);
-  for (const LiftHoist& hoist : hoists)
-    if (hoist.crane == crane && !computed.two_hooks)
-      computed.two_hooks = two_hooks(hoist.name, sample);
+  // A crane that bears the load alone bears all of it, however the load tilts between its hooks.
+  if (shares_the_load(crane))
+    for (const LiftHoist& hoist : hoists)
+      if (hoist.crane == crane && !computed.two_hooks)
+        computed.two_hooks = two_hooks(hoist.name, sample);
   return computed;
+}
+
+bool RiggingFacts::shares_the_load(std::size_t crane) const {
+  const std::string& name = case_.cranes[crane].name.value;
+  for (const auto* slings : {&slings_, &to_bars_})
+    for (const LiftRope& sling : *slings)
+      if (!sling.hoist.empty() && crane_of(sling.hoist) != name) return true;
+  return false;
 }
 
 std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index sample) const {

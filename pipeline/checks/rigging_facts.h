@@ -50,6 +50,7 @@ class RiggingFacts {
   Eigen::MatrixXd compliance_of(const std::vector<RiggingRope>& ropes, Eigen::Index sample) const;
   dynamics::Pose pose_of(dynamics::BodyIndex body, Eigen::Index sample) const;
   double hook_block_weight(std::size_t hoist) const;  ///< N
+  bool shares_the_load(std::size_t crane) const;      ///< Does another crane bear some of it?
   std::size_t first_tackle() const { return slings_.size() + to_bars_.size(); }
   std::optional<TwoHooks> two_hooks(const std::string& hook, Eigen::Index sample) const;
   std::string crane_of(const std::string& hook) const { return hook.substr(0, hook.find('.')); }

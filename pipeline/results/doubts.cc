@@ -71,6 +71,8 @@ class Doubts {
     doubt_materials();
     doubt_masses();
     doubt_frames();
+    doubt_gravity();
+    for (const RopeInCase& rope : case_.ropes) doubt_strength(rope);
     return std::move(list_);
   }
 
@@ -379,6 +381,36 @@ class Doubts {
         doubt("Slings to the load begin at corner {} of frame {}, where none comes from above.",
               bare, bar.name.value);
     }
+  }
+
+  /// Of another unit all loads would be too small, or too large, by its factor.
+  void doubt_gravity() {
+    constexpr double least = 9.75, most = 9.85;  // m/s^2: of the Earth, with room for rounding
+    if (case_.gravity < least || case_.gravity > most)
+      doubt(
+          "Gravity is {:.4g} m/s2; on the Earth it is 9.76 to 9.84 m/s2, and all weights follow "
+          "it.",
+          case_.gravity);
+  }
+
+  /// A breaking load in the wrong unit passes every check.
+  void doubt_strength(const RopeInCase& rope) {
+    constexpr double most_stress = 4e9;   // Pa over the circle: four parts of the strongest wire
+    constexpr double most_stretch = 0.5;  // nylon, the softest of ropes, breaks before
+    const RopeModel& model = rope.rope;
+    const double diameter = model.diameter.value_or(0);
+    const double stress = model.breaking_load / (std::numbers::pi / 4 * diameter * diameter);
+    if (diameter > 0 && stress > most_stress)
+      doubt(
+          "Rope {} of {:.3g} mm has a breaking load of {:.4g} kN, {:.0f} MPa over its circle; wire "
+          "ropes of the models have 800 to 900 MPa.",
+          rope.name.value, 1e3 * diameter, model.breaking_load / 1e3, stress / 1e6);
+    const double stretch = model.breaking_load / model.axial_stiffness;
+    if (stretch > most_stretch)
+      doubt(
+          "Rope {} would be {:.0f} % longer before it breaks, by its axial stiffness of {:.4g} kN "
+          "and its breaking load of {:.4g} kN; no rope stretches so far.",
+          rope.name.value, 100 * stretch, model.axial_stiffness / 1e3, model.breaking_load / 1e3);
   }
 
   void doubt_masses() {

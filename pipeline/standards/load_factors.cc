@@ -164,7 +164,7 @@ std::optional<LoadFactors::Factor> LoadFactors::tilt(const ComputedFactors& comp
                   {},
                   {},
                   rule.clause,
-                  "not worked: the formula is for a load on two hooks or two cranes"};
+                  "not worked: the formula is for the share of one of two hooks or two cranes"};
   const TwoHooks& hooks = *computed.two_hooks;
   const double span = std::hypot(hooks.span(), hooks.height - hooks.other_height);
   double angle = rule.angle;

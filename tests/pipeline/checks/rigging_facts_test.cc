@@ -108,9 +108,9 @@ LiftCase spreader_case(const test::TemporaryFolder& folder) {
   return lift_case;
 }
 
-// A rule of levers: lugs and sheaves are 4 m apart, so that a centre 0.2 m out of the middle brings a
-// hook 2.2 / 2 of the load, whatever its own block weighs. The load tilts by its ropes' stretch, which
-// moves its centre by some tenths of a millimetre.
+// A rule of levers: lugs and sheaves are 4 m apart, so that a centre 0.2 m out of the middle brings
+// a hook 2.2 / 2 of the load, whatever its own block weighs. The load tilts by its ropes' stretch,
+// which moves its centre by some tenths of a millimetre.
 TEST(RiggingFacts, CentreBoxOfAHookLeavesItsBlockOut) {
   const test::TemporaryFolder folder;
   test::SampleLift lift;
@@ -126,8 +126,10 @@ TEST(RiggingFacts, CentreBoxOfAHookLeavesItsBlockOut) {
     ASSERT_TRUE(computed.centre_box);
     EXPECT_NEAR(*computed.centre_box, 1.1, 5e-4);
   }
-  // The crane bears all of the load wherever its centre is.
+  // The crane bears all of the load wherever its centre is, and however it tilts.
   EXPECT_NEAR(rigging.of_crane(0, 0).centre_box.value(), 1, 1e-6);
+  EXPECT_TRUE(rigging.of_hook(0, 0).two_hooks);
+  EXPECT_FALSE(rigging.of_crane(0, 0).two_hooks);
 }
 
 // Second method: the equilibrium of a lift whose centre of mass is where the box has its corner.

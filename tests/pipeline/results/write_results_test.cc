@@ -497,6 +497,24 @@ TEST_F(DoubtsOfALift, MaterialAndMass) {
   EXPECT_EQ(list_doubts(lift_case_).size(), 1u);  // without a run
 }
 
+// What another unit makes of them: feet in gravity, t in place of kN, kN in place of MN.
+TEST_F(DoubtsOfALift, GravityAndStrengthOfRopes) {
+  using ::testing::HasSubstr;
+  RopeModel& rope = lift_case_.ropes.front().rope;
+  rope.axial_stiffness = 40e6;
+  rope.breaking_load = 426e3;  // 26 mm: 0.356 d^2 x 1770 MPa
+  rope.diameter = 0.026;
+  EXPECT_EQ(doubts(), "");
+  rope.breaking_load = 4178e3;
+  EXPECT_THAT(doubts(), HasSubstr("of 26 mm has a breaking load of 4178 kN, 7869 MPa over"));
+  rope.axial_stiffness = 200e3;
+  rope.diameter.reset();
+  EXPECT_THAT(doubts(), HasSubstr("would be 2089 % longer before it breaks, by its axial"));
+  rope.axial_stiffness = 40e6;
+  lift_case_.gravity = 2.99;
+  EXPECT_THAT(doubts(), ::testing::StartsWith("Gravity is 2.99 m/s2; on the Earth it is 9.76"));
+}
+
 // As if the load hung on one hook, turned by 40 degrees at one instant.
 TEST_F(DoubtsOfALift, TurnOfALoadThatNothingHolds) {
   LiftRun& lift = *assessment_.lift;
