@@ -11,7 +11,8 @@ Json result_json(const ComparedResult& result) {
   return {{"name", result.name},
           {"folder", result.folder.string()},
           {"case", result.summary.value("case", "")},
-          {"run", result.summary.value("run", "")}};
+          {"run", result.summary.value("run", "")},
+          {"program_version", result.summary.value("program_version", "")}};
 }
 
 Json difference_json(const InputDifference& difference) {

@@ -102,6 +102,24 @@ std::string input_text(const ResultComparison& comparison) {
   return text;
 }
 
+/// Which versions of the program the results are of, where they are not of one: a figure may differ
+/// by that alone.
+std::string versions_text(const ResultComparison& comparison) {
+  const auto version_of = [](const ComparedResult& result) {
+    return result.summary.value("program_version", std::string("unknown"));
+  };
+  const std::vector<ComparedResult>& results = comparison.results;
+  if (std::ranges::all_of(results, [&](const ComparedResult& one) {
+        return version_of(one) == version_of(results.front());
+      }))
+    return {};
+  std::string text = "versions of the program differ\n";
+  for (const ComparedResult& result : results)
+    text += without_trailing_blanks(
+        fmt::format("    {}  {}", to_the_left(result.name, 20), version_of(result)));
+  return text;
+}
+
 /// The results from `begin` on beside the first, as many as a line has room for.
 std::string figures_text(const ResultComparison& comparison, std::size_t begin) {
   const std::size_t end = std::min(begin + others_in_a_line, comparison.results.size());
@@ -139,7 +157,7 @@ std::string figures_text(const ResultComparison& comparison, std::size_t begin) 
 }  // namespace
 
 std::string comparison_text(const ResultComparison& comparison) {
-  std::string text = input_text(comparison);
+  std::string text = input_text(comparison) + versions_text(comparison);
   for (std::size_t begin = 1; begin < comparison.results.size(); begin += others_in_a_line)
     text += figures_text(comparison, begin);
   if (comparison.tolerances.empty()) return text;

@@ -97,8 +97,16 @@ std::optional<std::string> complaint_about(const ExpectedFigure& figure, const J
   return std::nullopt;
 }
 
-/// To six digits: more would feign a precision that nobody needs.
-double rounded(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
+/// To six digits: more would feign a precision that nobody needs. All of them where six would use
+/// up a tenth of what the figure may differ by: it would not hold the very lift that it is taken
+/// from.
+/// @param figure whose tolerance counts.
+double rounded_for(const ExpectedFigure& figure, double value) {
+  const double rounded = std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+  ExpectedFigure held = figure;
+  held.value = value;
+  return std::abs(rounded - value) <= allowed_difference(held) / 10 ? rounded : value;
+}
 
 /// A scalar as it stands in a file: a number, true, false, or else a text.
 Json scalar_json(const std::string& written) {
@@ -160,11 +168,11 @@ std::vector<ExpectedFigure> expect_figures(const Json& summary) {
     one.path = figure.path;
     one.reason = figure.tolerance.reason;
     if (found.is_number()) {
-      one.value = rounded(found.get<double>());
       if (figure.tolerance.relative > 0)
         one.tolerance = figure.tolerance.relative;
       else
         one.absolute_tolerance = figure.tolerance.absolute;
+      one.value = rounded_for(one, found.get<double>());
     } else {
       one.equals = text_of_value(found);
     }
@@ -179,7 +187,7 @@ std::vector<BrokenFigure> renew_figures(std::vector<ExpectedFigure>& figures, co
     ExpectedFigure& figure = figures[broken.index];
     const Json* found = find_figure(summary, figure.path);
     if (!figure.value || !found || !found->is_number()) continue;
-    figure.value = rounded(found->get<double>());
+    figure.value = rounded_for(figure, found->get<double>());
     renewed.push_back(std::move(broken));
   }
   return renewed;

@@ -18,6 +18,14 @@ YAML::Node parse_default(const std::string& text) {
   }
 }
 
+/// Values whose members rules know to be unread: numbers, which are NaN or zero then, and choices.
+/// An empty text would be looked for as a name.
+bool may_be_unread(const ValueDescription& value) {
+  using Kind = ValueDescription::Kind;
+  return value.kind == Kind::quantity || value.kind == Kind::measure ||
+         value.kind == Kind::number || value.kind == Kind::integer || value.kind == Kind::choice;
+}
+
 }  // namespace
 
 Keys::Keys(std::string noun, std::string description)
@@ -79,11 +87,19 @@ bool Keys::is_early(const std::string& name) const {
 void Keys::read_entry(const Entry& entry, Reading& reading, void* value) const {
   for (const Key& key : keys_) {
     if (key.description.name != entry.key) continue;
-    if (!reading.has_value(entry, *key.description.value)) return;
-    reading.with_key(entry.key, [&] {
+    const auto read = [&] {
       return key.read(*key.reader, key.member, entry.value, reading.mark_of(entry.value), reading,
                       value);
-    });
+    };
+    if (reading.has_value(entry, *key.description.value)) {
+      reading.with_key(entry.key, read);
+    } else if (may_be_unread(*key.description.value)) {
+      // The member becomes that of a value which cannot be read, so that no rule misses the key as
+      // well. What the reader says of it has been said.
+      const Diagnostics told = reading.diagnostics();
+      reading.with_key(entry.key, read);
+      reading.diagnostics() = told;
+    }
     return;
   }
   reading.error(entry.mark, reading.owner() + " has no key \"" + entry.key + "\"",

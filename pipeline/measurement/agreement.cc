@@ -20,12 +20,17 @@ void fit_line(const std::vector<double>& measured, const std::vector<double>& co
   const double mean_computed = mean_of(computed);
   double both = 0;
   double own = 0;
+  double scatter = 0;
   for (std::size_t i = 0; i < computed.size(); ++i) {
     both += (measured[i] - mean_measured) * (computed[i] - mean_computed);
     own += (computed[i] - mean_computed) * (computed[i] - mean_computed);
+    scatter += (measured[i] - mean_measured) * (measured[i] - mean_measured);
   }
   if (own <= 1e-18 * static_cast<double>(computed.size()) * mean_computed * mean_computed) return;
   agreement.scale = both / own;
+  const double left = std::max(0.0, scatter - both * both / own);
+  const double freedom = std::max(1.0, static_cast<double>(computed.size()) - 2);
+  agreement.scale_deviation = std::sqrt(left / freedom / own);
   agreement.zero = mean_measured - *agreement.scale * mean_computed;
 }
 

@@ -18,6 +18,7 @@ struct Agreement {
   double correlation = 0;      ///< Pearson's coefficient
   /// The line measured = zero + scale computed of least squares; none where nothing moves.
   std::optional<double> scale;
+  double scale_deviation = 0;  ///< standard deviation of the scale, for independent errors
   double zero = 0;
   double largest_measured = 0;
   double largest_computed = 0;

@@ -34,13 +34,23 @@ Eigen::MatrixXd decay_jacobian(const Eigen::VectorXd& time, const DecayParameter
   return jacobian;
 }
 
+/// What the scan looks at of a row: means of neighbours where there are more samples than it needs.
+Eigen::VectorXd thinned(const Eigen::VectorXd& row) {
+  constexpr Eigen::Index enough = 3000;
+  const Eigen::Index stride = (row.size() + enough - 1) / enough;
+  if (stride <= 1) return row;
+  Eigen::VectorXd means(row.size() / stride);
+  for (Eigen::Index i = 0; i < means.size(); ++i) means[i] = row.segment(i * stride, stride).mean();
+  return means;
+}
+
 /// The best of a scan over frequencies, from one period in the window to four samples a period.
 DecayParameters scan_of_decays(const Eigen::VectorXd& time, const Eigen::VectorXd& values) {
   const double span = time[time.size() - 1];
   const double lowest = 2 * std::numbers::pi / span;
   const double highest = std::max(1.01 * lowest, lowest * static_cast<double>(time.size() - 1) / 4);
-  // A frequency is told from its neighbour by a quarter of a turn over the window.
-  const int count = std::clamp(static_cast<int>(4 * highest / lowest), 8, 800);
+  // A frequency is told from its neighbour by a quarter of a turn over the window, or half a one.
+  const int count = std::clamp(static_cast<int>(4 * highest / lowest), 8, 1500);
   DecayParameters best = DecayParameters::Zero();
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= count; ++i) {
@@ -97,7 +107,8 @@ std::optional<Decay> fit_decay(const TimeSeries& series) {
   const double variance = values.squaredNorm();
   if (variance <= 1e-20 * static_cast<double>(size) * mean * mean || variance <= 0)
     return std::nullopt;
-  const DecayParameters p = refine_decay(time, values, scan_of_decays(time, values));
+  const DecayParameters p =
+      refine_decay(time, values, scan_of_decays(thinned(time), thinned(values)));
   const double error = decay_residual(time, values, p).squaredNorm();
   const double frequency = p[4];
   Decay decay;

@@ -126,6 +126,13 @@ void compare_channels(const TimeWindow& window, MeasuredLift& lift) {
   }
 }
 
+/// May the record be what was computed and noise? Of a load that hangs almost still the noise is
+/// larger than what moves, so that even a sound cell has no correlation.
+bool may_be_noise(const Agreement& agreement) {
+  constexpr double deviations = 3;
+  return std::abs(*agreement.scale - 1) <= deviations * agreement.scale_deviation;
+}
+
 /// What makes a channel doubtful as a whole: a dead cell, another channel, another unit or sign.
 /// Empty: nothing does.
 std::string doubt_of(const HeldChannel& channel, const TimeWindow& window) {
@@ -136,8 +143,17 @@ std::string doubt_of(const HeldChannel& channel, const TimeWindow& window) {
   if (lowest != values.end() && *lowest == *highest)
     return fmt::format("is {:.6g} {} at every instant: the cell or its channel may be dead",
                        *lowest, channel.unit);
+  // A mean tells a tension's unit even where nothing moves. Other quantities have a zero of their
+  // own.
+  const double ratio = channel.agreement->ratio_of_means;
+  const bool has_wrong_mean = channel.unit == "N" &&
+                              std::abs(ratio) < std::numeric_limits<double>::infinity() &&
+                              !(ratio >= least_scale && ratio <= largest_scale);
+  const std::string wrong_mean = fmt::format(
+      "is {:.4g} times the computed one on average: its unit or its zero may be another", ratio);
   // Where nothing moves in the computed lift there is nothing that a record could follow.
-  if (!channel.agreement->scale) return {};
+  if (!channel.agreement->scale || may_be_noise(*channel.agreement))
+    return has_wrong_mean ? wrong_mean : std::string();
   const double correlation = channel.agreement->correlation, scale = *channel.agreement->scale;
   if (correlation < least_correlation)
     return fmt::format("does not follow the computed one, its correlation is {:.2f}{}", correlation,
@@ -145,7 +161,45 @@ std::string doubt_of(const HeldChannel& channel, const TimeWindow& window) {
   if (scale < least_scale || scale > largest_scale)
     return fmt::format("moves {:.4g} times as much as the computed one: its unit may be another",
                        scale);
-  return {};
+  return has_wrong_mean ? wrong_mean : std::string();
+}
+
+/// How far each sample stands out from both its neighbours, to one side; 0 where it lies between.
+std::vector<double> leaps_of(const std::vector<double>& values) {
+  std::vector<double> leaps(values.size(), 0);
+  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
+    const double before = values[i] - values[i - 1], after = values[i] - values[i + 1];
+    if (before * after > 0) leaps[i] = std::min(std::abs(before), std::abs(after));
+  }
+  return leaps;
+}
+
+/// Says where tensions have samples that stand alone: one makes a largest load, and spoils a
+/// correlation. They leap ten times as far as 19 of 20 samples and as all that was computed, and by
+/// a twentieth of the largest load at least.
+void doubt_leaps(const TimeWindow& window, MeasuredLift& lift) {
+  constexpr double far = 10, least_share = 0.05;
+  for (const HeldChannel& channel : lift.channels) {
+    if (channel.unit != "N" || !channel.agreement) continue;
+    const TimeSeries ours = samples_in(channel.measured, window);
+    std::vector<double> theirs;
+    for (const double instant : ours.time) theirs.push_back(channel.computed.in_motion.at(instant));
+    const std::vector<double> leaps = leaps_of(ours.values), computed = leaps_of(theirs);
+    std::vector<double> sorted = leaps;
+    const auto usual = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 19 / 20);
+    std::nth_element(sorted.begin(), usual, sorted.end());
+    const double limit = std::max({far * *usual, far * *std::ranges::max_element(computed),
+                                   least_share * channel.agreement->largest_computed});
+    const auto stands_alone = [&](double leap) { return leap > limit; };
+    const auto first = std::ranges::find_if(leaps, stands_alone);
+    if (first == leaps.end()) continue;
+    const auto count = std::ranges::count_if(leaps, stands_alone);
+    lift.doubts.push_back(fmt::format(
+        "{} leaps at {}, at {:.1f} s first: the cell or its line may have failed there, and its "
+        "largest load and correlation may be made of that",
+        channel.name, count == 1 ? "one sample" : fmt::format("{} samples", count),
+        ours.time[static_cast<std::size_t>(first - leaps.begin())]));
+  }
 }
 
 void doubt_channels(const TimeWindow& window, MeasuredLift& lift) {
@@ -352,6 +406,7 @@ MeasuredLift hold_against_measurements(const std::filesystem::path& result,
   const TimeWindow window = settings.window.value_or(whole_time());
   doubt_gaps(lift);
   compare_channels(window, lift);
+  doubt_leaps(window, lift);
   doubt_channels(window, lift);
   share_ropes(window, lift);
   if (settings.decay) identify_decays(*settings.decay, lift);

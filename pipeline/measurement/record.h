@@ -54,8 +54,9 @@ inline constexpr const char* wave_channel = "waves.elevation";
 /// Reads records: CSV with one header, `time [s], ropes.R1 [kN], bodies.block.roll [deg], ...`,
 /// each column with its unit in brackets. The group may be left out, and the names of results.csv
 /// are taken ("R1.tension"), where only one quantity is meant. A mass where a force is due is its
-/// weight under standard gravity. The time may be that of a clock (read_clock_time), without a unit;
-/// it counts from the record's first row then. Cells that say nothing are left out of their channel.
+/// weight under standard gravity. The time may be that of a clock (read_clock_time), without a
+/// unit; it counts from the record's first row then. Cells that say nothing are left out of their
+/// channel.
 /// @param results of the lift that was measured, which say what columns may be called.
 /// @throws InputError with all that is wrong with all files: no header, no time, a time that does
 ///   not rise, a column with hardly a value, a unit that is unknown

@@ -18,7 +18,8 @@ struct EvenSeries {
   std::vector<double> values;
 };
 
-/// @param span that all rows have in common; a series that begins later or ends earlier rests there.
+/// @param span that all rows have in common; a series that begins later or ends earlier rests
+/// there.
 EvenSeries evenly_sampled(const TimeSeries& series, const TimeWindow& span, double step) {
   EvenSeries even{span.from, {}};
   const auto count = static_cast<std::size_t>(std::floor((span.to - span.from) / step)) + 1;

@@ -28,8 +28,8 @@ std::string unit_text(const StudyVariable& variable);
 ///
 /// The intervals of 95 % are those between the percentiles of a bootstrap of base members (Archer,
 /// Saltelli and Sobol 1997), so that they lie where a correlation can. An index, or an end of its
-/// interval, is not a number where figures do not vary: all of them, one of the samples, or those of
-/// most resamples; all are of fewer base members than fewest_for_sobol_indices.
+/// interval, is not a number where figures do not vary: all of them, one of the samples, or those
+/// of most resamples; all are of fewer base members than fewest_for_sobol_indices.
 struct Sensitivity {
   Eigen::VectorXd first, first_low, first_high;
   Eigen::VectorXd total, total_low, total_high;

@@ -76,8 +76,8 @@ nlohmann::ordered_json study_json(const StudyResults& results);
 std::string survivors_warning(const StudyResults& results);
 /// What is to be said of members and figures that are left out beside that, in sentences.
 std::vector<std::string> left_out_warnings(const StudyResults& results);
-/// All that is doubtful about a study, in sentences: each member that failed, and what both of these
-/// say.
+/// All that is doubtful about a study, in sentences: each member that failed, and what both of
+/// these say.
 std::vector<std::string> study_warnings(const StudyResults& results);
 /// Did more than 5 % of a sample's members fail? Their run is taken as failed then.
 bool has_too_many_failures(const StudyResults& results);

@@ -267,7 +267,8 @@ void check_correlation(const StudyCorrelation& correlation, Reading& reading, co
     reading.error(mark, kind == CopulaKind::student ? "Student's copula lacks its degrees"
                                                     : "degrees go with copula: student");
   const double kendall = correlation.kendall.value_or(0.5);
-  if ((kind == CopulaKind::clayton || kind == CopulaKind::gumbel) && !(kendall > 0))
+  // One that cannot be read is not a number, and has been complained of.
+  if ((kind == CopulaKind::clayton || kind == CopulaKind::gumbel) && kendall <= 0)
     reading.error(mark,
                   "Clayton's and Gumbel's copulas join values that are large together: kendall is "
                   "above zero",
@@ -347,9 +348,9 @@ void check_correlations(const StudyFile& study, Reading& reading) {
   for (const StudyCorrelation& correlation : study.correlations)
     if (correlation.of.size() != 2) return;
   check_correlated_variables(study, reading);
-  // What lies beyond its range has been complained of.
+  // What lies beyond its range, or is no number, has been complained of.
   if (std::ranges::any_of(study.correlations, [](const StudyCorrelation& one) {
-        return std::abs(one.is.value_or(0)) >= 1 || std::abs(one.kendall.value_or(0)) >= 1;
+        return !(std::abs(one.is.value_or(0)) < 1 && std::abs(one.kendall.value_or(0)) < 1);
       }))
     return;
   if (!algebra::CholeskyFactors(study.correlation_matrix()).is_positive())

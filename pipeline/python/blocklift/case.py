@@ -201,9 +201,17 @@ class Case:
             return
         with tempfile.TemporaryDirectory(prefix="blocklift-") as folder:
             copy = Path(folder) / "case"
-            shutil.copytree(self.file.parent, copy, ignore=shutil.ignore_patterns("results", ".*"))
+            shutil.copytree(self.file.parent, copy, ignore=_left_out)
             (copy / self.file.name).write_text(text, encoding="utf-8")
             yield copy / self.file.name
+
+
+def _left_out(folder: str, names: list[str]) -> list[str]:
+    """What a copy of a case's folder does without: results, and what is hidden. Of many lifts that
+    are run into the case's own folder each copy would hold all earlier ones."""
+    return [name for name in names
+            if name == "results" or name.startswith(".")
+            or all((Path(folder) / name / one).is_file() for one in ("summary.json", "results.h5"))]
 
 
 def _file_of(path: Path) -> Path:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .errors import LiftWarning
 from .program import run
 from .results import Result
 
@@ -72,6 +74,8 @@ def measured(result: Result | str | os.PathLike[str],
     compared, when the load swings freely, when it hangs and is weighed. cell_accuracy: standard
     deviation of a load cell's scale, a share. page: an HTML page to write as well.
 
+    What is to be doubted is a LiftWarning, too.
+
     Raises InputError for records that cannot be used.
     """
     folder = result.folder if isinstance(result, Result) else result
@@ -84,4 +88,7 @@ def measured(result: Result | str | os.PathLike[str],
     arguments += ["--cell-accuracy", f"{100 * float(cell_accuracy)!r}%"]
     if page is not None:
         arguments += ["--output", page]
-    return Measured(json.loads(run(arguments)))
+    found = Measured(json.loads(run(arguments)))
+    for doubt in found.doubts:
+        warnings.warn(doubt, LiftWarning, stacklevel=2)
+    return found

@@ -136,6 +136,17 @@ TEST_F(ComparedFolders, GiveATableOfEightyColumns) {
   EXPECT_THAT(comparison_text(comparison), HasSubstr(" largest rope load: stress\n   increase, %"));
 }
 
+TEST_F(ComparedFolders, OfSeveralVersionsAreToldApart) {
+  EXPECT_THAT(comparison_text(compare()), Not(HasSubstr("versions of the program")));
+  ordered_json newer = test::sample_summary();
+  newer["program_version"] = "9.8.7";
+  test::write_sample_folder("after", newer, "case: two-ropes\n", "kind: block\n");
+  const ResultComparison comparison = compare();
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("versions of the program differ\n"));
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("    after                 9.8.7\n"));
+  EXPECT_EQ(comparison_json(comparison)["results"][1]["program_version"], "9.8.7");
+}
+
 TEST_F(ComparedFolders, GiveJsonInTheSummarysUnits) {
   const ordered_json json = comparison_json(compare("ropes=5%"));
   EXPECT_EQ(json["results"][1]["name"], "after");

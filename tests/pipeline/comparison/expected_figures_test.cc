@@ -165,5 +165,23 @@ TEST(ExpectedFigures, AreRenewedWhereTheyAreOffAndNowhereElse) {
   EXPECT_EQ(broken[0].index, 2u);
 }
 
+// Six digits of 10 123.456 kg are 4.3e-6 off, more than the tolerance of a mass.
+TEST(ExpectedFigures, HoldTheLiftThatTheyWereTakenFrom) {
+  auto summary = test::sample_summary();
+  summary["structure"]["mass"]["total_kg"] = 10123.456;
+  EXPECT_THAT(find_broken_figures(expect_figures(summary), summary), IsEmpty());
+  auto mine = read_text(R"([
+  {"figure": "ropes.R1.max_static_tension_N", "value": 5, "absolute_tolerance": 0.01,
+   "reason": "a"},
+  {"figure": "ropes.R2.max_static_tension_N", "value": 5, "tolerance": 0.01, "reason": "b"}
+])");
+  summary["ropes"][0]["max_static_tension_N"] = 123456.789;
+  summary["ropes"][1]["max_static_tension_N"] = 123456.789;
+  renew_figures(mine, summary);
+  EXPECT_EQ(*mine[0].value, 123456.789);
+  EXPECT_EQ(*mine[1].value, 123457);
+  EXPECT_THAT(find_broken_figures(mine, summary), IsEmpty());
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

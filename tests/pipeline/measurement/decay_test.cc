@@ -37,6 +37,16 @@ TEST(FitDecay, FindsPeriodAndDampingOfAFreeOscillation) {
     }
 }
 
+// Ten minutes at ten samples a second: the scan looks at means of two.
+TEST(FitDecay, FindsThemInALongRecord) {
+  for (const double period : {1.1, 6.3, 37.0}) {
+    const auto decay = fit_decay(swinging(period, 0.0004, 0.5, 600));
+    ASSERT_TRUE(decay) << period;
+    EXPECT_LT(std::abs(decay->period - period), 4 * decay->period_deviation);
+    EXPECT_LT(std::abs(decay->damping_ratio - 0.0004), 4 * decay->damping_deviation);
+  }
+}
+
 TEST(FitDecay, SaysHowFarNoiseMovesThem) {
   const auto decay = fit_decay(swinging(3.7, 0.015, 1));
   ASSERT_TRUE(decay);

@@ -1,6 +1,7 @@
 #include "pipeline/measurement/measured_lift.h"
 
 #include <cmath>
+#include <random>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -178,6 +179,31 @@ TEST_F(MeasuredLifts, DoubtChannelsThatAreNotTheComputedOnes) {
   EXPECT_THAT(doubts_of("kN", [](double t, double) { return 31 + std::sin(7.3 * t); }),
               ElementsAre(HasSubstr("ropes.R2 does not follow the computed one"), is_in));
   EXPECT_THAT(doubts_of("kN", [](double, double tension) { return 1.9 * tension; }), IsEmpty());
+  EXPECT_THAT(doubts_of("kN", [](double, double tension) { return tension + 40; }),
+              ElementsAre(HasSubstr("times the computed one on average"), is_in));
+  EXPECT_THAT(doubts_of("kN", [](double t,
+                                 double tension) { return std::abs(t - 20) < 0.01 ? 0 : tension; }),
+              ElementsAre(HasSubstr("ropes.R2 leaps at one sample, at 20.0 s first")));
+}
+
+// Before 10 s nothing moves, and after it a twentieth: noise of a tenth hides that.
+TEST_F(MeasuredLifts, DoubtNoSoundCellForItsNoise) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 0.1);
+  std::string cells = "time [s],ropes.R1 [kN],ropes.R2 [kN]\n";
+  for (int i = 0; i <= 500; ++i) {
+    const double t = 5 + 0.1 * i, tension = test::sample_tension(t) / 1000;
+    cells += fmt::format("{:.3f},{:.9g},{:.9g}\n", t, tension * (1 + noise(random)),
+                         tension / 1.5 * (1 + noise(random)));
+  }
+  folder_.write("cells.csv", cells);
+  MeasurementSettings settings;
+  settings.shifts = {0};
+  settings.rest = TimeWindow{5, 10};
+  const MeasuredLift lift = hold(settings);
+  EXPECT_LT(lift.channels[0].agreement->correlation, 0.7);
+  EXPECT_LT(lift.channels[1].agreement->correlation, 0.7);
+  EXPECT_THAT(lift.doubts, IsEmpty());
 }
 
 TEST_F(MeasuredLifts, AreRefusedWhereSettingsDoNotFit) {

@@ -30,6 +30,17 @@ class CaseTest(InATemporaryFolder):
         with self.assertRaisesRegex(KeyError, "there are no keys"):
             case.set("title.of", "it")
 
+    def test_a_changed_case_runs_from_a_copy_without_earlier_results(self):
+        from blocklift.case import _left_out
+
+        for name in ("first", "models", ".cache", "results"):
+            Path(name).mkdir()
+        Path("first/summary.json").touch()
+        Path("first/results.h5").touch()
+        Path("models/summary.json").touch()
+        self.assertEqual(sorted(_left_out(".", sorted(os.listdir()))),
+                         [".cache", "first", "results"])
+
     def test_saves_what_was_changed_and_keeps_comments(self):
         text = Path("lift/case.yaml").read_text(encoding="utf-8")
         Path("lift/case.yaml").write_text("# of the yard\n" + text, encoding="utf-8")
@@ -385,6 +396,10 @@ class MeasuredTest(InATemporaryFolder):
         self.assertEqual(early.shifts["cells.csv"], -36000)
         with self.assertRaises(blocklift.InputError):
             blocklift.measured("out", "missing.csv")
+        table["ropes.R2 [N]"] = -table["ropes.R2 [N]"]
+        table.to_csv("cells.csv", index_label="time [s]")
+        with self.assertWarnsRegex(blocklift.LiftWarning, "R2 .* its sign may be reversed"):
+            blocklift.measured("out", "cells.csv", shifts=-36000)
 
 
 class NewCaseTest(InATemporaryFolder):

@@ -166,8 +166,8 @@ TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
   EXPECT_EQ(ahead.windows[1].end, 12);
 }
 
-// A calm sea that was not run, or beside a limit that is not known, is told as not workable: it does
-// not count as workable.
+// A calm sea that was not run, or beside a limit that is not known, is told as not workable: it
+// does not count as workable.
 TEST_F(LinearLift, ACalmSeaThatWasNotRunIsNotAllowed) {
   LimitingSeas seas = find_limiting_seas(study_, design_, members_);
   const std::vector<SeaState> calm = {{0, 8, 0, 60, 0}, {0, 12, 0, 40, 0}};

@@ -41,8 +41,9 @@ TEST(Quantile, SaysWhereTheSampleIsTooSmall) {
   EXPECT_TRUE(std::isfinite(find_quantile(values, 0.99).low));
 }
 
-// By n independent values the largest lies beyond the quantile p with the probability 1 - p^n: 97.5 %
-// from 72 on for 95 %, from 368 on for 99 %, from 6 on for the median (David and Nagaraja 2003, 7.1).
+// By n independent values the largest lies beyond the quantile p with the probability 1 - p^n: 97.5
+// % from 72 on for 95 %, from 368 on for 99 %, from 6 on for the median (David and Nagaraja 2003,
+// 7.1).
 TEST(Quantile, HasBothEndsFromAKnownNumberOn) {
   for (const auto& [share, fewest] :
        {std::pair{0.5, 6}, std::pair{0.95, 72}, std::pair{0.99, 368}}) {
@@ -65,8 +66,8 @@ TEST(Quantile, OfOneValueAndOfTies) {
   EXPECT_EQ(tied.high, 7);
 }
 
-// Of one value nobody knows the deviation. What differs by rounding alone depends on nothing, has no
-// law, and is said to be the same.
+// Of one value nobody knows the deviation. What differs by rounding alone depends on nothing, has
+// no law, and is said to be the same.
 TEST(Spread, OfWhatDoesNotVary) {
   Eigen::MatrixXd design(40, 1);
   design.col(0).setLinSpaced(0, 39);
@@ -159,8 +160,8 @@ TEST(Spread, GumbelOfItsOwnSample) {
   EXPECT_GT(fit.high, inverse(0.999));
 }
 
-// Kolmogorov's own table, for a law that is known, says 0.23 of these values and the Gumbel law that
-// was fitted to them.
+// Kolmogorov's own table, for a law that is known, says 0.23 of these values and the Gumbel law
+// that was fitted to them.
 TEST(Spread, GumbelDoesNotFitWhatIsSpreadEvenly) {
   const Spread spread = find_spread("x", even_sample(100, [](double share) { return share; }),
                                     numbers(100), Eigen::MatrixXd(100, 0));

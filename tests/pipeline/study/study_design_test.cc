@@ -169,8 +169,8 @@ TEST(StudyDesign, InertVariablesHaveNoTotalIndex) {
   EXPECT_TRUE(find_sensitivity(design, still, *study.members).total.array().isNaN().all());
 }
 
-// A correlation lies between -1 and 1, whatever the bootstrap draws: of few base members, of a figure
-// that is nearly always the same, of one that is 1 in a single lift.
+// A correlation lies between -1 and 1, whatever the bootstrap draws: of few base members, of a
+// figure that is nearly always the same, of one that is 1 in a single lift.
 TEST(StudyDesign, IntervalsOfIndicesLieWhereIndicesCan) {
   const auto within = [](const Eigen::VectorXd& values, double low, double high) {
     for (const double value : values)
@@ -231,7 +231,8 @@ TEST(StudyDesign, BaseMembersWithAFailedLiftAreLeftOut) {
   EXPECT_TRUE(none.total.array().isNaN().all());
 }
 
-// Five standard deviations off there is a law; nine off nothing of it is left that a computer knows.
+// Five standard deviations off there is a law; nine off nothing of it is left that a computer
+// knows.
 TEST(StudyDesign, SaysWhereNothingOfALawIsLeft) {
   const auto place = std::make_shared<const std::string>("study.yaml");
   const auto refusal = [&](std::optional<double> lowest, std::optional<double> highest) {

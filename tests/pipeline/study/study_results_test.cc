@@ -99,8 +99,8 @@ StudyResults results_of(StudyDesign design, int asked, Eigen::MatrixXd values,
   return evaluate_study(study, std::move(values), members);
 }
 
-// A figure that a member which ran does not have has no statistics, and that is said; its values are
-// in the table.
+// A figure that a member which ran does not have has no statistics, and that is said; its values
+// are in the table.
 TEST(StudyResults, SayWhichFiguresTheyLeaveOut) {
   const test::TemporaryFolder folder;
   const auto lacking = results_of(

@@ -101,7 +101,8 @@ TEST(StudyFile, SaysOneThingOfOneBadValue) {
   for (const char* spread :
        {"law: normal, mean: 3 tn, deviation: 5 kg", "law: normal, mean: 3 t, deviation: 5 kgg",
         "law: uniform, lowest: 3 tt, highest: 4 t", "law: lognormal, mean: 3 tn, deviation: 5 kg",
-        "law: unifrm, lowest: 3 t, highest: 4 t"})
+        "law: unifrm, lowest: 3 t, highest: 4 t", "law: normal, mean: , deviation: 5 kg",
+        "law: weibull, mean: 3 t, deviation: ", "law: , lowest: 3 t, highest: 4 t"})
     EXPECT_THAT(complaints_about_spread(spread), HasSubstr("\n1 error\n")) << spread;
   const std::string two =
       "members: 9\nvary:\n"
@@ -109,7 +110,9 @@ TEST(StudyFile, SaysOneThingOfOneBadValue) {
       "  b: {keys: [y], spread: {law: normal, mean: 3, deviation: 1}}\n"
       "correlations:\n";
   for (const char* correlation :
-       {"is: 1.5", "kendall: -2", "copula: studnt, kendall: 0.5, degrees: 4"})
+       {"is: 1.5", "kendall: -2", "copula: studnt, kendall: 0.5, degrees: 4",
+        "is: ", "kendall: ", "copula: gumbel, kendall: lots", "copula: clayton, kendall: -1.5",
+        "copula: , is: 0.5", "copula: student, is: 0.5, degrees: "})
     expect_one(two + "  - {of: [a, b], " + correlation + "}\n", "error");
 }
 
