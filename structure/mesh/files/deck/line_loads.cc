@@ -81,7 +81,9 @@ bool acts_on_released_ends(const Mesh& mesh, const BeamLoad& load) {
   axes.col(1) = axes.col(2).cross(axes.col(0));
   const double size = line_between(mesh, beam, beam.offset).norm();
   const std::size_t values = load.is_at_a_place() ? 1 : 2;
-  for (std::size_t end = 0; end < 2; ++end)
+  for (std::size_t end = 0; end < 2; ++end) {
+    // What acts at the other end does not reach this one.
+    if (load.is_at_a_place() && load.span[0] == (end == 0 ? 1 : 0)) continue;
     for (std::size_t v = 0; v < values; ++v) {
       const Vector3& force = load.force[v];
       // About the centroid, which stays where a released rotation turns the end.
@@ -93,6 +95,7 @@ bool acts_on_released_ends(const Mesh& mesh, const BeamLoad& load) {
         if (std::abs(along) > least) return true;
       }
     }
+  }
   return false;
 }
 

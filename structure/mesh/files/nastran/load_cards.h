@@ -15,8 +15,8 @@ void write_loads_of_masses(const LoadSet& set, long label, const UnitSystem& uni
                            CardWriter& out);
 
 /// Writes a load along a bar: PLOAD1 for each of its components.
-/// @param number of the bar. @param offsets that are written with it, m: the line they lead to bears
-///   PLOAD1, and what bears the load beside it makes moments.
+/// @param number of the bar. @param offsets that are written with it, m: the line that they lead to
+///   bears PLOAD1, and what bears the load beside it makes moments.
 /// @throws ModelError if these are not linear in place, as no PLOAD1 says.
 void write_line_load(const Mesh& mesh, const BeamLoad& load, long set, long number,
                      const std::array<Vector3, 2>& offsets, const UnitSystem& units,
