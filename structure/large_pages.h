@@ -11,8 +11,8 @@ namespace blocklift::structure {
 /// megabytes stay as they are; so does all where the kernel knows no such pages.
 void prefer_large_pages(void* begin, std::size_t bytes);
 
-/// Has the kernel hand over the pages of memory that was taken and not yet written, to all threads at
-/// once: one thread that writes it first waits for each. What the memory holds stays.
+/// Has the kernel hand over the pages of memory that was taken and not yet written, to all threads
+/// at once: one thread that writes it first waits for each. What the memory holds stays.
 void take_pages(void* begin, std::size_t bytes);
 
 /// A matrix whose entries are yet to be written, in large pages.

@@ -15,15 +15,15 @@
 namespace blocklift::dynamics {
 namespace {
 
-// More groups than threads make a product dearer: of 8,616 panels of a surface and 18 columns 12.7 ms
-// with one group on one thread, 13.3 ms with four, 14.4 ms with eight.
+// More groups than threads make a product dearer: of 8,616 panels of a surface and 18 columns 12.7
+// ms with one group on one thread, 13.3 ms with four, 14.4 ms with eight.
 constexpr int group_count = 4;
 // Clusters of no more points are not divided: 100, 200 and 300 take 8.0, 7.0 and 7.9 ms on two
 // threads.
 constexpr int points_of_a_leaf = 200;
-// Clusters stand apart if the smaller one's diameter is at most so many times their distance: with 3
-// and 4 a product takes 7.0 and 7.6 ms on two threads, with 2 and 3, of other leaves, 15.0 and 12.8
-// ms on one.
+// Clusters stand apart if the smaller one's diameter is at most so many times their distance: with
+// 3 and 4 a product takes 7.0 and 7.6 ms on two threads, with 2 and 3, of other leaves, 15.0 and
+// 12.8 ms on one.
 constexpr double diameter_over_distance = 3.0;
 
 template <auto release>

@@ -12,17 +12,17 @@ namespace blocklift::dynamics {
 /// How a body B may move against its parent P. The joint frame J is fixed in P (pose X_PJ); at zero
 /// coordinates B coincides with J. Coordinates q and velocities v, in this order:
 ///
-/// | kind          | q                                                | v                           |
-/// |---------------|--------------------------------------------------|-----------------------------|
-/// | fixed         | none                                             | none                        |
-/// | revolute      | angle about the axis                             | dq/dt                       |
-/// | prismatic     | displacement along the axis                      | dq/dt                       |
-/// | cylindrical   | angle about the axis, displacement along it      | dq/dt                       |
-/// | universal     | angles about the axis, then about the second one | dq/dt                       |
-/// | spherical     | quaternion (w, x, y, z) of R_JB                  | w_PB expressed in B         |
-/// | planar        | two displacements, angle about the normal        | dq/dt                       |
-/// | translational | three displacements along the axes of J          | dq/dt                       |
-/// | free          | p_JoBo_J, quaternion of R_JB                     | w_PB, v_PBo, expressed in B |
+/// | kind          | q                                            | v                           |
+/// |---------------|----------------------------------------------|-----------------------------|
+/// | fixed         | none                                         | none                        |
+/// | revolute      | angle about the axis                         | dq/dt                       |
+/// | prismatic     | displacement along the axis                  | dq/dt                       |
+/// | cylindrical   | angle about the axis, displacement along it  | dq/dt                       |
+/// | universal     | angles about the axis, then about the second | dq/dt                       |
+/// | spherical     | quaternion (w, x, y, z) of R_JB              | w_PB expressed in B         |
+/// | planar        | two displacements, angle about the normal    | dq/dt                       |
+/// | translational | three displacements along the axes of J      | dq/dt                       |
+/// | free          | p_JoBo_J, quaternion of R_JB                 | w_PB, v_PBo, expressed in B |
 ///
 /// w_PB is the angular velocity of B in P, v_PBo the velocity of Bo in P. A universal joint's first
 /// axis is fixed in P, its second in B; the displacements of a planar joint have directions fixed

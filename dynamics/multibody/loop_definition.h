@@ -15,20 +15,20 @@ struct Body;
 /// What a loop demands besides the joints of the tree. Joint kinds hold a frame of the second body
 /// against one of the first as the tree's joint of that name would (see JointKind).
 ///
-/// | kind          | holds                                                                    | rows |
-/// |---------------|--------------------------------------------------------------------------|------|
-/// | fixed         | both frames together                                                     | 6    |
-/// | revolute      | origins together, axes parallel                                          | 5    |
-/// | prismatic     | second origin on the first's axis, orientations equal                    | 5    |
-/// | cylindrical   | second origin on the first's axis, axes parallel                         | 4    |
-/// | universal     | origins together, second axis (of second) perpendicular to axis of first | 4    |
-/// | spherical     | origins together                                                         | 3    |
-/// | planar        | second origin in the first's plane, normals parallel                     | 3    |
-/// | translational | orientations equal                                                       | 3    |
-/// | distance      | distance of the origins: a rigid rod without mass                        | 1    |
-/// | point_on_line | first's origin on the line through the second's origin along the axis    | 2    |
-/// | gear          | q_first = ratio q_second + offset, two coordinates of joints of the tree | 1    |
-/// | rope_length   | sum of the lengths of all paths: an equaliser                            | 1    |
+/// | kind          | holds                                                                 | rows |
+/// |---------------|-----------------------------------------------------------------------|------|
+/// | fixed         | both frames together                                                  | 6    |
+/// | revolute      | origins together, axes parallel                                       | 5    |
+/// | prismatic     | second origin on the first's axis, orientations equal                 | 5    |
+/// | cylindrical   | second origin on the first's axis, axes parallel                      | 4    |
+/// | universal     | origins together, second axis (of second) normal to axis of first     | 4    |
+/// | spherical     | origins together                                                      | 3    |
+/// | planar        | second origin in the first's plane, normals parallel                  | 3    |
+/// | translational | orientations equal                                                    | 3    |
+/// | distance      | distance of the origins: a rigid rod without mass                     | 1    |
+/// | point_on_line | first's origin on the line through the second's origin along the axis | 2    |
+/// | gear          | q_first = ratio q_second + offset, coordinates of joints of the tree  | 1    |
+/// | rope_length   | sum of the lengths of all paths: an equaliser                         | 1    |
 enum class LoopKind {
   fixed,
   revolute,

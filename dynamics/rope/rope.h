@@ -167,9 +167,10 @@ struct RopeLoad {
 /// Between two of its points the rope runs along the shortest line round the edges that it touches
 /// (find_shortest_line), whose arcs belong to L. Edges without friction are smooth: since that line
 /// is the shortest, the places where it touches may be held for the first variation, and an edge's
-/// body bears the pulls of the two straight parts at the points where they come and leave. L and its
-/// rate are continuous where it begins or ceases to touch, so that the tension is, without an event;
-/// only the stiffness jumps. With friction it runs there, too, and the tensions differ (RopeSplit).
+/// body bears the pulls of the two straight parts at the points where they come and leave. L and
+/// its rate are continuous where it begins or ceases to touch, so that the tension is, without an
+/// event; only the stiffness jumps. With friction it runs there, too, and the tensions differ
+/// (RopeSplit).
 ///
 /// A rope with weight w between two points is an elastic catenary at rest at each instant, with EA
 /// = k L0 (catenary.h): it always pulls, its ends do not pull alike, and its weight is in what they

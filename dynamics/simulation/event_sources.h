@@ -61,8 +61,9 @@ class EventSources {
   /// @param may_be_met: is it the condition's time? Before, it counts as not met.
   /// @param values count() of them. Does not allocate.
   void find_values(bool may_be_met, double* values);
-  /// Notes the values by the loads that the workspace holds, which are those of a state near to that
-  /// of the step's end. Not where sheaves rub, ropes hang by their weight or a condition is awaited.
+  /// Notes the values by the loads that the workspace holds, which are those of a state near to
+  /// that of the step's end. Not where sheaves rub, ropes hang by their weight or a condition is
+  /// awaited.
   /// @param nearness by how much positions (m) and velocities (m/s) of points may differ from it.
   void foresee(double nearness);
   /// The values that were foreseen, as find_values has them, where they serve as well as those of

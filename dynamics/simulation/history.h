@@ -31,9 +31,9 @@ struct BodyHistory {
   Rows7 pose;          ///< p_WBo (m), quaternion of R_WB (w, x, y, z), its sign without jumps
   Rows6 velocity;      ///< angular velocity (rad/s), velocity of Bo (m/s), in W
   Rows6 acceleration;  ///< angular acceleration (rad/s2), acceleration of Bo (m/s2), in W
-  Rows6
-      load;  ///< of ropes, supports, force elements, loops and radiated water: moment about Bo (N m),
-             ///< force (N), in W; not what the water that moves along asks for
+  /// Of ropes, supports, force elements, loops and radiated water: moment about Bo (N m), force
+  /// (N), in W; not what the water that moves along asks for.
+  Rows6 load;
 
   Pose X_WB(Eigen::Index sample) const;
   MotionVector V_WB(Eigen::Index sample) const {

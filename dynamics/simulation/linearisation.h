@@ -47,8 +47,8 @@ struct Mode {
   Eigen::VectorXcd shape;
   std::vector<BodyModeMotion> bodies;            ///< one a moving body that has mass
   std::vector<ElasticModeMotion> elastic_modes;  ///< in the order of the mechanism
-  /// Part of the restoring energy that is stored in ropes, springs, pads and bodies that give way, 0
-  /// to 1; the rest is
+  /// Part of the restoring energy that is stored in ropes, springs, pads and bodies that give way,
+  /// 0 to 1; the rest is
   /// weight and tension that have turned: a pendulum has 0, a bounce 1.
   double elastic_share = 0.0;
   /// Bodies and their motion, from `bodies`: "load: pendulum along x", "hook: bounce against load".

@@ -98,8 +98,8 @@ using Wish = std::variant<KeptHeight, KeptPlumb, KeptTension, KeptShare, OwnLaw>
 ///   height   z_point - z_reference - difference
 ///   plumb    J.d / J.J, d the level vector from head to target, J the level velocity of the head
 ///            while the drive's is 1 (with what loops of the crane take along)
-///   tension  (T - wanted) / k, k the stiffness against letting out: the rope's at its length, which
-///            nothing exceeds, so that it never asks for too much
+///   tension  (T - wanted) / k, k the stiffness against letting out: the rope's at its length,
+///            which nothing exceeds, so that it never asks for too much
 ///   share    (T - share (T + sum T_others)) / k
 /// A law from outside has no travel: it is asked at each look until the end and gives u itself,
 /// which the drive is asked for a reaction time later, |u| <= speed.

@@ -134,7 +134,8 @@ struct IntegrationResult {
 /// Drives that are steered look at what is, and go on accordingly, at instants at which steps end
 /// (Steersman); their motion is smooth there, and the integration goes on without starting anew.
 ///
-/// A rope that parts pulls no more from then on; the energy that it had stored counts as dissipated.
+/// A rope that parts pulls no more from then on; the energy that it had stored counts as
+/// dissipated.
 ///
 /// A mechanism with loops is assembled first: the closest configuration and velocities that its
 /// loops allow. Every step ends with positions and velocities projected back onto the loops (and

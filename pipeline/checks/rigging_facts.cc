@@ -190,14 +190,22 @@ ComputedFactors RiggingFacts::of_sling(const LiftRope& sling, Index sample) cons
   return computed;
 }
 
+double RiggingFacts::hook_block_weight(std::size_t hoist) const {
+  const LiftHoist& of = lift_.model.hoists[hoist];
+  const std::string name = of.name.substr(of.name.find('.') + 1);
+  return case_.cranes[of.crane].model->find_hoist(name)->hook_block.mass * case_.gravity;
+}
+
 ComputedFactors RiggingFacts::of_hook(std::size_t hoist, Index sample) const {
   const State& state = at(sample);
   const Index tackle = index(first_tackle() + hoist);
-  const double at_rest = state.at_rest[tackle];
+  const double block = hook_block_weight(hoist);
+  const double at_rest = state.at_rest[tackle] - block;
   ComputedFactors computed;
   if (!(at_rest > 0)) return computed;
   for (const VectorXd& tension : state.at_corners_of_box)
-    computed.centre_box = std::max(computed.centre_box.value_or(1), tension[tackle] / at_rest);
+    computed.centre_box =
+        std::max(computed.centre_box.value_or(1), (tension[tackle] - block) / at_rest);
   computed.two_hooks = two_hooks(lift_.model.hoists[hoist].name, sample);
   return computed;
 }
@@ -208,7 +216,8 @@ ComputedFactors RiggingFacts::of_crane(std::size_t crane, Index sample) const {
   const auto sum = [&](const VectorXd& tension) {
     double total = 0;
     for (std::size_t h = 0; h < hoists.size(); ++h)
-      if (hoists[h].crane == crane) total += tension[index(first_tackle() + h)];
+      if (hoists[h].crane == crane)
+        total += tension[index(first_tackle() + h)] - hook_block_weight(h);
     return total;
   };
   ComputedFactors computed;

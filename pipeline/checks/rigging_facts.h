@@ -37,6 +37,8 @@ class RiggingFacts {
   /// Factors at a sample at rest, for slings and for hooks.
   /// @param sling one of slings() or slings_to_bars().
   ComputedFactors of_sling(const LiftRope& sling, Eigen::Index sample) const;
+  /// Those of hooks and cranes are of what hangs below the hook blocks, whose weight the box of the
+  /// centre of mass leaves as it is.
   ComputedFactors of_hook(std::size_t hoist, Eigen::Index sample) const;
   ComputedFactors of_crane(std::size_t crane, Eigen::Index sample) const;
 
@@ -47,6 +49,7 @@ class RiggingFacts {
   RiggingEnd end_at(const ResolvedPoint& point, Eigen::Index sample) const;
   Eigen::MatrixXd compliance_of(const std::vector<RiggingRope>& ropes, Eigen::Index sample) const;
   dynamics::Pose pose_of(dynamics::BodyIndex body, Eigen::Index sample) const;
+  double hook_block_weight(std::size_t hoist) const;  ///< N
   std::size_t first_tackle() const { return slings_.size() + to_bars_.size(); }
   std::optional<TwoHooks> two_hooks(const std::string& hook, Eigen::Index sample) const;
   std::string crane_of(const std::string& hook) const { return hook.substr(0, hook.find('.')); }

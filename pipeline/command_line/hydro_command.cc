@@ -17,7 +17,9 @@
 #include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/files/vessel/wetted_mesh.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
@@ -60,14 +62,26 @@ void print_panels(const HydrodynamicState& state) {
   std::fflush(stdout);
 }
 
+double displaced_mass(const HydrodynamicBody& body, const dynamics::Pose& X_WB, double density) {
+  return density * calc_hydrostatics(dynamics::HullClusters(body.hull), X_WB).volume;
+}
+
 /// Of each body once, at its deepest: draughts ascend.
-void say_doubts_about_keels(const HydrodynamicProblem& problem,
+void say_doubts_about_hulls(const HydrodynamicProblem& problem,
                             const std::vector<HydrodynamicState>& states) {
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     const HydrodynamicBody& body = problem.bodies[b];
-    const std::string doubt =
-        doubt_about_keel(body.name, body.hull, states.back().poses[b], problem.water.depth);
-    if (!doubt.empty()) say_warning(doubt);
+    const dynamics::Pose& X_WB = states.back().poses[b];
+    const std::string mass =
+        body.as_meshed
+            ? doubt_about_mass(body.name, displaced_mass(body, X_WB, problem.water.density),
+                               body.body.mass)
+            : std::string();
+    for (const std::string& doubt :
+         {doubt_about_size("vessel " + body.name, body.hull), mass,
+          doubt_about_keel(body.name, body.hull, X_WB, problem.water.depth)}) {
+      if (!doubt.empty()) say_warning(doubt);
+    }
   }
 }
 
@@ -142,7 +156,7 @@ int compute_vessel(const HydroOptions& options) {
   const fs::path output = output_of(options, *problem);
   require_writable_file(output);
   const std::vector<HydrodynamicState> states = prepare(*problem);
-  say_doubts_about_keels(*problem, states);
+  say_doubts_about_hulls(*problem, states);
   std::vector<Eigen::MatrixXd> masses;
   for (const HydrodynamicState& state : states) masses.push_back(state.mass);
   HydrodynamicFile file;
@@ -222,8 +236,17 @@ std::string note_on_points(const dynamics::HydrodynamicDatabase& database, doubl
 void require_wamit(const HydroOptions& options) {
   if (!options.wamit_length || options.export_format == "wamit") return;
   const std::string ending = options.import ? fs::path(*options.import).extension().string() : "";
-  if (ending == ".1" || ending == ".3" || ending == ".hst") return;
+  if (ending == ".1" || ending == ".2" || ending == ".3" || ending == ".hst") return;
   refuse("--wamit-length", "no file of WAMIT is read or written", {"leave it out"});
+}
+
+/// Of a database without excitation; what files would have it.
+std::string lack_of_waves(const std::string& origin) {
+  const char* const where = origin.ends_with("(WAMIT)")
+                                ? ": there is neither a file .3 nor a .2 of its name beside it"
+                                : "";
+  return fmt::format(
+      "holds no force of waves{}; what names the database can float in calm water alone", where);
 }
 
 /// Takes a file over and writes it as our own, or as that of another program.
@@ -248,6 +271,14 @@ int convert(const HydroOptions& options) {
     say_warning(*options.import +
                 ": bodies displace nothing (disp_vol 0): cb and cg are not taken for centres of "
                 "buoyancy and mass, and weight acts where the vessel has it");
+  }
+  if (file.series.databases.front().headings.empty() && file.origin.starts_with(imported_from)) {
+    say_warning(*options.import + ": " + lack_of_waves(file.origin));
+  }
+  // The table says what is doubtful, where it is printed.
+  if (options.export_format && file.origin.starts_with(imported_from)) {
+    for (const std::string& doubt : doubts_about_conventions(file.series.databases.front()))
+      say_warning(*options.import + ": " + doubt);
   }
   if (!options.export_format) {
     write_with_page(output, file, hydrodynamic_page(file, file.origin, {}));

@@ -98,6 +98,9 @@ void print_remarks(const DeckAssessment& assessment) {
                               assessment.solution.idle_supports.size()));
   for (const std::string& sentence : warnings_of_own_cases(*assessment.block->mesh))
     print_wrapped("warning: " + sentence);
+  if (const auto& diagnosis = assessment.block->mesh->diagnosis)
+    if (const structure::Finding* estimated = diagnosis->find("beams by figures"))
+      print_wrapped("note: " + estimated->text);
   for (const std::string& sentence : left_out_of_cases(deck))
     print_wrapped("warning: these cases lack what the deck has: " + sentence);
   for (const structure::DeckRemark& remark : deck.remarks)

@@ -13,6 +13,7 @@
 #include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
+#include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/hydrodynamics/line_chart.h"
 #include "pipeline/terminal/text_table.h"
@@ -261,8 +262,15 @@ std::string hydrodynamic_table(const HydrodynamicFile& file, const std::vector<M
         "\nerror of retardation functions: they miss added mass and damping by {:.2g} % of "
         "the waves' largest share at most\n",
         100.0 * calc_memory_error(database));
-    for (const std::string& doubt : {doubt_about_panels(database), doubt_about_excitation(database),
-                                     doubt_about_runs(database), doubt_about_memory(database)}) {
+    std::vector<std::string> doubts = {doubt_about_panels(database),
+                                       doubt_about_excitation(database), doubt_about_runs(database),
+                                       doubt_about_memory(database)};
+    // What this program computed has its conventions.
+    if (file.origin.starts_with(imported_from)) {
+      for (std::string& doubt : doubts_about_conventions(database))
+        doubts.push_back(std::move(doubt));
+    }
+    for (const std::string& doubt : doubts) {
       if (!doubt.empty()) text += "\nwarning: " + doubt + "\n";
     }
   }
@@ -317,6 +325,16 @@ std::string doubt_about_runs(const HydrodynamicDatabase& database) {
       "lid damps the water, method: green function needs no such responses",
       100.0 * cut, database.body_names[static_cast<std::size_t>(worst / modes_per_body)],
       mode_names[worst % modes_per_body]);
+}
+
+std::string doubt_about_mass(const std::string& name, double displaced, double mass) {
+  constexpr double acceptable = 0.05;
+  if (std::abs(mass - displaced) <= acceptable * displaced) return {};
+  return fmt::format(
+      "vessel {} displaces {:.5g} t as it is meshed, and its mass is {:.5g} t: with that it floats "
+      "at another draught, unless moorings hold it; give the mass that is displaced, or leave out "
+      "water_line and give the hull up to its deck",
+      name, displaced / 1e3, mass / 1e3);
 }
 
 std::string note_on_groups(const dynamics::PanelModel& model,

@@ -28,6 +28,10 @@ std::string doubt_about_excitation(const dynamics::HydrodynamicDatabase& databas
 /// radiation force their end cuts off most, where that is more than a twentieth; else empty.
 std::string doubt_about_runs(const dynamics::HydrodynamicDatabase& database);
 
+/// Half a sentence for a hull that floats as it is meshed, and whose mass (kg) is not that of the
+/// water it displaces by more than a twentieth; else empty. Moorings may make it so.
+std::string doubt_about_mass(const std::string& name, double displaced, double mass);
+
 /// What bodies far apart are coupled by: one sentence, for people; empty for a single group.
 std::string note_on_groups(const dynamics::PanelModel& model,
                            const std::vector<dynamics::BodyGroup>& groups);

@@ -46,8 +46,8 @@ struct FoundRadiation {
 /// are found with them (find_memories, memory_fit_of_vessels).
 /// @param report called with a sentence about what is done, and with each doubt after "warning: ";
 ///   may be empty.
-/// @param progress told the fraction that is done and of which bodies, while databases are computed;
-///   may be empty.
+/// @param progress told the fraction that is done and of which bodies, while databases are
+///   computed; may be empty.
 /// @returns nothing for a problem without bodies, or one whose surface is marched directly.
 /// @throws InputError if the panel method refuses the problem (a wave too short for the panels,
 ///   hulls in each other's way, a surface that cannot be meshed), dynamics::SimulationError as

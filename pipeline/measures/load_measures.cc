@@ -153,9 +153,9 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   return hull;
 }
 
-/// Angles of which each is known but for whole turns, m samples: each within half a turn of the last
-/// one before it that counts, of none to begin with. Those of a load that is turned over do not
-/// count: about a half turn over, the turn about the plumb leaps.
+/// Angles of which each is known but for whole turns, m samples: each within half a turn of the
+/// last one before it that counts, of none to begin with. Those of a load that is turned over do
+/// not count: about a half turn over, the turn about the plumb leaps.
 template <class Counts>
 void unwind(Eigen::VectorXd& angles, const Counts& counts) {
   constexpr double whole = 2 * std::numbers::pi;

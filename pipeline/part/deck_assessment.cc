@@ -1,5 +1,6 @@
 #include "pipeline/part/deck_assessment.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,6 +29,33 @@ std::string why_none(const structure::Deck& deck, const structure::DeckSolution&
                         name_of(deck.load_cases[skipped.load_case]));
   }
   return text;
+}
+
+/// What of a kind of cards is not in the model, and why; empty: all is, or it says no more than what
+/// a solver is to print.
+std::string left_out_of(const structure::LedgerEntry& entry) {
+  if (entry.left_out.empty() || entry.is_wish) return {};
+  const std::string how_many = entry.used < entry.read
+                                   ? fmt::format("{} of {} used", entry.used, entry.read)
+                                   : "used in part";
+  return fmt::format("{}: {}; left out: {}", entry.name, how_many, entry.left_out);
+}
+
+/// How there may be a case: where no load acts, by what the deck has and is left out.
+std::vector<std::string> ways_to_a_case(const structure::Deck& deck,
+                                        const structure::DeckSolution& solution) {
+  std::vector<std::string> hints;
+  const bool is_unloaded =
+      std::any_of(solution.skipped.begin(), solution.skipped.end(),
+                  [](const structure::SkippedCase& skipped) { return skipped.is_held; });
+  for (const structure::LedgerEntry& entry : deck.ledger)
+    if (const std::string text = left_out_of(entry); is_unloaded && !text.empty())
+      hints.push_back(fmt::format("{}: {}", entry.place, text));
+  hints.emplace_back(
+      "a case needs supports and loads: SPC and LOAD in Nastran's case control, *BOUNDARY and "
+      "*CLOAD, *DLOAD or *DSLOAD in Abaqus' step");
+  hints.emplace_back("a block without them is loaded by a case: blocklift assess");
+  return hints;
 }
 
 /// The deck's mesh; one without mass, to which no weight belongs, is given some, since a model has
@@ -84,25 +112,17 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
     refuse(mark, error.what());
   }
   if (assessment.solution.cases.empty())
-    refuse(
-        mark,
-        fmt::format("\"{}\" has no load case of its own that could be solved: {}",
-                    assessment.block->mesh->file.value, why_none(deck, assessment.solution)),
-        {"a case needs supports and loads: SPC and LOAD in Nastran's case control, *BOUNDARY and "
-         "*CLOAD, *DLOAD or *DSLOAD in Abaqus' step",
-         "a block without them is loaded by a case: blocklift assess"});
+    refuse(mark,
+           fmt::format("\"{}\" has no load case of its own that could be solved: {}",
+                       assessment.block->mesh->file.value, why_none(deck, assessment.solution)),
+           ways_to_a_case(deck, assessment.solution));
   return assessment;
 }
 
 std::vector<std::string> left_out_of_cases(const structure::Deck& deck) {
   std::vector<std::string> sentences;
-  for (const structure::LedgerEntry& entry : deck.ledger) {
-    if (entry.left_out.empty() || entry.is_wish) continue;
-    const std::string how_many = entry.used < entry.read
-                                     ? fmt::format("{} of {} used", entry.used, entry.read)
-                                     : "used in part";
-    sentences.push_back(fmt::format("{}: {}; left out: {}", entry.name, how_many, entry.left_out));
-  }
+  for (const structure::LedgerEntry& entry : deck.ledger)
+    if (std::string text = left_out_of(entry); !text.empty()) sentences.push_back(std::move(text));
   return sentences;
 }
 

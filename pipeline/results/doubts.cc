@@ -16,6 +16,7 @@
 #include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/files/vessel/wetted_mesh.h"
 #include "pipeline/lift/parallel_baskets.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
@@ -311,8 +312,8 @@ class Doubts {
   void doubt_sea() {
     std::string of_sea = doubt_about_sea(case_, case_.gravity);
     if (!of_sea.empty()) list_.push_back(std::move(of_sea));
-    std::string of_database = doubt_about_database(case_.vessels);
-    if (!of_database.empty()) list_.push_back(std::move(of_database));
+    for (std::string& of_database : doubts_about_database(case_.vessels))
+      list_.push_back(std::move(of_database));
   }
 
   void doubt_water() {
@@ -400,6 +401,8 @@ class Doubts {
   }
 
   void doubt_vessel(const std::string& who, const Vessel& vessel) {
+    if (std::string size = doubt_about_size(who, vessel.hull); !size.empty())
+      list_.push_back(std::move(size));
     const auto [low, high] = vessel.hull.bounds();
     // Masts and cranes that a vessel's mass includes may stand above its deck.
     Box box{0.5 * (low + high), 0.5 * (high - low)};

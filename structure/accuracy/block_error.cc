@@ -101,13 +101,14 @@ class Points {
   std::vector<int> of_cell_, shares_;
 };
 
-Law law_of(const ElasticModel& model, int cell, double thickness) {
-  const Shell& shell = model.mesh().shells[model.space().shells()[cell].shell];
-  return shell_stiffness_law(model.mesh().material_of(shell), thickness).topLeftCorner<6, 6>();
+/// Resultants along the field's axes for a cell's strains along its own.
+Law law_of(const ElasticModel& model, const Law& turn, const Shell& shell,
+           const ShellPoint& point) {
+  return turn * shell_stiffness_law(model.mesh(), shell, point.e_1, point.e_2, point.thickness)
+                    .topLeftCorner<6, 6>();
 }
 
-/// Resultants of a cell at an operator's points, in its field's axes. Layers are taken as the plate
-/// that comes nearest, but where they are hot: what they hold of one another is not in that.
+/// Resultants of a cell at an operator's points, in its field's axes.
 /// @param places of the operator's points, 2 x m.
 Resultants resultants_of(const ElasticModel& model, const Orientation& orientation,
                          ShellOperator& shell_operator, const Eigen::Matrix2Xd& places, int cell,
@@ -121,17 +122,11 @@ Resultants resultants_of(const ElasticModel& model, const Orientation& orientati
     const int shell = model.space().shells()[cell].shell;
     const Law turn = orientation.turn(point, shell);
     auto here = resultants.col(q).reshaped(6, motions.cols());
-    if (heat == nullptr) {
-      const Law law = turn * law_of(model, cell, point.thickness);
-      here = law * (point.strain.topRows<6>() * local);
-      continue;
-    }
-    const Law law = shell_stiffness_law(model.mesh(), model.mesh().shells[shell], point.e_1,
-                                        point.e_2, point.thickness)
-                        .topLeftCorner<6, 6>();
-    here = turn * (law * (point.strain.topRows<6>() * local) -
-                   heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)), point.e_1,
-                                      point.e_2, point.thickness));
+    here = law_of(model, turn, model.mesh().shells[shell], point) *
+           (point.strain.topRows<6>() * local);
+    if (heat != nullptr)
+      here -= turn * heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)), point.e_1,
+                                        point.e_2, point.thickness);
   }
   return resultants;
 }
@@ -246,15 +241,20 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orient
       for (int i = 0; i < space.nodes_per_shell(); ++i)
         at_nodes.col(i) = recovered.col(points.of(cell, i));
       const Resultants smooth = at_nodes * values;
+      const int place = space.shells()[cell].shell;
+      const Shell& shell = model.mesh().shells[place];
+      const bool is_layered = model.mesh().section_of(shell).laminate >= 0;
       Law compliance = Law::Zero();
       double thickness = 0;  // that it is of
       for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-        if (own.points()[q].thickness != thickness) {
-          thickness = own.points()[q].thickness;
-          compliance = algebra::inverse_of<6>(law_of(model, cell, thickness));
+        const ShellPoint& point = own.points()[q];
+        // One material is the same seen along any axes.
+        if (is_layered || point.thickness != thickness) {
+          thickness = point.thickness;
+          const Law turn = orientation.turn(point, place);
+          compliance = algebra::inverse_of<6>(law_of(model, turn, shell, point) * turn.transpose());
         }
-        add_point(compliance, rule(2, q) * own.points()[q].area, smooth.col(q), s_h.col(q), cell,
-                  norms);
+        add_point(compliance, rule(2, q) * point.area, smooth.col(q), s_h.col(q), cell, norms);
       }
     }
   });

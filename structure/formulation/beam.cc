@@ -47,6 +47,14 @@ Eigen::MatrixXd whole_stiffness(const Space& space, int cell) {
   return stiffness;
 }
 
+/// Of the point at a beam's end that a component's force acts on, from the centroid, m: bending and
+/// what goes along the beam act on the centroid, shear and twist on the shear centre.
+Vector3 centre_of(const Mesh& mesh, const Beam& beam, std::size_t end, int component) {
+  if (component == 0 || component > 3) return Vector3::Zero();
+  const Eigen::Vector2d centre = section_at(mesh, beam, static_cast<double>(end)).twist_centre();
+  return beam_axes(mesh, beam).bottomRows<2>().transpose() * centre;
+}
+
 /// Motions of a cell's ends that its releases leave to themselves, a column each.
 Eigen::MatrixXd released_motions(const Space& space, int cell) {
   const BeamCell& located = space.beams()[cell];
@@ -60,11 +68,12 @@ Eigen::MatrixXd released_motions(const Space& space, int cell) {
     const Eigen::Index node = end == 0 ? 0 : 6 * located.degree;
     for (int c = 0; c < 6; ++c) {
       if (!beam.release[end][c]) continue;
-      // Motion of the centroid's end: about an offset end a rotation moves it too.
+      // About an offset end a rotation moves the node, too.
       Eigen::VectorXd direction = Eigen::VectorXd::Zero(directions.rows());
       direction.segment<3>(node + (c < 3 ? 0 : 3)) = axes.row(c % 3).transpose();
       if (c >= 3)
-        direction.segment<3>(node) = cross_matrix(beam.offset[end]) * axes.row(c % 3).transpose();
+        direction.segment<3>(node) = (beam.offset[end] + centre_of(space.mesh(), beam, end, c))
+                                         .cross(axes.row(c % 3).transpose());
       directions.conservativeResize(Eigen::NoChange, directions.cols() + 1);
       directions.rightCols<1>() = direction;
     }
@@ -80,8 +89,7 @@ void require_held(const Mesh& mesh, const Beam& beam) {
                            mesh.vertices[beam.vertices[1]] + beam.offset[1]};
   const Vector3 middle = (ends[0] + ends[1]) / 2;
   const double length = (ends[1] - ends[0]).norm();
-  // What held components of the centroid's ends do in the six rigid motions, rotations times half
-  // the length.
+  // What held components of the ends do in the six rigid motions, rotations times half the length.
   Eigen::MatrixXd held(0, 6);
   for (std::size_t end = 0; end < 2; ++end)
     for (int c = 0; c < 6; ++c) {
@@ -89,7 +97,9 @@ void require_held(const Mesh& mesh, const Beam& beam) {
       const Vector3 axis = axes.row(c % 3).transpose();
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(6);
       if (c < 3)
-        row << axis.transpose(), (ends[end] - middle).cross(axis).transpose() / (length / 2);
+        row << axis.transpose(),
+            (ends[end] + centre_of(mesh, beam, end, c) - middle).cross(axis).transpose() /
+                (length / 2);
       else
         row.tail<3>() = axis.transpose();
       held.conservativeResize(held.rows() + 1, Eigen::NoChange);
@@ -170,6 +180,12 @@ Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
       e * section.second_moment_3;
   // x_3 curvature_2 - x_2 curvature_3 is the stretch at (x_2, x_3).
   law(4, 5) = law(5, 4) = -e * section.product_23;
+  // The strains of shear that forces belong to are those at the shear centre.
+  const Eigen::Vector2d centre = section.twist_centre();
+  const double q_2 = -centre[1] * law(1, 1), q_3 = centre[0] * law(2, 2);  // for a twist of one
+  law(3, 3) += -centre[1] * q_2 + centre[0] * q_3;
+  law(1, 3) = law(3, 1) = q_2;
+  law(2, 3) = law(3, 2) = q_3;
   return law;
 }
 
@@ -181,7 +197,8 @@ std::vector<BeamGaussPoint> beam_gauss_points(const Space& space, int cell) {
   std::vector<BeamGaussPoint> points;
   for (unsigned q = 0; q < rule.size(); ++q) {
     const double xi = rule.point(q)[0];
-    const BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
+    BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
+    if (beam.is_rod) section.twists_about_centroid = true;  // it bears no shear
     BeamPoint at_place = beam_point(space, cell, xi);
     BeamGaussPoint& point = points.emplace_back();
     point.xi = xi;

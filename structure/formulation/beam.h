@@ -27,8 +27,17 @@ struct BeamPoint {
 /// in the beam's axes, t being its unit tangent.
 BeamPoint beam_point(const Space& space, int cell, double xi);
 
-/// Section forces for strains: diag(EA, G A_2, G A_3, G J, E I_2, E I_3) with E I_23 between the
-/// last two. An infinite shear area is taken as 1e4 times the section's.
+/// Section forces about the centroid (N, Q_2, Q_3, M_1, M_2, M_3) for the strains of BeamPoint:
+/// diag(EA, G A_2, G A_3, G J, E I_2, E I_3) with E I_23 between the last two, where shear acts
+/// through the centroid. An infinite shear area is taken as 1e4 times the section's.
+///
+/// A section twists about its shear centre c = BeamSection::twist_centre(), so that the strains of
+/// shear are those of the line through the shear centres, d (u_c + theta x c) / ds + t x theta:
+///   g_2 = shear_2 - c_3 twist,  g_3 = shear_3 + c_2 twist,
+///   Q_2 = G A_2 g_2,  Q_3 = G A_3 g_3,  M_1 = G J twist - c_3 Q_2 + c_2 Q_3.
+/// The torque about the shear centre is therefore M_1 + c_3 Q_2 - c_2 Q_3 = G J twist. It holds for
+/// centres that move along a tapered beam, too.
+/// Source: principle of virtual work; Timoshenko and Goodier (1970), section 125.
 Eigen::Matrix<double, 6, 6> beam_stiffness_law(const Material& material,
                                                const BeamSection& section);
 
@@ -45,7 +54,8 @@ struct BeamGaussPoint {
 std::vector<BeamGaussPoint> beam_gauss_points(const Space& space, int cell);
 
 /// Stiffness of a beam's cell, freedoms in the order of Space::element_freedoms, by its Gauss
-/// points. Released ends are eliminated where they lie in the cell.
+/// points. Released ends are eliminated where they lie in the cell: bending is released about the
+/// centroid, twist about the shear centre.
 /// @throws ModelError if the releases leave the beam loose.
 Eigen::MatrixXd beam_stiffness(const Space& space, int cell);
 

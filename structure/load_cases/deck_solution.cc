@@ -137,15 +137,14 @@ double size_of(const Space& space) {
 
 /// Where moments alone load the deck its forces are rounding, and the other way round: each is held
 /// against the larger of both, with the deck's size as the arm.
-/// @param of_heat its part that heat is, in balance by itself: where nothing holds what is hot the
-/// reactions are rounding.
-void sum_up(const Space& space, const Eigen::VectorXd& load,
-            const Eigen::Ref<const Eigen::VectorXd>& of_heat, DeckCaseSolution& solution) {
+/// Loads count beside the reactions: of loads that are in balance by themselves (a strip pulled at
+/// both ends, heat that nothing holds) the reactions are rounding.
+void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& solution) {
   solution.applied = resultant(space, load);
   double forces = 0, moments = 0;
-  for (Eigen::Index row = 0; row < of_heat.size(); row += 6) {
-    forces += of_heat.segment<3>(row).norm();
-    moments += of_heat.segment<3>(row + 3).norm();
+  for (Eigen::Index row = 0; row < load.size(); row += 6) {
+    forces += load.segment<3>(row).norm();
+    moments += load.segment<3>(row + 3).norm();
   }
   const auto add = [&](const SupportReaction& reaction) {
     const Vector3& place = space.mesh().vertices[reaction.vertex];
@@ -326,7 +325,7 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
                    refuse_loose(space, deck.load_cases[cases[c]],
                                 most_moved_freedom(space, solution.motion));
                  });
-    sum_up(space, loads.col(column), of_heat.col(column), solution);
+    sum_up(space, loads.col(column), solution);
     require_balance(space, loads.col(column), solution, deck.load_cases[cases[c]]);
   }
   result.times.solve += watch.lap();

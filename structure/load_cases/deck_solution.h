@@ -26,9 +26,9 @@ struct DeckCaseSolution {
   Wrench applied;          ///< of all loads, about the origin
   Wrench supported;        ///< of all reactions and springs to the ground, about the origin
   std::vector<SupportReaction> reactions;
-  /// |loads + reactions| over the sum of the reactions' magnitudes; 0 without any. Forces are held
+  /// |loads + reactions| over the sum of the magnitudes of both; 0 without any. Forces are held
   /// against moments, and moments against forces, with the mesh's size as the arm, where these are
-  /// more. Loads of heat, which are in balance, count among the reactions.
+  /// more.
   double force_residual = 0, moment_residual = 0;
   double strain_energy = 0;    ///< J; of what is hot beyond its free expansion
   double estimated_error = 0;  ///< of the stress field, in the energy norm (BlockError)

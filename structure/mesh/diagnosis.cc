@@ -14,6 +14,7 @@
 
 #include "algebra/decompositions.h"
 #include "structure/index.h"
+#include "structure/mesh/section_shear.h"
 #include "structure/mesh/shell_shape.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/mesh/spring_motion.h"
@@ -45,6 +46,7 @@ class Doctor {
     check_cells_twice();
     check_solids();
     check_mechanisms();
+    check_shear();
     return std::move(result_);
   }
 
@@ -484,6 +486,18 @@ class Doctor {
         count("beams free to spin"));
     say("beams free to slide", "{} beams are released along their axis at both ends",
         count("beams free to slide"));
+  }
+
+  void check_shear() {
+    const char* const kind = "beams by figures";
+    for (const Beam& beam : mesh_.beams)
+      if (is_shear_estimated(section_at(mesh_, beam, 0)))
+        add(kind, Severity::note, beam.label, vertex(beam.vertices[0]));
+    say(kind,
+        "the shear stress of {} beams is an estimate, for their sections are known by figures "
+        "alone; it is on the safe side of solid and of closed sections, but that of a force along "
+        "the web of an I needs its shear area",
+        count(kind));
   }
 
   void check_spin(const Beam& beam) {

@@ -54,7 +54,8 @@ struct Diagnosis {
 /// thickness", "shells without area", "folded shells", "slender shells", "warped shells", "skewed
 /// shells", "opposed normals" (of two shells that alone share an edge and fold by less than 45
 /// degrees), "vertices free to move" and "vertices free to turn" (nothing that meets there resists
-/// a direction), "beams free to spin", "beams free to slide", "springs to the ground" (a lifted
+/// a direction), "beams free to spin", "beams free to slide", "beams by figures" (whose shear
+/// stress is an estimate: is_shear_estimated), "springs to the ground" (a lifted
 /// block has none), "materials without density".
 Diagnosis diagnose(const Mesh& mesh, const DiagnosisOptions& options = {});
 

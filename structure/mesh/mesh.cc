@@ -150,6 +150,32 @@ double balance(const Mesh& mesh, MotionEquation& equation) {
   return most;
 }
 
+namespace {
+
+/// Between two sections of one shape their points, and what their stress has for arms: J of_torsion
+/// and A of_force. Sections of different walls have no points in common: none.
+/// @param here the figures at the place.
+std::vector<SectionPoint> shear_points_between(const BeamSection& from, const BeamSection& to,
+                                               const BeamSection& here, double share) {
+  if (from.shear_points.size() != to.shear_points.size()) return {};
+  std::vector<SectionPoint> points;
+  for (std::size_t p = 0; p < from.shear_points.size(); ++p) {
+    const SectionPoint &a = from.shear_points[p], &b = to.shear_points[p];
+    SectionPoint& point = points.emplace_back();
+    point.place = (1 - share) * a.place + share * b.place;
+    if (here.torsion > 0)
+      point.of_torsion =
+          ((1 - share) * from.torsion * a.of_torsion + share * to.torsion * b.of_torsion) /
+          here.torsion;
+    if (here.area > 0)
+      point.of_force =
+          ((1 - share) * from.area * a.of_force + share * to.area * b.of_force) / here.area;
+  }
+  return points;
+}
+
+}  // namespace
+
 BeamSection section_at(const Mesh& mesh, const Beam& beam, double share) {
   BeamSection section = mesh.section_of(beam);
   if (beam.end_section < 0) return section;
@@ -168,6 +194,7 @@ BeamSection section_at(const Mesh& mesh, const Beam& beam, double share) {
     between(section.*figure, end.*figure);
   for (std::size_t p = 0; p < section.stress_points.size(); ++p)
     section.stress_points[p] += share * (end.stress_points[p] - section.stress_points[p]);
+  section.shear_points = shear_points_between(mesh.section_of(beam), end, section, share);
   section.shear_centre += share * (end.shear_centre - section.shear_centre);
   return section;
 }

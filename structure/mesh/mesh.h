@@ -51,10 +51,21 @@ struct Shell {
   bool is_triangle() const { return vertices[2] == vertices[3]; }
 };
 
+/// Point of a beam's section with the shear stress there along the section's edge or wall,
+///   tau = of_torsion T + of_force . (Q_2, Q_3),
+/// T being the torsion moment about the shear centre.
+struct SectionPoint {
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();     ///< (x_2, x_3) from the centroid, m
+  double of_torsion = 0;                               ///< 1/m^3
+  Eigen::Vector2d of_force = Eigen::Vector2d::Zero();  ///< 1/m^2
+};
+
 /// Cross-section of a beam about its own centroid; its axes 2 and 3 lie across the beam.
 struct BeamSection {
   std::string name;
-  int material = 0;            ///< place in Mesh::materials
+  int material = 0;  ///< place in Mesh::materials
+  /// Shear acts through the centroid wherever the shear centre lies, as in Nastran's CBAR.
+  bool twists_about_centroid = false;
   double area = 0;             ///< m^2
   double second_moment_2 = 0;  ///< I_2 = int x_3^2 dA, bending about axis 2, m^4
   double second_moment_3 = 0;  ///< I_3 = int x_2^2 dA, m^4
@@ -62,11 +73,19 @@ struct BeamSection {
   double torsion = 0;          ///< J, m^4
   double shear_area_2 = 0;     ///< for shear along axis 2, m^2; infinite: no shear deformation
   double shear_area_3 = 0;     ///< m^2
-  /// Points (x_2, x_3) where the largest stresses are, m.
+  /// Points (x_2, x_3) where the largest stresses along the beam are, m.
   std::vector<Eigen::Vector2d> stress_points;
+  /// Points at which all of the stress is looked at, where the section's shape tells its shear;
+  /// empty: the shape is not known (checked_points has an estimate).
+  std::vector<SectionPoint> shear_points = {};
   Eigen::Vector2d shear_centre = Eigen::Vector2d::Zero();  ///< (x_2, x_3), m
   double mass_per_length = 0;                              ///< beyond the beam's own, kg/m
   long label = 0;                                          ///< the property's number in its file
+
+  /// (x_2, x_3) of what a force across the beam goes through without twisting it, m.
+  Eigen::Vector2d twist_centre() const {
+    return twists_about_centroid ? Eigen::Vector2d::Zero() : shear_centre;
+  }
 };
 
 /// Which of the six freedoms (displacements, rotations along the beam's own axes 1, 2, 3) one end

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
+#include "structure/mesh/section_shear.h"
 #include "structure/mesh/thin_walls.h"
 
 namespace blocklift::structure {
@@ -111,14 +112,37 @@ double shear_share_of_pipe(double ratio) {
 
 namespace {
 
+/// @param point from the profile's origin.
+void add_shear_point(SectionPoint point, Profile& profile) {
+  point.place -= profile.centroid;
+  profile.section.shear_points.push_back(point);
+}
+
 /// What follows from the walls' middle lines.
-void set_wall_figures(const std::vector<Vector2>& nodes, const std::vector<Wall>& walls,
-                      Profile& profile) {
-  const ThinWalls lines(nodes, walls);
+void set_wall_figures(const ThinWalls& lines, Profile& profile) {
   profile.section.torsion = lines.torsion();
   profile.section.shear_area_2 = lines.shear_area(0);
   profile.section.shear_area_3 = lines.shear_area(1);
   profile.section.shear_centre = lines.shear_centre() - profile.centroid;
+  profile.section.shear_points.clear();
+  for (const SectionPoint& point : lines.points()) add_shear_point(point, profile);
+}
+
+/// Shear of a bulb flat as its equivalent angle has it: at the outline's points that of the angle's
+/// nearest ones, and the angle's own points within the web.
+void set_points_of_angle(const Profile& angle, double web, Profile& profile) {
+  std::vector<SectionPoint> known = angle.section.shear_points;
+  for (SectionPoint& point : known) point.place += angle.centroid;
+  for (const Vector2& outer : profile.section.stress_points) {
+    const Vector2 place = outer + profile.centroid;
+    SectionPoint point = *std::min_element(known.begin(), known.end(), [&](auto& a, auto& b) {
+      return (a.place - place).norm() < (b.place - place).norm();
+    });
+    point.place = place;
+    add_shear_point(point, profile);
+  }
+  for (const SectionPoint& point : known)
+    if (std::abs(point.place[1]) < 0.51 * web) add_shear_point(point, profile);
 }
 
 }  // namespace
@@ -143,7 +167,7 @@ Profile walled_profile(const std::string& name, const std::vector<Vector2>& node
     }
   }
   Profile profile = profile_of(name, moments);
-  set_wall_figures(nodes, walls, profile);
+  set_wall_figures(ThinWalls(nodes, walls), profile);
   set_points(profile, outline);
   return profile;
 }
@@ -158,7 +182,10 @@ Profile outlined_profile(const std::string& name, const std::vector<Outline>& ou
       points.insert(points.end(), outline.corners.begin(), outline.corners.end());
   }
   Profile profile = profile_of(name, moments);
-  set_wall_figures(nodes, walls, profile);
+  const ThinWalls lines(nodes, walls);
+  set_wall_figures(lines, profile);
+  // Walls are drawn to their nodes: the outline goes beyond them.
+  for (const Vector2& point : points) add_shear_point(lines.point_at(point), profile);
   set_points(profile, points);
   return profile;
 }
@@ -172,6 +199,8 @@ Profile solid_polygon(const std::string& name, const std::vector<Vector2>& corne
       std::pow(section.area, 4) / (40 * (section.second_moment_2 + section.second_moment_3));
   section.shear_area_2 = section.shear_area_3 = 5.0 / 6 * section.area;
   set_points(profile, corners);
+  section.shear_points =
+      shear_points_of_polygon(section.stress_points, section.area, section.torsion);
   return profile;
 }
 
@@ -196,6 +225,10 @@ Profile seen(const Profile& profile, bool exchanged, bool reversed_2, bool rever
   section.product_23 *= sign_2 * sign_3;
   section.shear_centre = as_seen(section.shear_centre);
   for (Vector2& point : section.stress_points) point = as_seen(point);
+  // In a mirror torsion turns the other way.
+  const double turn = sign_2 * sign_3 * (exchanged ? -1 : 1);
+  for (SectionPoint& point : section.shear_points)
+    point = {as_seen(point.place), turn * point.of_torsion, as_seen(point.of_force)};
   other.centroid = as_seen(other.centroid);
   if (exchanged || reversed_2) other.plates.reset();
   if (reversed_3 && other.plates) {
@@ -246,6 +279,7 @@ Profile solid_rectangle(double height, double width) {
   profile.section.torsion = torsion_of_rectangle(height, width);
   profile.section.shear_area_2 = profile.section.shear_area_3 = 5.0 / 6 * moments.area;
   set_points(profile, corners(-height / 2, height / 2, -width / 2, width / 2));
+  profile.section.shear_points = shear_points_of_rectangle(height, width, profile.section.torsion);
   return profile;
 }
 
@@ -323,6 +357,7 @@ Profile bulb_flat(double height, double thickness, double bulb, double radius) {
                        {height, -inner},
                        {height, outer - radius},
                        {height - radius, outer}});
+  set_points_of_angle(angle, thickness, profile);
   return profile;
 }
 
@@ -378,6 +413,7 @@ Profile pipe(double outer_radius, double inner_radius) {
   profile.is_round = true;
   const double r = outer_radius;
   set_points(profile, {{r, 0}, {0, r}, {-r, 0}, {0, -r}});
+  profile.section.shear_points = shear_points_of_pipe(outer_radius, inner_radius);
   return profile;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -31,22 +32,27 @@ ThinWalls::ThinWalls(std::vector<Vector2> nodes, const std::vector<Wall>& walls)
   for (Vector2& node : nodes_) node -= centroid_;
 }
 
-double ThinWalls::torsion() const {
-  double open = 0, closed = 0, largest = 0;
+double ThinWalls::torsion() const { return torsion_of(calc_torsion_flows()); }
+
+/// The flow whose moment is its own energy: J is both.
+Eigen::VectorXd ThinWalls::calc_torsion_flows() const {
   const auto count = static_cast<Eigen::Index>(walls_.size());
-  Eigen::VectorXd flow = Eigen::VectorXd::Zero(count);
-  if (walls_.size() >= nodes_.size()) {
-    Eigen::VectorXd sweeps(count);
-    for (Eigen::Index i = 0; i < count; ++i) sweeps[i] = sweep(walls_[i]);
-    // The flow whose moment is its own energy: J is both.
-    flow = find_flows(-sweeps, Eigen::VectorXd::Zero(nodes_.size()));
-    closed = flow.dot(sweeps);
-    largest = flow.cwiseAbs().maxCoeff();
-  }
-  for (Eigen::Index i = 0; i < count; ++i)
-    if (std::abs(flow[i]) <= 1e-9 * largest)
-      open += length(walls_[i]) * std::pow(walls_[i].thickness, 3) / 3;
-  return open + closed;
+  if (walls_.size() < nodes_.size()) return Eigen::VectorXd::Zero(count);
+  Eigen::VectorXd sweeps(count);
+  for (Eigen::Index i = 0; i < count; ++i) sweeps[i] = sweep(walls_[i]);
+  return find_flows(-sweeps, Eigen::VectorXd::Zero(nodes_.size()));
+}
+
+bool ThinWalls::is_open(const Eigen::VectorXd& torsion_flows, std::size_t wall) const {
+  return std::abs(torsion_flows[wall]) <= 1e-9 * torsion_flows.cwiseAbs().maxCoeff();
+}
+
+double ThinWalls::torsion_of(const Eigen::VectorXd& torsion_flows) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < walls_.size(); ++i)
+    sum += is_open(torsion_flows, i) ? length(walls_[i]) * std::pow(walls_[i].thickness, 3) / 3
+                                     : torsion_flows[i] * sweep(walls_[i]);
+  return sum;
 }
 
 double ThinWalls::shear_area(int axis) const {
@@ -67,6 +73,85 @@ Vector2 ThinWalls::shear_centre() const {
   if (carries(0)) centre[1] = -moment(0);
   if (carries(1)) centre[0] = moment(1);
   return centre + centroid_;
+}
+
+ThinWalls::Flows ThinWalls::calc_all_flows() const {
+  Flows flows;
+  flows.torsion = calc_torsion_flows();
+  flows.torsion_constant = torsion_of(flows.torsion);
+  for (const int axis : {0, 1})
+    flows.force[axis] = carries(axis) ? calc_flows(axis) : std::vector<Flow>(walls_.size(), Flow{});
+  return flows;
+}
+
+/// Shares of a wall's length: its ends, and between them where the flow of a force turns.
+std::vector<double> ThinWalls::places_on(const Wall& wall) const {
+  constexpr double apart = 0.02;
+  std::vector<double> places{0, 1};
+  for (const int axis : {0, 1}) {
+    if (!carries(axis)) continue;
+    const double at_start = growth(axis, start(wall)), at_end = growth(axis, end(wall));
+    if (!(at_start * at_end < 0)) continue;
+    const double share = at_start / (at_start - at_end);
+    if (std::all_of(places.begin(), places.end(),
+                    [&](double known) { return std::abs(share - known) > apart; }))
+      places.push_back(share);
+  }
+  return places;
+}
+
+SectionPoint ThinWalls::point_on(const Flows& flows, std::size_t wall, double share,
+                                 int side) const {
+  const Wall& of = walls_[wall];
+  const Vector2 along = (end(of) - start(of)).normalized(), left(-along[1], along[0]);
+  const double longer = share == 0 ? -of.longer_at_from : share == 1 ? of.longer_at_to : 0;
+  SectionPoint point;
+  point.place = start(of) + (share * length(of) + longer) * along + side * of.thickness / 2 * left +
+                centroid_;
+  const double twist =
+      is_open(flows.torsion, wall) ? -side * of.thickness : flows.torsion[wall] / of.thickness;
+  point.of_torsion = twist / flows.torsion_constant;
+  for (const int axis : {0, 1}) {
+    const auto& [first, middle, last] = flows.force[axis][wall];
+    const double x = 2 * share - 1;  // the quadratic through its three values
+    const double flow = middle + x * (last - first) / 2 + x * x * ((first + last) / 2 - middle);
+    point.of_force[axis] = flow / of.thickness;
+  }
+  return point;
+}
+
+std::vector<SectionPoint> ThinWalls::points() const {
+  const Flows flows = calc_all_flows();
+  std::vector<SectionPoint> points;
+  for (std::size_t i = 0; i < walls_.size(); ++i)
+    for (const double share : places_on(walls_[i]))
+      for (const int side : {1, -1}) {
+        // A flow that turns from axis 2 towards 3 has its cell on the left.
+        const bool is_inside = !is_open(flows.torsion, i) && side * flows.torsion[i] > 0;
+        if (!is_inside) points.push_back(point_on(flows, i, share, side));
+      }
+  return points;
+}
+
+SectionPoint ThinWalls::point_at(const Vector2& place) const {
+  const Vector2 own = place - centroid_;
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity(), share = 0;
+  int side = 1;
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const Vector2 along = end(walls_[i]) - start(walls_[i]), from = own - start(walls_[i]);
+    const double here = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    // Beyond a face, so that of two walls the one counts in which the place lies.
+    const double distance = (from - here * along).norm() - walls_[i].thickness / 2;
+    if (!(distance < least - 1e-12)) continue;
+    least = distance;
+    nearest = i;
+    share = here;
+    side = along[0] * from[1] - along[1] * from[0] >= 0 ? 1 : -1;
+  }
+  SectionPoint point = point_on(calc_all_flows(), nearest, share, side);
+  point.place = place;
+  return point;
 }
 
 Vector2 ThinWalls::start(const Wall& wall) const { return nodes_[wall.from]; }

@@ -31,9 +31,26 @@ class ThinWalls {
   /// From the origin in which the nodes were given, m.
   Eigen::Vector2d shear_centre() const;
 
+  /// Where the stress of the walls is looked at, from the origin of the nodes, m: both ends of each
+  /// wall, as far as its solid goes, and where a force's flow is largest between them, if that is
+  /// not within a fiftieth of an end. Shear is q / t of the flows; torsion also has what runs
+  /// opposite ways on the two faces of a wall that bounds no cell, 2 n T / J, so that either face
+  /// has a point. A wall of a cell has one on its outer face, torsion's stress there being the mean
+  /// through the wall.
+  std::vector<SectionPoint> points() const;
+  /// The same at the foot of a place on the nearest wall, on the face that it lies towards.
+  SectionPoint point_at(const Eigen::Vector2d& place) const;
+
  private:
   /// At the start, in the middle and at the end of a wall: what runs along it is a quadratic.
   using Flow = std::array<double, 3>;
+
+  /// What points need of all walls.
+  struct Flows {
+    Eigen::VectorXd torsion;  ///< flow along each wall for a twist of 1 / G, m
+    std::array<std::vector<Flow>, 2> force;
+    double torsion_constant = 0;  ///< m^4
+  };
 
   Eigen::Vector2d start(const Wall& wall) const;
   Eigen::Vector2d end(const Wall& wall) const;
@@ -47,6 +64,13 @@ class ThinWalls {
   Eigen::VectorXd find_flows(const Eigen::VectorXd& work, const Eigen::VectorXd& given) const;
   std::vector<Flow> calc_flows(int axis) const;
   double moment(int axis) const;
+  Eigen::VectorXd calc_torsion_flows() const;
+  bool is_open(const Eigen::VectorXd& torsion_flows, std::size_t wall) const;
+  double torsion_of(const Eigen::VectorXd& torsion_flows) const;
+  Flows calc_all_flows() const;
+  std::vector<double> places_on(const Wall& wall) const;
+  /// @param share along the wall. @param side 1: on its left face, -1: on its right one.
+  SectionPoint point_on(const Flows& flows, std::size_t wall, double share, int side) const;
   void require_one_piece() const;
 
   std::vector<Eigen::Vector2d> nodes_;  ///< from the centroid of the lines

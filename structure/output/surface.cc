@@ -233,8 +233,7 @@ void Surface::take_envelope_of_beams(const Space& space, const Eigen::MatrixXd& 
     std::vector<int> begin{0};
     for (int s = first; s < first + count; ++s) {
       const BeamStation& station = stations_[s];
-      const Eigen::MatrixXd here =
-          as_uniaxial(beam_stresses(space, station.cell, station.xi, motions));
+      const Eigen::MatrixXd here = beam_stresses(space, station.cell, station.xi, motions);
       stress.conservativeResize(stress.rows() + here.rows(), Eigen::NoChange);
       stress.bottomRows(here.rows()) = here;
       begin.push_back(static_cast<int>(stress.rows() / 6));
@@ -349,8 +348,10 @@ void Surface::add_beams(const Space& space, const Eigen::MatrixXd& motions,
     for (std::size_t k = 0; k < fields.size(); ++k) {
       const auto motion = motions.col(k);
       const BeamMotion moved = beam_motion_at(space, station.cell, station.xi, motion);
-      const double stress =
-          beam_stresses(space, station.cell, station.xi, motion).cwiseAbs().maxCoeff();
+      const Eigen::VectorXd of_points = beam_stresses(space, station.cell, station.xi, motion);
+      double stress = 0;
+      for (Eigen::Index row = 0; row < of_points.rows(); row += 6)
+        stress = std::max(stress, von_mises(Stress(of_points.segment<6>(row))));
       for (const int point : station.points) {
         fields[k].displacement[point] =
             moved.displacement + moved.rotation.cross(points_[point] - centroid);

@@ -1,5 +1,6 @@
 #include "structure/output/vtu.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -80,7 +81,9 @@ class Collector {
     for (int i = 0; i <= located.degree; ++i) {
       const double xi = static_cast<double>(i) / located.degree;
       const Eigen::VectorXd stress = beam_stresses(space_, cell, xi, motion_, heat_);
-      const double largest = stress.cwiseAbs().maxCoeff();
+      double largest = 0;
+      for (Eigen::Index row = 0; row < stress.rows(); row += 6)
+        largest = std::max(largest, von_mises(Stress(stress.segment<6>(row))));
       add_point(beam_point(space_, cell, xi).place,
                 beam_motion_at(space_, cell, xi, motion_, heat_).displacement,
                 {std::abs(beam_stress_at_centroid(space_, cell, xi, motion_, heat_)[0]), largest,

@@ -25,7 +25,8 @@ struct PartGroupResult {
   double raw_von_mises = 0;  ///< largest of any solid at any of its nodes, nothing averaged, Pa
   Vector3 raw_point = Vector3::Zero();
   double displacement = 0;  ///< m
-  /// By superconvergent patch recovery, in the energy norm, as a share of the norm (see SolidError).
+  /// By superconvergent patch recovery, in the energy norm, as a share of the norm (see
+  /// SolidError).
   double estimated_error = 0;
   /// Of the largest averaged stress: by how much (as a von Mises stress) the stresses of the solids
   /// that meet there differ from the recovered one, Pa. It falls as the mesh gets finer, unless the

@@ -22,10 +22,12 @@ struct BarSpan {
   std::string group;                                   ///< name of that region's group
   Vector3 p_BFrom = Vector3::Zero(), p_BTo = p_BFrom;  ///< m
   double plate_width = 0;  ///< of the plate that buckles with it, m; 0: it stands free
-  /// Of a stiffener: l_T, its length or the distance of its tripping brackets where that is less, m.
+  /// Of a stiffener: l_T, its length or the distance of its tripping brackets where that is less,
+  /// m.
   double tripping_length = 0;
   /// Of a stiffener: stress at which it turns about its toe between the span's ends, or its
-  /// tripping brackets, elastic and as it may bear (tripping.h), Pa; 0: it is none, or has no torsion constant.
+  /// tripping brackets, elastic and as it may bear (tripping.h), Pa; 0: it is none, or has no
+  /// torsion constant.
   double tripping_stress = 0, tripping_strength = 0;
   /// As a column that is pinned at its joints; twice as long as it is where an end is free. Its
   /// axes y and z are the section's principal ones, about which it bends; of a stiffener with its

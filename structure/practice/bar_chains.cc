@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -80,7 +82,44 @@ class ChainFinder {
   std::vector<bool> open_;  ///< of each beam: given, and in no chain yet
 };
 
+/// The edge of its shell on which a fastened vertex lies; none: it lies within, or is fastened to a
+/// line.
+std::optional<EdgeKey> edge_under(const Mesh& mesh, const SurfacePoint& point) {
+  constexpr double on_edge = 1e-9;  // of the unit square
+  if (!point.line.empty()) return std::nullopt;
+  for (int edge = 0; edge < 4; ++edge) {
+    const auto& ends = round_edges[edge];
+    const Eigen::Vector2d from = corner_place(ends[0]), run = corner_place(ends[1]) - from;
+    const Eigen::Vector2d off = point.xi - from;
+    const EdgeKey key = key_of(mesh, {point.shell, edge});
+    if (key.first != key.second && std::abs(run.x() * off.y() - run.y() * off.x()) < on_edge)
+      return key;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::set<EdgeKey> edges_with_beams(const Mesh& mesh) {
+  std::map<int, EdgeKey> edge_of_vertex;
+  for (const SurfacePoint& point : mesh.surface_points)
+    if (const auto edge = edge_under(mesh, point)) edge_of_vertex[point.vertex] = *edge;
+  std::set<EdgeKey> edges;
+  std::map<EdgeKey, std::set<int>> reached;  // ends of an edge from a vertex between them
+  for (const Beam& beam : mesh.beams) {
+    edges.insert(std::minmax(beam.vertices[0], beam.vertices[1]));
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto found = edge_of_vertex.find(beam.vertices[end]);
+      if (found == edge_of_vertex.end()) continue;
+      const EdgeKey& edge = found->second;
+      const int other = beam.vertices[1 - end];
+      if (other == edge.first || other == edge.second) reached[edge].insert(other);
+    }
+  }
+  for (const auto& [edge, ends] : reached)
+    if (ends.size() == 2) edges.insert(edge);
+  return edges;
+}
 
 MeetingPoints::MeetingPoints(const Mesh& mesh)
     : cells_(mesh.vertices.size()), beams_(mesh.vertices.size()) {
@@ -90,7 +129,12 @@ MeetingPoints::MeetingPoints(const Mesh& mesh)
   };
   for (std::size_t s = 0; s < mesh.shells.size(); ++s)
     for (const int vertex : mesh.shells[s].vertices) add_cell(vertex, static_cast<int>(s));
-  for (const SurfacePoint& point : mesh.surface_points) add_cell(point.vertex, point.shell);
+  const EdgeMap edges = mesh.surface_points.empty() ? EdgeMap() : collect_edges(mesh);
+  for (const SurfacePoint& point : mesh.surface_points) {
+    add_cell(point.vertex, point.shell);
+    if (const auto edge = edge_under(mesh, point))
+      for (const EdgeOfShell& other : edges.at(*edge)) add_cell(point.vertex, other.shell);
+  }
   for (std::size_t s = 0; s < mesh.solids.size(); ++s)
     for (const int vertex : mesh.solids[s].vertices)
       add_cell(vertex, static_cast<int>(mesh.shells.size() + s));

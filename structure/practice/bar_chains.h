@@ -6,15 +6,21 @@
 #include <vector>
 
 #include "structure/mesh/mesh.h"
+#include "structure/mesh/shell_edges.h"
 
 namespace blocklift::structure {
+
+/// Edges of shells along which beams run. Along an edge of quadratic shells two beams may run from
+/// its ends to a vertex that is fastened between them (SurfacePoint).
+std::set<EdgeKey> edges_with_beams(const Mesh& mesh);
 
 /// What meets in the vertices of a mesh.
 class MeetingPoints {
  public:
   explicit MeetingPoints(const Mesh& mesh);
 
-  /// Shells, and behind them solids counted on from the number of shells; each once.
+  /// Shells, and behind them solids counted on from the number of shells; each once. A vertex that
+  /// is fastened to an edge of a shell is a point of all shells that meet there.
   const std::vector<int>& cells(int vertex) const { return cells_[vertex]; }
   const std::vector<int>& beams(int vertex) const { return beams_[vertex]; }
   /// By links, springs and ropes.

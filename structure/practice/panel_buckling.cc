@@ -13,6 +13,7 @@
 #include "algebra/products.h"
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
+#include "structure/practice/bar_chains.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/shell_stress.h"
 
@@ -22,18 +23,10 @@ namespace {
 
 constexpr Eigen::Index rows_per_panel = 5;
 
-using Edge = std::pair<int, int>;  // vertices, the lower first
-
-std::set<Edge> edges_with_beams(const Mesh& mesh) {
-  std::set<Edge> edges;
-  for (const Beam& beam : mesh.beams) edges.insert(std::minmax(beam.vertices[0], beam.vertices[1]));
-  return edges;
-}
-
 bool is_lug(const Mesh& mesh, int shell) { return mesh.regions[mesh.shells[shell].region].is_lug; }
 
 /// Fields that buckle as one: pads belong to their plates, beams and lugs' edges hold.
-PlateFields find_buckling_fields(const Mesh& mesh, const std::set<Edge>& beams) {
+PlateFields find_buckling_fields(const Mesh& mesh, const std::set<EdgeKey>& beams) {
   return find_fields(mesh, 0.15, [&](int a, int b, int vertex_1, int vertex_2) {
     return is_lug(mesh, a) == is_lug(mesh, b) && beams.count({vertex_1, vertex_2}) == 0;
   });
@@ -173,7 +166,7 @@ double enclosed_area(const Mesh& mesh, const std::vector<FieldEdge>& outline, co
 /// The sides of the bounding rectangle that lie free. Each piece of the field's outer outline
 /// counts for the sides to which it faces, as long as it is seen from there: a side is free where
 /// more than half of what faces it is held by no other plate or beam. Holes do not count.
-FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const std::set<Edge>& beams,
+FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const std::set<EdgeKey>& beams,
                           const Panel& panel) {
   const auto outer = std::max_element(
       field.outlines.begin(), field.outlines.end(), [&](const auto& one, const auto& other) {
@@ -352,7 +345,7 @@ BlockPanels::BlockPanels(const ElasticModel& model,
 }
 
 void BlockPanels::describe(const Mesh& mesh) {
-  const std::set<Edge> beams = edges_with_beams(mesh);
+  const std::set<EdgeKey> beams = edges_with_beams(mesh);
   panel_of_shell_.assign(mesh.shells.size(), -1);
   for (const PlateField& field : find_buckling_fields(mesh, beams).fields) {
     if (is_lug(mesh, field.shells.front())) continue;

@@ -106,7 +106,8 @@ class UnitResponses {
   SolutionTiming timing_;
   std::shared_ptr<const System> system_;
   Eigen::MatrixXd added_loads_;  ///< as they came, freedoms x added
-  /// Forces and moments about Bo of lug forces, fields of inertia and added loads, 6 x their number.
+  /// Forces and moments about Bo of lug forces, fields of inertia and added loads, 6 x their
+  /// number.
   Eigen::MatrixXd resultants_;
   Eigen::MatrixXd balancing_;      ///< 6 x (lug forces + products + added): rigid accelerations
   Eigen::MatrixXd displacements_;  ///< of the basis

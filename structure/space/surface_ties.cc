@@ -78,8 +78,8 @@ class SurfaceSum {
 }  // namespace
 
 // Nodes of vertices that lie on a shell between its corners follow the shape of its cell there, or
-// the mean of the cells' along a line. So do nodes within an edge between two such vertices: between
-// its vertices a seam would gape.
+// the mean of the cells' along a line. So do nodes within an edge between two such vertices:
+// between its vertices a seam would gape.
 void Space::add_surface_ties(dealii::AffineConstraints<double>& ties) const {
   if (mesh_->surface_points.empty()) return;
   std::vector<std::vector<int>> cells(mesh_->shells.size());

@@ -1,5 +1,6 @@
 #include "structure/stress/beam_stress.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Dense>
@@ -32,7 +33,10 @@ double modulus_of(const Mesh& mesh, const BeamSection& section) {
 
 BeamSection section_of(const Space& space, int cell, double xi) {
   const BeamCell& located = space.beams()[cell];
-  return section_at(space.mesh(), beam_of(space, cell), located.origin + located.size * xi);
+  const Beam& beam = beam_of(space, cell);
+  BeamSection section = section_at(space.mesh(), beam, located.origin + located.size * xi);
+  if (beam.is_rod) section.twists_about_centroid = true;  // it bears no shear
+  return section;
 }
 
 /// Motion of a cell's own ends.
@@ -44,31 +48,73 @@ Eigen::MatrixXd own_motion_of(const Space& space, int cell,
   return own;
 }
 
-/// Strains by the cell's own polynomials, beyond those of heat, which no force belongs to.
-Eigen::MatrixXd own_strains_of(const Space& space, int cell, double xi,
-                               const Eigen::Ref<const Eigen::MatrixXd>& motions,
+/// Strains by the cell's own polynomials, beyond those of heat, which no force belongs to; of a rod
+/// stretch and twist alone.
+/// @param own motion of the cell's ends (own_motion_of).
+Eigen::MatrixXd own_strains_of(const Space& space, int cell, double xi, const Eigen::MatrixXd& own,
                                const CellHeat* heat) {
-  Eigen::MatrixXd strains =
-      beam_point(space, cell, xi).strain * own_motion_of(space, cell, motions, heat);
+  Eigen::MatrixXd strains = beam_point(space, cell, xi).strain * own;
   if (heat != nullptr) strains -= heat->beam_strains(cell, xi);
+  if (beam_of(space, cell).is_rod)
+    for (const Eigen::Index row : {1, 2, 4, 5}) strains.row(row).setZero();
   return strains;
 }
 
+Eigen::Matrix<double, 6, 6> law_of(const Space& space, const BeamSection& section) {
+  return beam_stiffness_law(space.mesh().materials[section.material], section);
+}
+
+/// Section forces at the Gauss points, carried to a place.
+/// @param law at that place.
+Eigen::MatrixXd carried_forces(const Space& space, int cell, double xi,
+                               const Eigen::Matrix<double, 6, 6>& law, const Eigen::MatrixXd& own,
+                               const CellHeat* heat) {
+  const bool is_tapered = beam_of(space, cell).end_section >= 0;
+  const std::vector<double> points = gauss_places(space.beams()[cell].degree);
+  const std::vector<double> shares = lagrange_at(points, xi);
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(6, own.cols());
+  for (std::size_t q = 0; q < points.size(); ++q)
+    forces += shares[q] * (is_tapered ? law_of(space, section_of(space, cell, points[q])) : law) *
+              own_strains_of(space, cell, points[q], own, heat);
+  return forces;
+}
+
+/// What a section feels of motions, a column each.
+struct SectionState {
+  BeamSection section;
+  Eigen::MatrixXd strains, forces;  ///< rows as BeamPoint::strain and beam_forces
+};
+
 /// Of a tapered beam the strains that the section forces at the Gauss points, carried to the place,
 /// give there: forces are smooth where the strains of a taper are no polynomial.
-Eigen::MatrixXd strains_of(const Space& space, int cell, double xi,
-                           const Eigen::Ref<const Eigen::MatrixXd>& motions, const CellHeat* heat) {
-  if (beam_of(space, cell).end_section < 0) return own_strains_of(space, cell, xi, motions, heat);
-  const auto law_at = [&](double place) {
-    const BeamSection section = section_of(space, cell, place);
-    return beam_stiffness_law(space.mesh().materials[section.material], section);
-  };
-  const std::vector<double> points = gauss_places(space.beams()[cell].degree);
-  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(6, motions.cols());
-  const std::vector<double> shares = lagrange_at(points, xi);
-  for (std::size_t q = 0; q < points.size(); ++q)
-    forces += shares[q] * law_at(points[q]) * own_strains_of(space, cell, points[q], motions, heat);
-  return algebra::least_squares(law_at(xi), forces);
+SectionState state_at(const Space& space, int cell, double xi,
+                      const Eigen::Ref<const Eigen::MatrixXd>& motions, const CellHeat* heat) {
+  const Beam& beam = beam_of(space, cell);
+  const Eigen::MatrixXd own = own_motion_of(space, cell, motions, heat);
+  SectionState state;
+  state.section = section_of(space, cell, xi);
+  const Eigen::Matrix<double, 6, 6> law = law_of(space, state.section);
+  state.forces = carried_forces(space, cell, xi, law, own, heat);
+  if (beam.end_section < 0) {
+    state.strains = own_strains_of(space, cell, xi, own, heat);
+    for (const Eigen::Index row : {0, 4, 5}) state.forces.row(row) = law.row(row) * state.strains;
+  } else {
+    state.strains = algebra::least_squares(law, state.forces);
+  }
+  if (beam.is_rod)
+    for (const Eigen::Index row : {1, 2, 4, 5}) {
+      state.forces.row(row).setZero();
+      state.strains.row(row).setZero();
+    }
+  return state;
+}
+
+std::vector<SectionPoint> points_of(const BeamSection& section, bool is_rod) {
+  std::vector<SectionPoint> points = checked_points(section);
+  if (!is_rod) return points;
+  return {*std::max_element(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return std::abs(a.of_torsion) < std::abs(b.of_torsion);
+  })};
 }
 
 Vector3 arm_of(const Beam& beam, const BeamCell& cell, double xi) {
@@ -78,27 +124,29 @@ Vector3 arm_of(const Beam& beam, const BeamCell& cell, double xi) {
 
 }  // namespace
 
-std::vector<Eigen::Vector2d> stress_points(const BeamSection& section) {
-  if (!section.stress_points.empty()) return section.stress_points;
-  const double x = std::sqrt(3 * section.second_moment_3 / section.area),
-               y = std::sqrt(3 * section.second_moment_2 / section.area);
-  return {{x, y}, {-x, y}, {-x, -y}, {x, -y}};
+std::vector<SectionPoint> points_of_beam(const Mesh& mesh, const Beam& beam, double share) {
+  return points_of(section_at(mesh, beam, share), beam.is_rod);
 }
 
 Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
                               const Eigen::Ref<const Eigen::MatrixXd>& motions,
                               const CellHeat* heat) {
-  const Eigen::MatrixXd strain = strains_of(space, cell, xi, motions, heat);
-  const Beam& beam = beam_of(space, cell);
-  const BeamSection section = section_of(space, cell, xi);
-  const double modulus = modulus_of(space.mesh(), section);
-  const std::vector<Eigen::Vector2d> points = stress_points(section);
-  Eigen::MatrixXd stresses(static_cast<Eigen::Index>(points.size()), motions.cols());
+  const SectionState state = state_at(space, cell, xi, motions, heat);
+  const std::vector<SectionPoint> points = points_of(state.section, beam_of(space, cell).is_rod);
+  const double modulus = modulus_of(space.mesh(), state.section);
+  const Eigen::RowVectorXd torsion = torsion_about_twist_centre(state.section, state.forces);
+  constexpr Eigen::Index normal = 0, shear = 3;  // 11 and 12 of Stress
+  Eigen::MatrixXd stresses =
+      Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(points.size()), motions.cols());
   for (std::size_t p = 0; p < points.size(); ++p) {
-    auto row = stresses.row(p);
-    row = modulus * strain.row(0);
-    if (!beam.is_rod)
-      row += modulus * (points[p].y() * strain.row(4) - points[p].x() * strain.row(5));
+    const SectionPoint& point = points[p];
+    const auto first = 6 * static_cast<Eigen::Index>(p);
+    stresses.row(first + normal) =
+        modulus * (state.strains.row(0) + point.place.y() * state.strains.row(4) -
+                   point.place.x() * state.strains.row(5));
+    stresses.row(first + shear) = point.of_torsion * torsion +
+                                  point.of_force[0] * state.forces.row(1) +
+                                  point.of_force[1] * state.forces.row(2);
   }
   return stresses;
 }
@@ -106,28 +154,20 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
 Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,
                                            const Eigen::Ref<const Eigen::MatrixXd>& motions,
                                            const CellHeat* heat) {
-  const BeamSection& section = space.mesh().section_of(beam_of(space, cell));
-  return modulus_of(space.mesh(), section) * strains_of(space, cell, xi, motions, heat).row(0);
+  const SectionState state = state_at(space, cell, xi, motions, heat);
+  return modulus_of(space.mesh(), state.section) * state.strains.row(0);
 }
 
 Eigen::MatrixXd beam_forces(const Space& space, int cell, double xi,
                             const Eigen::Ref<const Eigen::MatrixXd>& motions,
                             const CellHeat* heat) {
-  const BeamSection section = section_of(space, cell, xi);
-  const Material& material = space.mesh().materials[section.material];
-  Eigen::MatrixXd forces =
-      beam_stiffness_law(material, section) * strains_of(space, cell, xi, motions, heat);
-  if (!beam_of(space, cell).is_rod) return forces;
-  for (const Eigen::Index row : {1, 2, 4, 5}) forces.row(row).setZero();
-  return forces;
+  return state_at(space, cell, xi, motions, heat).forces;
 }
 
-Eigen::MatrixXd as_uniaxial(const Eigen::MatrixXd& normal_stresses) {
-  Eigen::MatrixXd stresses =
-      Eigen::MatrixXd::Zero(6 * normal_stresses.rows(), normal_stresses.cols());
-  for (Eigen::Index p = 0; p < normal_stresses.rows(); ++p)
-    stresses.row(6 * p) = normal_stresses.row(p);
-  return stresses;
+Eigen::RowVectorXd torsion_about_twist_centre(const BeamSection& section,
+                                              const Eigen::MatrixXd& forces) {
+  const Eigen::Vector2d centre = section.twist_centre();
+  return forces.row(3) - (centre[0] * forces.row(2) - centre[1] * forces.row(1));
 }
 
 BeamMotion beam_motion_at(const Space& space, int cell, double xi,

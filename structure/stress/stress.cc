@@ -20,8 +20,9 @@ struct RunningExtreme {
   Vector3 point = Vector3::Zero();
   int region = -1;
 
+  // The first counts even if it is zero: a plate that only bends has squares without stress.
   void take(double candidate, const Vector3& place, int of_region) {
-    if (candidate <= value) return;
+    if (candidate < value || (candidate == value && region >= 0)) return;
     value = candidate;
     point = place;
     region = of_region;

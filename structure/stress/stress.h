@@ -24,7 +24,8 @@ struct GroupStress {
   std::string material;
   double yield_stress = 0;    ///< Pa
   Extreme checked_von_mises;  ///< Pa
-  /// The largest over the squares of each site; without squares the peak as a field's. No part: none.
+  /// The largest over the squares of each site; without squares the peak as a field's. No part:
+  /// none.
   BySite<Extreme> at_site;
   Extreme peak_von_mises;  ///< Pa
 };

@@ -32,7 +32,7 @@ StressPoints::StressPoints(const Space& space)
       shell_points_(2 * space.nodes_per_shell() * static_cast<int>(space.shells().size())) {
   for (std::size_t cell = 0; cell < space.beams().size(); ++cell) {
     const Beam& beam = space.mesh().beams[space.beams()[cell].beam];
-    const int points = static_cast<int>(stress_points(space.mesh().section_of(beam)).size());
+    const int points = static_cast<int>(points_of_beam(space.mesh(), beam, 0).size());
     // Between the ends, too: one cell may be all that a deck has between two supports.
     for (const double xi : {0.0, 0.5, 1.0})
       for (int point = 0; point < points; ++point)
@@ -104,7 +104,7 @@ Eigen::MatrixXd StressPoints::stresses(int first, int count,
     const BeamPointOf& point = beam_points_[first + i - shell_points_];
     if (i == shells || point.at == 0)
       of_end = beam_stresses(space_, point.cell, point.xi, motions, heat);
-    rows.row(6 * i) = of_end.row(point.at);
+    rows.middleRows<6>(6 * i) = of_end.middleRows<6>(6 * point.at);
   }
   return rows;
 }

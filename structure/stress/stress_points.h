@@ -12,10 +12,10 @@ namespace blocklift::structure {
 
 /// Where the stress of a block is looked at: the nodes of its shells' cells on both surfaces, as
 /// each cell sees them (a hundredth of the cell inside it), the ends and the middles of its beams'
-/// cells at their sections' outer points, and the corners of its solids.
+/// cells at the points of their sections (points_of_beam), and the corners of its solids.
 ///
 /// Stresses are (11, 22, 0, 12, 0, 0) along directions of each cell's own, Pa: invariants can be
-/// compared, components of different cells cannot. A beam has (11, 0, 0, 0, 0, 0),
+/// compared, components of different cells cannot. A beam has (11, 0, 0, 12, 0, 0),
 /// a solid all six along the block's axes.
 class StressPoints {
  public:
@@ -38,7 +38,7 @@ class StressPoints {
   struct BeamPointOf {
     int cell = 0;
     double xi = 0;  ///< on its unit length
-    int at = 0;     ///< place in stress_points(section)
+    int at = 0;     ///< place in points_of_beam
   };
   int points_per_cell() const { return 2 * space_.nodes_per_shell(); }
   std::unique_ptr<ShellStress> borrow() const;

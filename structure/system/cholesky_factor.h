@@ -18,8 +18,8 @@ struct Supernode {
 };
 
 /// K = L L' of a symmetric, positive definite sparse matrix by CHOLMOD's supernodal Cholesky
-/// factorisation, in the order of the unknowns. Several threads may ask for solutions: one at a time
-/// gets them.
+/// factorisation, in the order of the unknowns. Several threads may ask for solutions: one at a
+/// time gets them.
 class CholeskyFactor {
  public:
   /// Finds the pattern of L. @throws NotEnoughMemory

@@ -10,7 +10,8 @@
 namespace blocklift::structure {
 
 /// Where the mass of a structure is: what mass properties are found from, whatever mass and centre
-/// are stated. It needs neither elements nor mesh once it is made, and a small part of their memory.
+/// are stated. It needs neither elements nor mesh once it is made, and a small part of their
+/// memory.
 class MassDistribution {
  public:
   explicit MassDistribution(const Matter& matter);

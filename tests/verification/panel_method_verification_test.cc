@@ -159,7 +159,8 @@ HydrodynamicDatabase compute_shallow_box(const BoxDivision& division) {
   return compute_database({bodies, surface, water, {true, true}}, settings);
 }
 
-// Panels of 4 m at a draught of 1 m: what their error is said to be holds it, against panels of 2 m.
+// Panels of 4 m at a draught of 1 m: what their error is said to be holds it, against panels of 2
+// m.
 TEST(ErrorOfPanels, IsHonestAtAShallowDraught) {
   const HydrodynamicDatabase coarse =
       compute_shallow_box({.length = 26, .breadth = 6, .draught = 1, .grading = 1.0});

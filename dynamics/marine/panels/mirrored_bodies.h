@@ -11,7 +11,8 @@ namespace blocklift::dynamics {
 ///
 /// `vertices_W` are the vertices of each body's whole hull at its place (m). In a plane in which
 /// each vertex of every body has an image among those of some body, one half is taken and mirrored,
-/// panels across the plane being cut there; in others nothing is changed. The planes are x = 0 and y = 0.
+/// panels across the plane being cut there; in others nothing is changed. The planes are x = 0 and
+/// y = 0.
 void mirror_bodies(const std::vector<std::vector<Vector3>>& vertices_W,
                    std::vector<WettedBody>& bodies);
 

@@ -45,9 +45,9 @@ PanelClusters cluster_panels(const PanelMesh& mesh,
                              double largest = std::numeric_limits<double>::infinity());
 
 /// The error of panels at first order in their size, from what their forces change by from clusters
-/// of them: 1/(r - 1) times as much, r^2 the panels in a cluster in the mean. The changes themselves
-/// where four are joined everywhere; more where hulls are few panels wide or high, which leave panels
-/// alone. Infinite where none are joined.
+/// of them: 1/(r - 1) times as much, r^2 the panels in a cluster in the mean. The changes
+/// themselves where four are joined everywhere; more where hulls are few panels wide or high, which
+/// leave panels alone. Infinite where none are joined.
 Eigen::VectorXd error_of_panels(const Eigen::VectorXd& changes, const PanelClusters& clusters);
 
 /// Clusters of several panels that lie in a plane.
@@ -58,8 +58,8 @@ struct FlatClusters {
 };
 
 /// A mesh of larger panels has its equations there. In the mean over a cluster they are felt as
-/// closely by what lies around a sharp edge as those of its panels are, so that heave of a box would
-/// change by next to nothing. Where a hull is curved the middle lies within it.
+/// closely by what lies around a sharp edge as those of its panels are, so that heave of a box
+/// would change by next to nothing. Where a hull is curved the middle lies within it.
 FlatClusters find_flat_clusters(const PanelMesh& mesh, const PanelClusters& clusters);
 
 }  // namespace blocklift::dynamics

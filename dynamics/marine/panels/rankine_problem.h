@@ -118,7 +118,8 @@ class RankinePart {
                      const std::vector<int>& own, int threads, Influence& influence) const;
   void solve_coarser(const PanelModel& model, const Influence& influence, const Areas& areas,
                      const RankineSettings& settings);
-  /// Puts the bodies' equations at the middles of their flat clusters in place of those in the mean.
+  /// Puts the bodies' equations at the middles of their flat clusters in place of those in the
+  /// mean.
   void take_rows_at_middles(const PanelModel& model, const CoarserPanels& panels, int threads,
                             Influence& coarse) const;
   /// Factorises the matrices and reduces them to the surface.

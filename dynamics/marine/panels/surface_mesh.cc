@@ -65,6 +65,42 @@ HalfPlane separate(const PlanePolygon& first, const PlanePolygon& second, double
   return half;
 }
 
+/// A circle about a water line.
+struct Circle {
+  Vector2 centre;
+  double radius;
+};
+
+Circle circle_about(const PlanePolygon& line) {
+  Circle circle{centroid(line), 0.0};
+  for (const Vector2& p : line) circle.radius = std::max(circle.radius, (p - circle.centre).norm());
+  return circle;
+}
+
+/// Do no two of the circles meet?
+bool are_apart(std::span<const Circle> circles) {
+  for (std::size_t i = 0; i < circles.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double distance = (circles[i].centre - circles[j].centre).norm();
+      if (!(distance > circles[i].radius + circles[j].radius)) return false;
+    }
+  }
+  return true;
+}
+
+/// The half-plane of the first circle, bounded by the radical axis of both: the points from which
+/// tangents to both are equally long.
+HalfPlane separate_circles(const Circle& first, const Circle& second) {
+  const Vector2 between = second.centre - first.centre;
+  const double distance = between.norm();
+  const double along = 0.5 * distance + 0.5 * (first.radius - second.radius) *
+                                            (first.radius + second.radius) / distance;
+  HalfPlane half;
+  half.normal = between / distance;
+  half.offset = half.normal.dot(first.centre) + along;
+  return half;
+}
+
 class SurfaceMesher {
  public:
   SurfaceMesher(std::span<const WaterLine> lines, const SurfaceMeshSettings& settings);
@@ -84,6 +120,7 @@ class SurfaceMesher {
     bool on_circle;  ///< on the common circle, or half way to another body
   };
 
+  void divide_between_bodies();
   void mesh_body(const Body& body);
   std::vector<double> ray_angles(const Body& body) const;
   RayEnd shoot(const Body& body, const Vector2& from, double angle) const;
@@ -135,18 +172,32 @@ SurfaceMesher::SurfaceMesher(std::span<const WaterLine> lines, const SurfaceMesh
     for (const Vector2& p : body.line)
       inner_radius_ = std::max(inner_radius_, (p - centre_).norm());
   }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    for (std::size_t j = 0; j < bodies_.size(); ++j) {
-      if (i == j) continue;
-      bodies_[i].region.push_back(separate(bodies_[i].line, bodies_[j].line, bodies_[i].gap));
-    }
-  }
+  divide_between_bodies();
   if (!(settings.radius > 1.5 * inner_radius_)) {
     throw ModelError("the surface mesh ends at " + std::to_string(settings.radius) +
                      " m, but the bodies reach " + std::to_string(inner_radius_) +
                      " m: its radius must be at least one and a half times as large");
   }
   common_radius_ = bodies_.size() == 1 ? settings.radius : 1.35 * inner_radius_;
+}
+
+/// Half way between each two bodies. Lines that lie half way need not meet in points where three
+/// bodies do, as the columns of a platform: something is left out or covered twice. Radical axes
+/// do meet, and divide the plane if circles about the water lines are apart (Aurenhammer 1987).
+void SurfaceMesher::divide_between_bodies() {
+  std::vector<Circle> circles;
+  for (const Body& body : bodies_) circles.push_back(circle_about(body.line));
+  const bool by_circles = bodies_.size() > 2 && are_apart(circles);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    for (std::size_t j = 0; j < bodies_.size(); ++j) {
+      if (i == j) continue;
+      body.region.push_back(separate(body.line, bodies_[j].line, body.gap));
+      if (!by_circles) continue;
+      const HalfPlane& half = body.region.back() = separate_circles(circles[i], circles[j]);
+      for (const Vector2& p : body.line) body.gap = std::min(body.gap, -2.0 * half.excess(p));
+    }
+  }
 }
 
 /// Directions (rad) of the rays from the vertices of a water line: evenly fanned out over the whole
@@ -192,7 +243,10 @@ std::vector<SurfaceMesher::RayEnd> SurfaceMesher::find_corners(const Body& body)
     const double tolerance = 1e-9 * common_radius_;
     const bool outside = std::any_of(body.region.begin(), body.region.end(),
                                      [&](const auto& cut) { return cut.excess(p) > tolerance; });
-    if (!outside && (p - centre_).norm() < common_radius_ + tolerance) {
+    const bool known = std::any_of(corners.begin(), corners.end(), [&](const RayEnd& corner) {
+      return (corner.p - p).norm() < tolerance;
+    });
+    if (!outside && !known && (p - centre_).norm() < common_radius_ + tolerance) {
       corners.push_back({p, on_circle});
     }
   };

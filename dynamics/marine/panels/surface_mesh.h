@@ -34,12 +34,13 @@ struct SurfaceMesh {
 };
 
 /// Quadrangles in rings around each water line, with their vertices on its vertices, growing
-/// outwards. Each body has its region: the plane is divided half way between neighbouring bodies.
+/// outwards. Each body has its region: the plane is divided half way between neighbouring bodies, or,
+/// of three and more around which circles do not meet, by the radical axes of these circles.
 /// Beyond the circle that holds all bodies the rings are common. A body's rays run square off its
 /// water line first, then straight, fanned out evenly, to the edge of its region. Panels of one
 /// region need not meet those of the next at their corners: the potential is constant on a panel.
-/// Water that a body embraces, a moonpool or the gap to one body that floats in it, has rings of its
-/// own (mesh_enclosed_surface).
+/// Water that a body embraces, a moonpool or the gap to one body that floats in it, has rings of
+/// its own (mesh_enclosed_surface).
 /// Without water lines there is no surface: an empty mesh.
 /// @throws ModelError if water lines intersect, one is not star-shaped enough for the rays, the
 /// regions of three or more bodies do not fill the plane, or a setting is out of range.

@@ -39,8 +39,8 @@ class ImpulseRun {
 
   /// Marches. `progress`, if any, is called with each step's number and how many there will be as
   /// far as is known.
-  /// @param step s. @param beside another run that is marched side by side with this one by the same
-  ///   steps and is as long; null: none. @returns the number of steps.
+  /// @param step s. @param beside another run that is marched side by side with this one by the
+  ///   same steps and is as long; null: none. @returns the number of steps.
   long run(double step, const RunLength& length, ImpulseRun* beside,
            const std::function<void(long step, long steps)>& progress = {});
 
@@ -54,8 +54,8 @@ class ImpulseRun {
   /// After run(), with_elevation: integral of W^1/2 eta e^{-i w t} for a frequency (index), panels
   /// x modes.
   Eigen::MatrixXcd elevation(std::size_t frequency) const;
-  /// After run(), by estimate: what its end cuts off of each mode's force on itself, as |B + i w A|;
-  /// modes x frequencies, images included. Runs that ended after three fifths of the steps, and
+  /// After run(), by estimate: what its end cuts off of each mode's force on itself, as |B + i w
+  /// A|; modes x frequencies, images included. Runs that ended after three fifths of the steps, and
   /// after three fifths of those, would differ by D and d from this one, at most over the
   /// frequencies. What fades as exp(-r t) leaves an error of the same kind, so that (D/d)^(5/3) = q
   /// is what this run's error is of the first's; it is D q/(1 - q), and no more than D.

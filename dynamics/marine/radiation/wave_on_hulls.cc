@@ -12,8 +12,8 @@ struct PointOnPanel {
   double area;  ///< its share of the panel's
 };
 
-/// 2 x 2 points of Gauss' rule. The fourth vertex of a triangle is its third: the map onto the square
-/// is singular there and nowhere else, and no point lies there.
+/// 2 x 2 points of Gauss' rule. The fourth vertex of a triangle is its third: the map onto the
+/// square is singular there and nowhere else, and no point lies there.
 std::array<PointOnPanel, 4> points_on(const Panel& panel) {
   constexpr double at = std::numbers::inv_sqrt3;
   const auto& [a, b, c, d] = panel.vertices;

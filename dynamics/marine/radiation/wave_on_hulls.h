@@ -6,11 +6,13 @@
 
 namespace blocklift::dynamics {
 
-/// The potential of a regular wave over the hulls' panels, by Gauss' rule with 2 x 2 points on each.
+/// The potential of a regular wave over the hulls' panels, by Gauss' rule with 2 x 2 points on
+/// each.
 ///
-/// The wave's moment in roll is the small rest of what it does to bottom and sides. A panel's middle
-/// alone would leave out a share of the bottom's that grows with the square of the panels over the
-/// breadth, and with it most of that rest. The rule is exact up to a cubic potential times the arm.
+/// The wave's moment in roll is the small rest of what it does to bottom and sides. A panel's
+/// middle alone would leave out a share of the bottom's that grows with the square of the panels
+/// over the breadth, and with it most of that rest. The rule is exact up to a cubic potential times
+/// the arm.
 class WaveOnHulls {
  public:
   /// Copies what it needs of the model.

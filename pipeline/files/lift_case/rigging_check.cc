@@ -11,7 +11,8 @@ bool same_point(const ResolvedPoint& a, const ResolvedPoint& b) {
   return a.kind == b.kind && a.crane == b.crane && a.part == b.part && a.point == b.point;
 }
 
-/// Complains about sheaves on the load or a spreader: only the forces of rope ends reach its stress.
+/// Complains about sheaves on the load or a spreader: only the forces of rope ends reach its
+/// stress.
 void check_sheaves(const RopeInCase& rope, Diagnostics& diagnostics) {
   for (std::size_t i = 1; i + 1 < rope.path.size(); ++i) {
     const bool on_load = rope.path[i].kind == ResolvedPoint::Kind::load;

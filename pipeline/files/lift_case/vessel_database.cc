@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/content_hash.h"
+#include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "pipeline/formats/hydrodynamics/radiation_check.h"
 
@@ -200,14 +202,18 @@ void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostic
   }
 }
 
-std::string doubt_about_database(const std::vector<VesselInCase>& vessels) {
+std::vector<std::string> doubts_about_database(const std::vector<VesselInCase>& vessels) {
+  std::vector<std::string> sentences;
   for (const VesselInCase& vessel : vessels) {
     if (vessel.radiation.value == RadiationMethod::none || !vessel.hydrodynamics) continue;
-    const std::string doubt = doubt_about_memory(*vessel.hydrodynamics);
-    if (doubt.empty()) return {};
-    return fmt::format("Database {}: {}.", vessel.database->value, doubt);
+    std::vector<std::string> doubts = doubts_about_conventions(*vessel.hydrodynamics);
+    if (std::string memory = doubt_about_memory(*vessel.hydrodynamics); !memory.empty())
+      doubts.insert(doubts.begin(), std::move(memory));
+    for (const std::string& doubt : doubts)
+      sentences.push_back(fmt::format("Database {}: {}.", vessel.database->value, doubt));
+    return sentences;
   }
-  return {};
+  return sentences;
 }
 
 }  // namespace blocklift::pipeline

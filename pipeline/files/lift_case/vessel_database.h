@@ -19,8 +19,9 @@ void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesy
 /// headings that do not go all around. Complains about lids beside a database, or without waves.
 void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostics& diagnostics);
 
-/// That the memory of a database that vessels name does not give back its added mass and damping
-/// (doubt_about_memory); empty if it does.
-std::string doubt_about_database(const std::vector<VesselInCase>& vessels);
+/// What is doubtful of the database that vessels name, in sentences: that its memory does not give
+/// back its added mass and damping (doubt_about_memory), and that its figures contradict each other
+/// (doubts_about_conventions).
+std::vector<std::string> doubts_about_database(const std::vector<VesselInCase>& vessels);
 
 }  // namespace blocklift::pipeline

@@ -16,6 +16,7 @@
 #include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/mechanism/urdf_import.h"
 #include "pipeline/files/named_file.h"
+#include "pipeline/files/vessel/wetted_mesh.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -119,7 +120,13 @@ void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
   if (diagnostics.has_errors()) return;
   if (std::string doubt = doubt_about_sea(mechanism, -g.z()); !doubt.empty())
     mechanism.doubts.push_back(std::move(doubt));
-  if (std::string doubt = doubt_about_database(mechanism.vessels); !doubt.empty())
+  for (const VesselInCase& vessel : mechanism.vessels) {
+    if (!vessel.model) continue;
+    if (std::string doubt = doubt_about_size("vessel " + vessel.name.value, vessel.model->hull);
+        !doubt.empty())
+      mechanism.doubts.push_back(std::move(doubt));
+  }
+  for (std::string& doubt : doubts_about_database(mechanism.vessels))
     mechanism.doubts.push_back(std::move(doubt));
 }
 

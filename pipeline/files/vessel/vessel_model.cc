@@ -1,11 +1,9 @@
 #include "pipeline/files/vessel/vessel_model.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <set>
-#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,6 +14,7 @@
 #include "pipeline/declaration/format_once.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/named_file.h"
+#include "pipeline/files/vessel/wetted_mesh.h"
 
 namespace blocklift::pipeline {
 
@@ -46,39 +45,14 @@ void require_few_panels(const Shape& shape, double panel_size) {
       shape.length, shape.breadth, shape.depth, panel_size, panels, most));
 }
 
-/// A hull that ends at z = 0 goes on upright above it, by as much as it is deep, and is closed
-/// there; panels in z = 0 (lids) are left out. A hull that reaches higher stays as it is.
-dynamics::Hull with_freeboard(const dynamics::Hull& wetted) {
-  const std::array<Vector3, 2> bounds = wetted.bounds();
-  const Vector3 &low = bounds[0], &high = bounds[1];
-  const double tolerance = 1e-5 * (high - low).norm();
-  if (high.z() > tolerance) return wetted;
-  dynamics::Hull hull(wetted.name());
-  for (const Vector3& vertex : wetted.vertices()) hull.add_vertex(vertex);
-  const auto at_surface = [&](int vertex) { return wetted.vertex(vertex).z() > -tolerance; };
-  std::set<std::pair<int, int>> edges;
-  for (int k = 0; k < wetted.panel_count(); ++k) {
-    const std::span<const int> panel = wetted.panel(k);
-    if (std::all_of(panel.begin(), panel.end(), at_surface)) continue;
-    hull.add_panel(panel);
-    for (std::size_t i = 0; i < panel.size(); ++i) {
-      edges.insert({panel[i], panel[(i + 1) % panel.size()]});
-    }
+/// Each defect, the last with what the mesh as a whole tells.
+void complain_about_mesh(const dynamics::Hull& hull, const dynamics::HullDemands& demands,
+                         const Mark& mark, Diagnostics& diagnostics) {
+  const std::vector<dynamics::HullDefect> defects = dynamics::diagnose(hull, demands);
+  for (std::size_t d = 0; d < defects.size(); ++d) {
+    diagnostics.error(mark, defects[d].message,
+                      d + 1 < defects.size() ? std::vector<std::string>() : hints_on_mesh(hull));
   }
-  std::map<int, int> raised;
-  const auto raise = [&](int vertex) {
-    const auto [known, is_new] = raised.try_emplace(vertex, 0);
-    if (is_new) {
-      const Vector3& p = wetted.vertex(vertex);
-      known->second = hull.add_vertex({p.x(), p.y(), -low.z()});
-    }
-    return known->second;
-  };
-  for (const auto& [from, to] : edges) {
-    if (edges.contains({to, from}) || !at_surface(from) || !at_surface(to)) continue;
-    hull.add_panel({to, from, raise(from), raise(to)});
-  }
-  return with_lids(hull, tolerance);
 }
 
 }  // namespace
@@ -120,9 +94,7 @@ std::optional<Vessel> read_vessel(const std::filesystem::path& file, Diagnostics
     vessel.hull.set_name(name_of_input(file));
     dynamics::HullDemands demands{.largest_warp = 0.5};
     if (vessel.model.hydrodynamics.as_meshed) demands.water_level = 0.0;
-    for (const dynamics::HullDefect& defect : dynamics::diagnose(vessel.hull, demands)) {
-      diagnostics.error(mark, defect.message);
-    }
+    complain_about_mesh(vessel.hull, demands, mark, diagnostics);
     if (diagnostics.error_count() == errors_before && !vessel.model.hydrodynamics.as_meshed) {
       find_floating_position(dynamics::HullClusters(vessel.hull), vessel.body());
     }

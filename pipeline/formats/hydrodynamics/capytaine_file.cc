@@ -300,7 +300,7 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
         fmt::format("{}{} ({})", imported_from, path.filename().string(), program);
     return HydrodynamicFile{{}, origin, dynamics::make_series(0, {0.0}, {std::move(database)})};
   };
-  if (ending == ".1" || ending == ".3" || ending == ".hst") {
+  if (ending == ".1" || ending == ".2" || ending == ".3" || ending == ".hst") {
     std::filesystem::path name = path;
     return imported("WAMIT", read_wamit(name.replace_extension(), scales));
   }
@@ -313,8 +313,9 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
     if (read_identity(path)) return read_hydrodynamic_file(path);
     return imported("BEMIO", read_bemio(path));
   }
-  throw HydrodynamicFileError(path.string() + ": the ending \"" + ending +
-                              "\" is none of .h5 (BEMIO), .1, .3, .hst (WAMIT), .nc (Capytaine)");
+  throw HydrodynamicFileError(
+      path.string() + ": the ending \"" + ending +
+      "\" is none of .h5 (BEMIO), .1, .2, .3, .hst (WAMIT), .nc (Capytaine)");
 }
 
 }  // namespace blocklift::pipeline

@@ -27,7 +27,7 @@ struct WamitScales {
   std::vector<WamitBody> bodies = {};  ///< in their order; empty: a single one at the origin
 };
 
-/// By the ending: .1, .3, .hst WAMIT (all three of the name); .nc Capytaine; .h5 BEMIO, or our own.
+/// By the ending: .1, .2, .3, .hst WAMIT (all of the name); .nc Capytaine; .h5 BEMIO, or our own.
 /// `scales.bodies` of a file that tells them itself are refused.
 /// Those of other programs are passive (require_passive).
 HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path, const WamitScales& scales);
@@ -46,9 +46,9 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path, const W
 dynamics::HydrodynamicDatabase read_bemio(const std::filesystem::path& path);
 void write_bemio(const std::filesystem::path& path, const dynamics::HydrodynamicDatabase& database);
 
-/// WAMIT's numeric output: `name`.1, and where they are `name`.3 and `name`.hst.
+/// WAMIT's numeric output: `name`.1, and where they are `name`.3, else .2, and `name`.hst.
 ///   .1    PER I J A [B]                   A / (rho L^k), B / (rho L^k w)
-///   .3    PER BETA I |X| phase Re Im      X / (rho g a L^m)
+///   .3, .2   PER BETA I |X| phase Re Im      X / (rho g a L^m)
 ///   .hst  I J C                           C / (rho g L^(k-1))
 ///   .7, .9, .8   PER BETA1 BETA2 I |F| phase Re Im   F / (rho g a^2 L^(m-1)), where BETA1 = BETA2
 /// Mean drift forces come from the first of these endings that is there, .8 for a single body only.

@@ -94,6 +94,19 @@ bool is_symmetric(double flag, const char* name, const Numbers& numbers) {
                "; 0 (no symmetry) or 1 (a plane of symmetry) is due");
 }
 
+/// A hull that is to be mirrored lies on one side of the plane.
+void require_one_side(const std::array<dynamics::Vector3, 2>& box, int axis, double tolerance,
+                      const Numbers& numbers) {
+  const double low = box[0][axis], high = box[1][axis];
+  if (low >= -tolerance || high <= tolerance) return;
+  const char* const name = axis == 0 ? "x" : "y";
+  std::ostringstream text;
+  text << (axis == 0 ? "ISX" : "ISY") << " is 1 in line 3, so that the panels are one side of "
+       << name << " = 0, but they reach from " << name << " = " << low << " m to " << high
+       << " m; give 0 if the mesh is whole, or leave out one of its halves";
+  numbers.fail(text.str());
+}
+
 }  // namespace
 
 dynamics::Hull read_gdf(const std::filesystem::path& path, double merge_tolerance) {
@@ -121,6 +134,9 @@ dynamics::Hull read_gdf(const std::filesystem::path& path, double merge_toleranc
   }
   const auto box = hull.bounds();
   const double tolerance = merge_tolerance * (box[1] - box[0]).norm();
+  const double off_plane = 1e-4 * (box[1] - box[0]).norm();
+  if (mirror_x) require_one_side(box, 0, off_plane, numbers);
+  if (mirror_y) require_one_side(box, 1, off_plane, numbers);
   hull = merge_vertices(hull, tolerance);
   if (hull.panel_count() == 0) numbers.fail("no panel has three vertices in different places");
   if (mirror_x) hull = with_mirror_image(hull, 0, tolerance);

@@ -9,6 +9,7 @@
 #include <gmsh.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_diagnosis.h"
 #include "structure/child_process.h"
 #include "structure/error.h"
 #include "structure/letter_case.h"
@@ -117,6 +118,30 @@ dynamics::Hull read_by_gmsh(const std::filesystem::path& path, bool is_geometry,
   return hull;
 }
 
+/// With lids on its openings, which are those of a hull that is open at the top: one that looks
+/// down or sideways is where panels are missing, or the other half of the hull.
+dynamics::Hull closed_above(const dynamics::Hull& hull, double tolerance) {
+  constexpr double steepest = 0.5;  // cosine to the plumb
+  // Lids would be put on both sides of panels that are turned round.
+  for (const dynamics::HullDefect& defect : dynamics::diagnose(hull, {.most_of_a_kind = 1})) {
+    if (defect.kind == dynamics::HullDefectKind::twisted_edge)
+      throw dynamics::ModelError(defect.message);
+  }
+  dynamics::Hull closed = with_lids(hull, tolerance);
+  for (int panel = hull.panel_count(); panel < closed.panel_count(); ++panel) {
+    const dynamics::Vector3 area = closed.panel_area_vector(panel);
+    if (area.z() >= steepest * area.norm()) continue;
+    const dynamics::Vector3 middle = closed.panel_midpoint(panel);
+    throw dynamics::ModelError(fmt::format(
+        "hull \"{}\": close_openings closes what is open at the top, and the opening at ({:.4g}, "
+        "{:.4g}, {:.4g}) m looks {}; add the panels that are missing there, mirror a mesh that is "
+        "the half of a hull (ISX, ISY of a .gdf), or turn panels round that look inwards",
+        hull.name(), middle.x(), middle.y(), middle.z(),
+        area.z() <= -steepest * area.norm() ? "down" : "sideways"));
+  }
+  return closed;
+}
+
 }  // namespace
 
 dynamics::Hull read_hull(const std::filesystem::path& path, const HullReading& reading) {
@@ -141,7 +166,7 @@ dynamics::Hull read_hull(const std::filesystem::path& path, const HullReading& r
   try {
     hull = merge_vertices(hull, tolerance);
     if (ending == ".geo") hull = turned_outwards(hull);
-    if (reading.close_openings) hull = with_lids(hull, 1e3 * tolerance);
+    if (reading.close_openings) hull = closed_above(hull, 1e3 * tolerance);
   } catch (const dynamics::ModelError& error) {
     throw HullFileError(path.string() + ": " + error.what());
   }

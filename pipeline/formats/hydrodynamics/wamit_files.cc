@@ -98,9 +98,11 @@ class TextFile {
   }
 
   /// A line that comes again, as of two runs in one file, must say the same.
+  /// @param largest of its kind: what should be nothing is the rounding of that, another one in
+  ///   each run.
   template <class Value>
-  void take(const Line& line, bool is_new, Value& place, const Value& value) const {
-    if (!is_new && std::abs(value - place) > 1e-6 * std::abs(place))
+  void take(const Line& line, bool is_new, Value& place, const Value& value, double largest) const {
+    if (!is_new && std::abs(value - place) > 1e-6 * largest)
       fail(line.number, "comes a second time, with other figures");
     place = value;
   }
@@ -131,6 +133,20 @@ class TextFile {
   }
 
   fs::path path_;
+};
+
+/// The largest figures of a file of those that have one unit, at each period.
+class LargestOfKind {
+ public:
+  /// @param kind tells units apart, at a period.
+  void add(double period, int kind, double value) {
+    double& largest = largest_[{period, kind}];
+    largest = std::max(largest, std::abs(value));
+  }
+  double at(double period, int kind) const { return largest_.at({period, kind}); }
+
+ private:
+  std::map<std::pair<double, int>, double> largest_;
 };
 
 /// Frequencies in rad/s by the periods that the file has.
@@ -229,11 +245,16 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
                                       Periods& periods, HydrodynamicDatabase& database) {
   const TextFile file(path);
   const std::vector<Line> lines = file.lines();
+  LargestOfKind largest_mass, largest_damping;
   Eigen::Index modes = modes_per_body;
   for (const Line& line : lines) {
     file.require_columns(line, 4, "period, two modes, added mass and damping");
     periods.take(line.values[0]);
-    modes = std::max({modes, file.mode(line, 1) + 1, file.mode(line, 2) + 1});
+    const Eigen::Index i = file.mode(line, 1), j = file.mode(line, 2);
+    modes = std::max({modes, i + 1, j + 1});
+    largest_mass.add(line.values[0], rotations(i, j), line.values[3]);
+    if (line.values.size() > 4)
+      largest_damping.add(line.values[0], rotations(i, j), line.values[4]);
   }
   const Eigen::Index bodies = (modes + modes_per_body - 1) / modes_per_body;
   modes = modes_per_body * bodies;
@@ -259,20 +280,22 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
     if (period < 0.0) continue;
     const Eigen::Index i = file.mode(line, 1), j = file.mode(line, 2);
     const double scale = radiation_scale(scales.water, scales.length, i, j);
+    const double mass = scale * largest_mass.at(period, rotations(i, j));
     if (period == 0.0) {
       if (database.infinite_added_mass.size() == 0) {
         database.infinite_added_mass = MatrixXd::Zero(modes, modes);
       }
       file.take(line, infinite.emplace(i, j).second, database.infinite_added_mass(i, j),
-                scale * line.values[3]);
+                scale * line.values[3], mass);
       continue;
     }
     file.require_columns(line, 5, "period, two modes, added mass and damping");
     const std::size_t k = periods.index.at(period);
     const bool is_new = entries[k].emplace(i, j).second;
-    file.take(line, is_new, database.added_mass[k](i, j), scale * line.values[3]);
-    file.take(line, is_new, database.damping[k](i, j),
-              scale * database.frequencies[k] * line.values[4]);
+    const double rate = scale * database.frequencies[k];
+    file.take(line, is_new, database.added_mass[k](i, j), scale * line.values[3], mass);
+    file.take(line, is_new, database.damping[k](i, j), rate * line.values[4],
+              rate * largest_damping.at(period, rotations(i, j)));
   }
   require_all_pairs(path, entries, infinite, database);
   std::set<Eigen::Index> radiating;
@@ -294,9 +317,12 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
   const TextFile file(path);
   const std::vector<Line> lines = file.lines();
   std::map<double, std::size_t> headings;
+  LargestOfKind largest;
   for (const Line& line : lines) {
     file.require_columns(line, 7, "period, heading, mode, modulus, phase, real and imaginary part");
     headings.emplace(line.values[1], 0);
+    largest.add(line.values[0], is_rotation(file.mode(line, 2)) ? 1 : 0,
+                std::hypot(line.values[5], line.values[6]));
   }
   for (auto& [heading, place] : headings) {
     place = database.headings.size();
@@ -319,7 +345,8 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
     const std::size_t h = headings.at(line.values[1]);
     file.take(line, found[{period->second, h}].insert(i).second,
               database.diffraction[period->second](i, static_cast<Eigen::Index>(h)),
-              scale * std::complex<double>(line.values[5], line.values[6]));
+              scale * std::complex<double>(line.values[5], line.values[6]),
+              scale * largest.at(line.values[0], is_rotation(i) ? 1 : 0));
   }
   if (found.size() < database.frequencies.size() * headings.size()) {
     throw HydrodynamicFileError(
@@ -406,13 +433,19 @@ void read_stiffness(const fs::path& path, const WamitScales& scales,
   const TextFile file(path);
   const Eigen::Index modes = database.mode_count();
   database.hydrostatic_stiffness = MatrixXd::Zero(modes, modes);
-  Pairs found;
-  for (const Line& line : file.lines()) {
+  const std::vector<Line> lines = file.lines();
+  LargestOfKind largest;
+  for (const Line& line : lines) {
     file.require_columns(line, 3, "two modes and a stiffness");
+    largest.add(0, rotations(file.mode(line, 0), file.mode(line, 1)), line.values[2]);
+  }
+  Pairs found;
+  for (const Line& line : lines) {
     const Eigen::Index i = file.mode(line, 0), j = file.mode(line, 1);
     if (i >= modes || j >= modes) file.fail(line.number, "a mode that the .1 file does not have");
+    const double scale = stiffness_scale(scales.water, scales.length, i, j);
     file.take(line, found.emplace(i, j).second, database.hydrostatic_stiffness(i, j),
-              stiffness_scale(scales.water, scales.length, i, j) * line.values[2]);
+              scale * line.values[2], scale * largest.at(0, rotations(i, j)));
   }
   // Between bodies there is none, and a file may leave it out.
   for (Eigen::Index i = 0; i < modes; ++i) {
@@ -489,8 +522,12 @@ HydrodynamicDatabase read_wamit(const fs::path& name, const WamitScales& scales)
       read_radiation(with_ending(name, ".1"), scales, periods, database);
   const Eigen::Index modes = database.mode_count();
   database.diffraction.assign(database.frequencies.size(), Eigen::MatrixXcd::Zero(modes, 0));
-  if (const fs::path path = with_ending(name, ".3"); fs::exists(path)) {
+  // By the diffraction potential, or by Haskind's relation.
+  for (const char* ending : {".3", ".2"}) {
+    const fs::path path = with_ending(name, ending);
+    if (!fs::exists(path)) continue;
     read_excitation(path, scales, periods, radiating, database);
+    break;
   }
   if (const auto path = find_mean_drift(name, database.body_count());
       path && !database.headings.empty()) {

@@ -22,7 +22,8 @@ struct RectangularSection {
 ///
 /// Matched eigenfunctions. Beneath the box (height d, s that above the bottom) and on a side of it
 ///
-///   phi = phi_p + sum_n (c_n f_n(x) + e_n f_n(-x)) cos(n pi s/d),    phi = sum_m a_m Z_m(s) E_m(x),
+///   phi = phi_p + sum_n (c_n f_n(x) + e_n f_n(-x)) cos(n pi s/d),
+///   phi = sum_m a_m Z_m(s) E_m(x),
 ///
 /// Z_m the wave and what stays beside it, E_m going outwards or even across the gap; phi_p has the
 /// box's motion at its bottom. At its sides the potentials are equal beneath, and the velocities

@@ -304,6 +304,19 @@ void number(Mesh& mesh) {
   mesh.vertex_labels.clear();
 }
 
+/// OpenCASCADE crashes where a flange ends on another plate or crosses it within its outline.
+std::string what_may_crash(const BlockDescription& block) {
+  std::string plates;
+  for (const Stiffeners& row : block.free_stiffeners)
+    if (row.plates && row.plates->flange_thickness > 0)
+      plates += fmt::format("{}\"{}\"", plates.empty() ? "" : ", ", row.plate);
+  if (plates.empty()) return plates;
+  return fmt::format(
+      "; it cannot cut flanges of stiffeners that end on another plate or cross it within its "
+      "outline: if those on {} do, make them beams or flat bars",
+      plates);
+}
+
 }  // namespace
 
 Mesh mesh_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
@@ -338,8 +351,8 @@ Mesh mesh_with_free_plates(const BlockDescription& block, const SheetGrid& grid,
     number(mesh);
     return mesh;
   } catch (const ChildDied& death) {
-    throw ModelError(
-        fmt::format("the program that cuts the block's plates at their joints {}", death.what()));
+    throw ModelError(fmt::format("the program that cuts the block's plates at their joints {}{}",
+                                 death.what(), what_may_crash(block)));
   }
 }
 

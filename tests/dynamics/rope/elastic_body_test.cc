@@ -368,8 +368,9 @@ TEST(ElasticBody, AUniformBeamOnThreeRopesSharesItsWeight) {
 }
 
 // A uniform beam that hangs from its middle on one upright rope of stiffness k vibrates upright
-// where the beam's receptance there is -1/k. Of the free beam, with x = bL / 2, by its halves, whose
-// slope vanishes in the middle (Bishop and Johnson 1960, The Mechanics of Vibration, chapter 7):
+// where the beam's receptance there is -1/k. Of the free beam, with x = bL / 2, by its halves,
+// whose slope vanishes in the middle (Bishop and Johnson 1960, The Mechanics of Vibration,
+// chapter 7):
 //   k (1 + cos x cosh x) = 2 EI b^3 (sin x cosh x + cos x sinh x).
 // This is against six modes of the free beam and the compliance of 34 more, whose inertia is
 // neglected: a frequency changes by about (omega / omega_13)^4. What the modes beyond have of the

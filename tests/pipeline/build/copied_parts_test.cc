@@ -301,7 +301,7 @@ TEST(CopiedParts, AMirroredHalfIsTheBlockWrittenOut) {
 }
 
 // The flange of a profile that is not symmetric is mirrored, too: the whole has its centre of mass
-// in the plane and as high as that of its half.
+// in the plane and as high as that of its half, and its shear centres lie on both sides alike.
 TEST(CopiedParts, BulbsAreMirroredWithTheirPlates) {
   const std::string beams =
       "plates:\n"
@@ -316,15 +316,18 @@ TEST(CopiedParts, BulbsAreMirroredWithTheirPlates) {
   EXPECT_NEAR(whole.mass, 2 * one_side.mass, 1e-9 * whole.mass);
   EXPECT_NEAR(whole.centre.y(), 0, 1e-12);
   EXPECT_NEAR(whole.centre.z(), one_side.centre.z(), 1e-12);
-  double product = 0, magnitude = 0;
+  double product = 0, magnitude = 0, aside = 0;
   for (const structure::Beam& beam : mesh.beams) {
     const structure::BeamSection& section = mesh.beam_sections[beam.section];
     const Eigen::Vector3d axis_3 = Eigen::Vector3d::UnitX().cross(beam.axis_2);
     product += section.product_23 * (beam.axis_2.y() * axis_3.z() + beam.axis_2.z() * axis_3.y());
     magnitude = std::max(magnitude, std::abs(section.product_23));
+    aside += mesh.vertices[beam.vertices[0]].y() + beam.offset[0].y() +
+             section.shear_centre[0] * beam.axis_2.y() + section.shear_centre[1] * axis_3.y();
   }
   EXPECT_GT(magnitude, 0);
   EXPECT_NEAR(product, 0, 1e-9 * magnitude);
+  EXPECT_NEAR(aside, 0, 1e-9);
 }
 
 TEST(CopiedParts, RepeatedLongitudinalsMakeAGridByLabels) {

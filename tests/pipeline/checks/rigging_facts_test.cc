@@ -108,6 +108,28 @@ LiftCase spreader_case(const test::TemporaryFolder& folder) {
   return lift_case;
 }
 
+// A rule of levers: lugs and sheaves are 4 m apart, so that a centre 0.2 m out of the middle brings a
+// hook 2.2 / 2 of the load, whatever its own block weighs. The load tilts by its ropes' stretch, which
+// moves its centre by some tenths of a millimetre.
+TEST(RiggingFacts, CentreBoxOfAHookLeavesItsBlockOut) {
+  const test::TemporaryFolder folder;
+  test::SampleLift lift;
+  lift.lift_case = test::with(lift.lift_case, "settle: 10 s", "settle: 0 s");
+  lift.write(folder);
+  LiftCase lift_case = read_lift_case("case.yaml");
+  lift_case.standard.emplace();
+  lift_case.standard->centre_box = Vector3(0.2, 0, 0);
+  const LiftRun run = run_below_spreader(lift_case, 0);
+  const RiggingFacts rigging(lift_case, run, {}, {});
+  for (std::size_t hoist = 0; hoist < 2; ++hoist) {
+    const ComputedFactors computed = rigging.of_hook(hoist, 0);
+    ASSERT_TRUE(computed.centre_box);
+    EXPECT_NEAR(*computed.centre_box, 1.1, 5e-4);
+  }
+  // The crane bears all of the load wherever its centre is.
+  EXPECT_NEAR(rigging.of_crane(0, 0).centre_box.value(), 1, 1e-6);
+}
+
 // Second method: the equilibrium of a lift whose centre of mass is where the box has its corner.
 // The balance is of the first order, so that a quarter of its error is left when the box is halved.
 TEST(RiggingFacts, CentreBoxBelowASpreaderIsThatOfAShiftedLoad) {

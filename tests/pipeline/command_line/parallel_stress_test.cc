@@ -115,7 +115,8 @@ TEST_F(ParallelStress, OtherCommandsAreRefused) {
 }
 
 /// A plate of 4 x 2 m and 12 mm in 16 x 8 shells, clamped along x = 0, with an upright plate along
-/// its middle; its free edge follows a node rigidly, which carries 3 kN down. Nodes along y, then x.
+/// its middle; its free edge follows a node rigidly, which carries 3 kN down. Nodes along y, then
+/// x.
 std::string cantilever_deck() {
   std::string grids, shells, link = "RBE2,900,999,123456";
   const auto label = [](int i, int j) { return 1 + 20 * i + j; };

@@ -1,4 +1,5 @@
 // `blocklift stress` on the load cases of a block's deck, as a user meets it: run as a process.
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -153,6 +154,23 @@ TEST_F(StressOfDeck, DecksWithoutCasesAreRefused) {
   const Outcome outcome = stress("strip.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("has no load case of its own that could be solved"));
+}
+
+// Where all loads of a deck are of a kind that is left out, it is said where they stand.
+TEST_F(StressOfDeck, LoadsThatAreAllLeftOutAreNamed) {
+  std::string text = strip_deck;
+  text.replace(text.find("SUBCASE 1"), text.find("BEGIN BULK") - text.find("SUBCASE 1"),
+               "SUBCASE 1\n  SPC = 1\n  LOAD = 30\n");
+  text.insert(text.find("SPC1,1,123456,11,14"), "ACCEL,30,,0.,0.,1.,Z,10.\n");
+  folder_.write("strip.bdf", text);
+  const long line =
+      std::count(text.begin(), text.begin() + static_cast<long>(text.find("ACCEL")), '\n') + 1;
+  const Outcome outcome = stress("strip.yaml -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("no load acts in case 1"),
+                                 HasSubstr("strip.bdf:" + std::to_string(line) +
+                                           ": ACCEL: 0 of 1 "
+                                           "used; left out: ")));
 }
 
 TEST_F(StressOfDeck, OptionsOfPartsAreRefused) {

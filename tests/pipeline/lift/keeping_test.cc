@@ -77,7 +77,8 @@ TEST(Keeping, LevelWithAnotherHook) {
   }
 }
 
-// A stage that ends by a condition ends the steering as well: the hook that follows stands soon after.
+// A stage that ends by a condition ends the steering as well: the hook that follows stands soon
+// after.
 TEST(Keeping, EndsWithACondition) {
   const LiftRun lift = run_without_modes(
       lift_with_operation("  - stage: set down\n"
@@ -112,10 +113,11 @@ TEST(Keeping, AHeadOverAPoint) {
   EXPECT_NEAR(traverse->position[traverse->position.size() - 1], 6.5, 1e-4);
 }
 
-// The left hoist takes more of the load by tilting it: its centre lies 0.7 m below lugs 4 m apart, so
-// that a hook lower by d takes W 0.7 d / 16 m less, 4.3 kN for each metre. The operator is told so: by
-// the stiffness of the rope alone, which is two thousand times as large, he would hardly move.
-// The load bounces by 0.3 kN about what is asked, at any tolerance of the integration: means count.
+// The left hoist takes more of the load by tilting it: its centre lies 0.7 m below lugs 4 m apart,
+// so that a hook lower by d takes W 0.7 d / 16 m less, 4.3 kN for each metre. The operator is told
+// so: by the stiffness of the rope alone, which is two thousand times as large, he would hardly
+// move. The load bounces by 0.3 kN about what is asked, at any tolerance of the integration: means
+// count.
 TEST(Keeping, AShareAndATension) {
   const std::string operation =
       "  - stage: share\n"

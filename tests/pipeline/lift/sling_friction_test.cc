@@ -1,4 +1,5 @@
-// The lift of slings over edges with friction: spans within the cone, forces and loads of the block.
+// The lift of slings over edges with friction: spans within the cone, forces and loads of the
+// block.
 #include <algorithm>
 #include <cmath>
 #include <string>

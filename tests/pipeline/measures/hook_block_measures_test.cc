@@ -1,4 +1,5 @@
-// Hook blocks that turn, from files: what the falls do to them by statics, measures, checks, doubts.
+// Hook blocks that turn, from files: what the falls do to them by statics, measures, checks,
+// doubts.
 #include "pipeline/measures/hook_block_measures.h"
 
 #include <cmath>
@@ -23,7 +24,8 @@ const std::string pulls_aside =
     "tuggers:\n  T1: {from: {body: world, position: [0 m, 400 m, 3 m]}, to: {body: load, "
     "position: [4 m, 0 m, 0.5 m]}, tension: 1 kN}\n";
 
-/// The sample's plate on one hook with two horns, drawn aside at one end by a tugger that holds 1 kN.
+/// The sample's plate on one hook with two horns, drawn aside at one end by a tugger that holds 1
+/// kN.
 struct TurningLift {
   explicit TurningLift(const std::string& turning, const std::string& checks = "{}",
                        const std::string& tugger = pulls_aside) {
@@ -111,7 +113,8 @@ TEST(HookBlockMeasures, TwistIsHeldAgainstItsLimit) {
   EXPECT_TRUE(found);
 }
 
-// On a bearing the load hangs as it was put, with friction or without, and nothing twists the falls.
+// On a bearing the load hangs as it was put, with friction or without, and nothing twists the
+// falls.
 TEST(HookBlockMeasures, HookTurnsOnItsBearing) {
   for (const char* friction : {"0 N m", "500 N m"}) {
     const TurningLift lift(locked +

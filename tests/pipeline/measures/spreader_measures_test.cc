@@ -235,8 +235,9 @@ TEST(SpreaderMeasures, FrameHasTheInertiaOfItsSides) {
   EXPECT_NEAR(I.z(), 2 * L * (1 + 16.0 / 12 + own) + 2 * W * (4 + 4.0 / 12 + own), 1e-6);
 }
 
-// Two tiers of plumb slings: a frame below a bar, whose slings run to both corners of each end. Along
-// x nothing presses the frame, which hangs plumb; along y those slings do, which lean by 1 m in 1 m.
+// Two tiers of plumb slings: a frame below a bar, whose slings run to both corners of each end.
+// Along x nothing presses the frame, which hangs plumb; along y those slings do, which lean by 1 m
+// in 1 m.
 TEST(SpreaderMeasures, FrameHangsBelowABar) {
   test::SampleLift parts = test::frame_lift();
   const std::size_t begin = parts.lift_case.find("  U1:"), end = parts.lift_case.find("  R1:");

@@ -127,6 +127,31 @@ TEST(Beam, TimoshenkosCantilever) {
   }
 }
 
+// A force across a cantilever is the same all along it, at any place of an element of any degree,
+// however slender it is: away from the Gauss points the shear strain is no force's.
+TEST(Beam, ForcesAcrossAreThoseOfStatics) {
+  for (const double shear_area : {2e-3, std::numeric_limits<double>::infinity()})
+    for (int degree = 1; degree <= 3; ++degree) {
+      BeamSection s = sample_section();
+      s.shear_area_2 = s.shear_area_3 = shear_area;
+      const Mesh mesh = line_of_beams(s, {{0, 0, 0}, {1, 0, 0}, {length, 0, 0}});
+      const Space space(mesh, {degree, {}});
+      std::vector<FixedUnknown> fixed;
+      clamp(space, mesh.vertices.front(), fixed);
+      Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
+      const int tip = space.node_of_vertex(2);
+      loads.segment<3>(6 * tip + 1) << force, -2 * force, 0.5 * force;
+      const Eigen::VectorXd motion = testing::solve(space, loads, fixed);
+      for (const int cell : {0, 1})
+        for (const double xi : {0.0, 0.3, 1.0}) {
+          const Eigen::VectorXd found = beam_forces(space, cell, xi, motion);
+          EXPECT_NEAR(found[1], force, 1e-6 * force) << degree << ' ' << xi;
+          EXPECT_NEAR(found[2], -2 * force, 1e-6 * force) << degree << ' ' << xi;
+          EXPECT_NEAR(found[3], 0.5 * force, 1e-6 * force) << degree << ' ' << xi;
+        }
+    }
+}
+
 // With I_23 a force along one axis bends about both: the curvatures are those of the inverse of
 // [I_2 -I_23; -I_23 I_3]. Without shear deformation.
 TEST(Beam, SkewBendingOfAnUnsymmetricSection) {

@@ -137,8 +137,8 @@ TEST(CoarseDecks, TiedSeamDoesNotGapeBetweenItsNodes) {
 }
 
 // A cantilever of 1 x 0.1 m, 10 mm thick, of 4 x 2 squares cut into triangles, bent in its plane:
-// P l^3 / 3 E I + P l / (5/6 G A). The clamp holds the plate across, too, and its shear as it leaves
-// the clamp: half a percent.
+// P l^3 / 3 E I + P l / (5/6 G A). The clamp holds the plate across, too, and its shear as it
+// leaves the clamp: half a percent.
 TEST(CoarseDecks, TrianglesBendInTheirPlane) {
   constexpr int m = 4, n = 2;
   std::string text = "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n";

@@ -97,6 +97,21 @@ TEST(DeckSolution, ClampedPlateIsTimoshenkos) {
   const double edge = std::sqrt(across * across - across * along + along * along);
   EXPECT_NEAR(one.stress.peak_von_mises.value, edge, 0.03 * edge);
   EXPECT_LT(one.estimated_error, 0.05);
+  // What is checked is membrane stress, of which a plate that bends has none.
+  ASSERT_EQ(one.stress.groups.size(), 1U);
+  EXPECT_FALSE(one.stress.groups[0].checked_von_mises.part.empty());
+  EXPECT_LT(one.stress.groups[0].checked_von_mises.value, 1e-6 * edge);
+}
+
+// Forces that are in balance by themselves leave the supports nothing but rounding.
+TEST(DeckSolution, LoadsInBalanceHaveNoResidual) {
+  std::string cards = "SPC1,1,123,1\nSPC1,1,23,3\nSPC1,1,3,7\n";
+  for (const int node : {1, 4, 7}) cards += fmt::format("FORCE,2,{},0,1.,-1000.,0.,0.\n", node);
+  for (const int node : {3, 6, 9}) cards += fmt::format("FORCE,2,{},0,1.,1000.,0.,0.\n", node);
+  const DeckSolution solution = solved(test::nastran(square_plate(2, 1, cards)));
+  ASSERT_EQ(solution.cases.size(), 1U);
+  EXPECT_LT(solution.cases[0].force_residual, 1e-9);
+  EXPECT_LT(solution.cases[0].moment_residual, 1e-9);
 }
 
 // Held along its edges, which do not turn along themselves, a plate sinks by w = 0.00406235 q a^4 /

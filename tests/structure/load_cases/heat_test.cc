@@ -396,6 +396,25 @@ TEST(Heat, LayersThatDifferInExpansionAloneAreKept) {
   EXPECT_NEAR(hot.moved(8).z(), -curvature * 5 / 2, 1e-6 * curvature);
 }
 
+// Steel on aluminium, pulled up at a corner: the estimate of its error is the same beside a case
+// that is hot, to the rounding of two solutions.
+TEST(Heat, AHotCaseChangesNoOtherOnesError) {
+  const std::string layers = distorted_plate();
+  const auto deck = [&](const std::string& other_case) {
+    return test::nastran(
+        "SOL 101\nCEND\nSPC = 1\nSUBCASE 1\nLOAD = 2\n" + other_case + "BEGIN BULK\n" +
+        layers.substr(0, layers.find("PSHELL")) +
+        "PCOMP,1,,,,,20.\n,1,.01,0.,,2,.01,0.\nMAT1,1,2.+11,,0.3,7850.,1.2-5,20.\n"
+        "MAT1,2,.7+11,,0.33,2700.,2.4-5\nSPC1,1,123456,1,4,7\nFORCE,2,9,0,100.,0.,0.,1.\n"
+        "TEMPD,5,70.\n");
+  };
+  const HotCase alone(deck("")), beside(deck("SUBCASE 2\nTEMPERATURE(LOAD) = 5\n"));
+  ASSERT_EQ(alone.solution.cases.size(), 1U);
+  ASSERT_EQ(beside.solution.cases.size(), 2U);
+  EXPECT_GT(alone.first().estimated_error, 1e-3);
+  EXPECT_NEAR(beside.first().estimated_error, alone.first().estimated_error, 1e-9);
+}
+
 // Strains count from TREF, or from the initial temperatures where there are some.
 TEST(Heat, StrainsCountFromAReference) {
   const std::string bar = hot_bar("") + "SPC1,1,123456,1\nTEMPD,5,70.,6,30.\n";
@@ -465,6 +484,15 @@ void expect_same_in_abaqus(const Deck& deck) {
   for (int v = 0; v < static_cast<int>(deck.mesh.vertices.size()); ++v)
     EXPECT_LT((own.moved(v) - again.moved(v)).norm(), 1e-6 * hot_coefficient * hot_rise)
         << "vertex " << v;
+}
+
+// Each step says the temperatures of all nodes: initial ones of those that the case has none for.
+TEST(Heat, NodesWithoutATemperatureAreWrittenForAbaqus) {
+  const std::string text =
+      to_abaqus(test::nastran(hot_case_control + hot_bar("") +
+                              "GRID,9,,5.,0.,0.\nSPC1,1,123456,1\nTEMP,5,1,30.,2,50.,3,70.\n"));
+  EXPECT_THAT(text, HasSubstr("\n3, 5.000000000000e+01\n"));
+  EXPECT_THAT(text, HasSubstr("\n9, 0.000000000000e+00\n"));
 }
 
 TEST(Heat, IsWrittenForAbaqus) {

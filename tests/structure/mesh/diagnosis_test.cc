@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "structure/error.h"
+#include "structure/mesh/sections.h"
 #include "structure/mesh/shell_shape.h"
 
 namespace blocklift::structure {
@@ -206,6 +207,11 @@ TEST(Diagnosis, Mechanisms) {
   EXPECT_EQ(count(diagnose(mesh), "vertices free to turn"), 0);
   mesh.beams[1].release[0] = {false, false, false, false, true, false};
   EXPECT_EQ(count(diagnose(mesh), "vertices free to turn"), 1);
+  // The shear of a section by figures is an estimate, that of a pipe is known.
+  EXPECT_EQ(count(diagnose(mesh), "beams by figures"), 2);
+  EXPECT_EQ(diagnose(mesh).find("beams by figures")->severity, Severity::note);
+  mesh.beam_sections[0] = pipe(0.05, 0.04).section;
+  EXPECT_EQ(count(diagnose(mesh), "beams by figures"), 0);
   // Three rods hold a point, two do not.
   Mesh truss = plate(1, 1);
   truss.beam_sections.push_back(section);

@@ -187,6 +187,8 @@ TEST(Sections, SeenFromElsewhere) {
   EXPECT_DOUBLE_EQ(turned.section.product_23, -angle.section.product_23);
   EXPECT_DOUBLE_EQ(turned.centroid[0], angle.centroid[1]);
   EXPECT_DOUBLE_EQ(turned.centroid[1], -angle.centroid[0]);
+  EXPECT_DOUBLE_EQ(turned.section.shear_centre[0], angle.section.shear_centre[1]);
+  EXPECT_DOUBLE_EQ(turned.section.shear_centre[1], -angle.section.shear_centre[0]);
 }
 
 TEST(Sections, RefuseWhatCannotBe) {

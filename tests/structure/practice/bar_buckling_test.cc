@@ -14,6 +14,7 @@
 #include "structure/practice/tripping.h"
 #include "structure/response/unit_responses.h"
 #include "tests/structure/motions.h"
+#include "tests/structure/practice/halved_beams.h"
 
 namespace blocklift::structure {
 namespace {
@@ -168,8 +169,8 @@ testing::MotionField deck_motion(double stretch, double curvature) {
 
 // A stiffener bears with half of either panel, from bulkhead to bulkhead: an even strain gives the
 // force of both areas, a curvature the force of the stiffener alone and the moment of both.
-TEST(BarBuckling, StiffenersBearWithTheirPlates) {
-  const ElasticModel model(stiffened_deck(), {.degree = 2, .largest_edge = {}});
+void expect_bearing_with_plates(Mesh mesh) {
+  const ElasticModel model(std::move(mesh), {.degree = 2, .largest_edge = {}});
   Eigen::MatrixXd motions(model.freedoms(), 2);
   motions << testing::motion_of(model.space(), deck_motion(-1e-3, 0)),
       testing::motion_of(model.space(), deck_motion(0, 1e-3));
@@ -199,6 +200,13 @@ TEST(BarBuckling, StiffenersBearWithTheirPlates) {
     EXPECT_NEAR(std::abs(worst.forces.moments[0]), 1e-3 * modulus * second_moment,
                 1e-9 * modulus * second_moment);
   }
+}
+
+TEST(BarBuckling, StiffenersBearWithTheirPlates) { expect_bearing_with_plates(stiffened_deck()); }
+
+// Of quadratic elements a stiffener has vertices in the middles of edges, too.
+TEST(BarBuckling, StiffenersOfQuadraticElementsBearAlike) {
+  expect_bearing_with_plates(test::with_halved_beams(stiffened_deck()));
 }
 
 // A stiffener trips by the compression of its centroid, and bent by that of its outer fibre, whose

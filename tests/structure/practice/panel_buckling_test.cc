@@ -10,6 +10,7 @@
 #include "structure/mesh/plates/shell_generator.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/motions.h"
+#include "tests/structure/practice/halved_beams.h"
 
 namespace blocklift::structure {
 namespace {
@@ -188,7 +189,8 @@ TEST(BlockPanels, PadsDivideNoPanel) {
   EXPECT_EQ(sides, 4);
 }
 
-// Beams along edges of shells divide a plate and hold its free edge.
+// Beams along edges of shells divide a plate and hold its free edge, also where each is two that
+// meet in the middle of an edge, as those of quadratic elements do; a half alone does not.
 TEST(BlockPanels, BeamsDivideAndHold) {
   BlockDescription plate;
   plate.materials = {steel};
@@ -216,15 +218,22 @@ TEST(BlockPanels, BeamsDivideAndHold) {
   beam_along(1);
   beam_along(2);
   ASSERT_EQ(mesh.beams.size(), 8U);
-  const ElasticModel model(mesh, {2, {}});
-  const BlockPanels panels = panels_at_rest(model);
-  ASSERT_EQ(panels.panels().size(), 2U);
-  for (const Panel& panel : panels.panels()) {
-    EXPECT_NEAR(panel.size.a, 4, 1e-9);
-    EXPECT_NEAR(panel.size.b, 1, 1e-9);
-    EXPECT_EQ(panel.free.along_a, panel.centre_B.y() < 1 ? 1 : 0);
-    EXPECT_EQ(panel.free.along_b, 2);
+  Mesh halved = test::with_halved_beams(mesh);
+  for (const Mesh& of : {mesh, halved}) {
+    const ElasticModel model(of, {2, {}});
+    const BlockPanels panels = panels_at_rest(model);
+    ASSERT_EQ(panels.panels().size(), 2U);
+    for (const Panel& panel : panels.panels()) {
+      EXPECT_NEAR(panel.size.a, 4, 1e-9);
+      EXPECT_NEAR(panel.size.b, 1, 1e-9);
+      EXPECT_EQ(panel.free.along_a, panel.centre_B.y() < 1 ? 1 : 0);
+      EXPECT_EQ(panel.free.along_b, 2);
+    }
   }
+  for (auto i = static_cast<std::ptrdiff_t>(halved.beams.size()); i > 0; i -= 2)
+    halved.beams.erase(halved.beams.begin() + i - 1);
+  const ElasticModel model(halved, {2, {}});
+  EXPECT_EQ(panels_at_rest(model).panels().size(), 1U);
 }
 
 // A quarter disc in a corner of a tank, its arc held by bent plating or free, with a hole: the arc

@@ -62,8 +62,8 @@ TEST(Joints, NodesOfOnePlaceAreOne) {
 
 TEST(Joints, FinerSidesFollowTheCoarsestWhereverItLies) {
   for (int degree = 1; degree <= 4; ++degree) {
-    Edge
-        edge;  // fine on the left of one plate, on the right of another; a third is finer everywhere
+    // Fine on the left of one plate, on the right of another; a third is finer everywhere.
+    Edge edge;
     for (const auto& [a, b] : {std::pair{0.0, 0.25}, {0.25, 0.5}, {0.5, 1.0}})
       edge.add(a, b, degree);
     for (const auto& [a, b] : {std::pair{0.0, 0.5}, {0.5, 0.75}, {0.75, 1.0}})

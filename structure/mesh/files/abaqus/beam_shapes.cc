@@ -254,21 +254,36 @@ class BeamShapeReader {
     return place;
   }
 
+  static bool is_about_centroid(const AbaqusBlock& detail) {
+    return detail.name == "CENTROID" || detail.name == "BEAM SECTION OFFSET";
+  }
+
+  static Eigen::Vector2d pair_of(const AbaqusBlock& detail) {
+    if (detail.data.empty()) throw CardError{"a line of data is missing"};
+    const Fields fields = detail.data.front().fields();
+    return {abaqus_real(fields, 0, "value", 0.0), abaqus_real(fields, 1, "value", 0.0)};
+  }
+
   void read_details(const SectionBlocks& blocks, BeamShape& beam, double shear = 0) {
     BeamSection& section = beam.profile.section;
     if (shear == 0) shear = mesh_.materials[beam.material].shear_modulus();
+    // The rest counts from the centroid, whichever comes first in the deck.
     for (const AbaqusBlock* detail : blocks.details) {
+      if (!is_about_centroid(*detail)) continue;
       model_.guarded(*detail, [&] {
-        if (detail->data.empty()) throw CardError{"a line of data is missing"};
-        const Fields fields = detail->data.front().fields();
-        const Eigen::Vector2d pair(abaqus_real(fields, 0, "value", 0.0),
-                                   abaqus_real(fields, 1, "value", 0.0));
-        if (detail->name == "CENTROID") {
-          beam.profile.centroid = pair * model_.units.length;
-        } else if (detail->name == "SHEAR CENTER") {
+        const Eigen::Vector2d place = pair_of(*detail) * model_.units.length;
+        if (detail->name == "CENTROID")
+          beam.profile.centroid = place;
+        else
+          beam.profile.centroid += place;
+      });
+    }
+    for (const AbaqusBlock* detail : blocks.details) {
+      if (is_about_centroid(*detail)) continue;
+      model_.guarded(*detail, [&] {
+        const Eigen::Vector2d pair = pair_of(*detail);
+        if (detail->name == "SHEAR CENTER") {
           section.shear_centre = pair * model_.units.length - beam.profile.centroid;
-        } else if (detail->name == "BEAM SECTION OFFSET") {
-          beam.profile.centroid += pair * model_.units.length;
         } else if (detail->name == "TRANSVERSE SHEAR STIFFNESS") {
           // K23 resists shear along n2, K13 along n1.
           const double unit = model_.units.force / shear;

@@ -7,8 +7,8 @@
 namespace blocklift::structure {
 
 /// Reads an Abaqus input file (also CalculiX' dialect where it is the same): keywords with their
-/// data, which may stand in a file of their own (INPUT = file), *INCLUDE of files, all of them below
-/// the deck's folder, parts and instances shifted and turned, or none of them.
+/// data, which may stand in a file of their own (INPUT = file), *INCLUDE of files, all of them
+/// below the deck's folder, parts and instances shifted and turned, or none of them.
 ///
 /// - *NODE, *NSET, *ELSET (GENERATE), *SURFACE of nodes, of shells' faces and edges and of solids'
 ///   faces, *TRANSFORM; *NGEN, *NFILL, *NCOPY, *ELGEN, *ELCOPY

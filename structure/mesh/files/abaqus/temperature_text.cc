@@ -119,8 +119,9 @@ std::string AbaqusTemperatureText::of_step(const DeckLoadCase& load_case,
       values[v] = std::numeric_limits<double>::quiet_NaN();
   fill_middles(mesh, middles, values);
   for (std::size_t v = 0; v < values.size(); ++v) {
-    if (std::isnan(values[v])) continue;
-    text += fmt::format("{}, {:.12e}", labels[v], values[v] - reference);
+    // One that nothing gives a temperature has the initial one.
+    const double rise = std::isnan(values[v]) ? 0 : values[v] - reference;
+    text += fmt::format("{}, {:.12e}", labels[v], rise);
     if (v < field.slopes.size() && !field.slopes[v].isZero(0))
       text += fmt::format(", {:.12e}, {:.12e}", field.slopes[v][0] * deck_.units.length,
                           field.slopes[v][1] * deck_.units.length);

@@ -294,7 +294,7 @@ class AbaqusText {
     line("*CENTROID");
     line(pair(kind.centroid));
     line("*SHEAR CENTER");
-    line(pair(kind.centroid + section.shear_centre));
+    line(pair(kind.centroid + section.twist_centre()));
     if (std::isfinite(section.shear_area_2) && std::isfinite(section.shear_area_3)) {
       line("*TRANSVERSE SHEAR STIFFNESS");
       line(exact(section.shear_area_3 * shear / units_.force) + ", " +

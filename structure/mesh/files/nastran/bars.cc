@@ -309,8 +309,9 @@ BarCard read_shaped(NastranModel& model, const CardView& card) {
     }
   };
   bar.section = build(figures);
+  // A beam's axis is its shear centre's, a bar's its centroid's, about which it twists.
+  bar.section.twists_about_centroid = !is_beam;
   if (!is_beam) return bar;
-  // A beam's axis is its shear centre's, a bar's its centroid's.
   bar.centroid = bar.end_centroid = -bar.section.shear_centre;
   const auto figures_at = [&](std::size_t i, Figures here) {
     for (std::size_t j = 0; j < count; ++j)
@@ -449,6 +450,10 @@ BarCard read_rod(NastranModel& model, const CardView& card) {
     bar.section.area = card.real(2, "area", 0.0);
     bar.section.torsion = card.real(3, "J", 0.0);
     scale(bar.section, model.units.length);
+    const double arm = card.real(4, "C", 0.0) * model.units.length;  // of tau = T C / J
+    if (arm < 0) throw CardError{fmt::format("PROD {}: C is negative", card.text(0))};
+    if (arm > 0 && bar.section.torsion > 0)
+      bar.section.shear_points = {{.of_torsion = arm / bar.section.torsion}};
     bar.section.mass_per_length = line_mass(model, card.real(5, "mass beyond the rod's", 0.0));
     return bar;
   }
@@ -462,6 +467,7 @@ BarCard read_rod(NastranModel& model, const CardView& card) {
         wall > 0 && wall < radius ? pipe(radius, radius - wall) : solid_circle(radius);
     bar.section.area = profile.section.area;
     bar.section.torsion = profile.section.torsion;
+    bar.section.shear_points = {{.of_torsion = profile.section.shear_points.front().of_torsion}};
   } catch (const ModelError& error) {
     throw CardError{fmt::format("PTUBE {}: {}", card.text(0), error.what())};
   }
@@ -511,11 +517,14 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
       throw CardError{
           fmt::format("a bar, beam or rod has property {}, which is a {}", property, name)};
     NastranBar read;
+    read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
+    // A rod bears no shear that would go through a point of its own.
+    if (read.is_rod) bar.section.twists_about_centroid = true;
+    if (read.is_rod && bar.end) bar.end->twists_about_centroid = true;
     read.section = add_section(model, name, bar.material, bar.section, property);
     if (bar.end) read.end_section = add_section(model, name, bar.material, *bar.end, property);
     read.centroid = bar.centroid;
     read.end_centroid = bar.end_centroid;
-    read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
     if (read.is_rod && !bar.stations.empty())
       throw CardError{
           "its section is not linear from end to end, and it does not bend: a rod cannot be "

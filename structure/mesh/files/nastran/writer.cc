@@ -271,7 +271,11 @@ class NastranText {
                  i2 = fourth(section.second_moment_2), i12 = fourth(section.product_23),
                  j = fourth(section.torsion), mass = per_length(section.mass_per_length);
     if (is_rod) {
-      out_.card("PROD", {property, material, a, j, CardField(), mass});
+      const bool has_shear = section.shear_points.size() == 1 && section.torsion > 0;
+      const CardField arm =
+          has_shear ? CardField(length(section.shear_points[0].of_torsion * section.torsion))
+                    : CardField();
+      out_.card("PROD", {property, material, a, j, arm, mass});
       return property;
     }
     const auto factor = [&](double shear_area) {
@@ -287,7 +291,7 @@ class NastranText {
     };
     const Fields points = points_of(section);
     const double k1 = factor(section.shear_area_2), k2 = factor(section.shear_area_3);
-    if (section.shear_centre.isZero() && end < 0) {
+    if (section.twist_centre().isZero() && end < 0) {
       Fields fields{property, material, a, i1, i2, j, mass, CardField()};
       fields.insert(fields.end(), points.begin(), points.end());
       for (const double value : {k1, k2, i12}) fields.emplace_back(value);
@@ -314,7 +318,7 @@ class NastranText {
     for (const double value : {k1, k2}) fields.emplace_back(value);
     fields.resize(before + 12);
     for (const BeamSection* of : {&section, &last})
-      for (int i = 0; i < 2; ++i) fields.emplace_back(length(-of->shear_centre[i]));
+      for (int i = 0; i < 2; ++i) fields.emplace_back(length(-of->twist_centre()[i]));
     out_.card("PBEAM", fields);
     return property;
   }
@@ -331,7 +335,7 @@ class NastranText {
       const Vector3 axis_2 = axis_3.cross(line).normalized();
       for (std::size_t end = 0; end < 2; ++end) {
         const Eigen::Vector2d centre =
-            section_at(mesh_, beam, static_cast<double>(end)).shear_centre;
+            section_at(mesh_, beam, static_cast<double>(end)).twist_centre();
         offsets[end] = beam.offset[end] + centre[0] * axis_2 + centre[1] * axis_3;
       }
     }
@@ -349,7 +353,7 @@ class NastranText {
         out_.card("CROD", {number, property, label(a), label(b)});
         continue;
       }
-      const bool is_bar = mesh_.section_of(beam).shear_centre.isZero() && beam.end_section < 0;
+      const bool is_bar = mesh_.section_of(beam).twist_centre().isZero() && beam.end_section < 0;
       Fields fields{number, property, label(a), label(b)};
       append(fields, axes_[a].transpose() * beam.axis_2.normalized());
       fields.emplace_back();

@@ -45,8 +45,9 @@ DatabaseSettings round_settings() {
   return settings;
 }
 
-// What the retardation functions say of frequencies that were not asked for is what is solved there,
-// and beyond all of them they never give energy back: what a pole just outside the band would do.
+// What the retardation functions say of frequencies that were not asked for is what is solved
+// there, and beyond all of them they never give energy back: what a pole just outside the band
+// would do.
 TEST(HullDatabase, RetardationFunctionsGiveEachFrequency) {
   for (const auto& [depth, meridians] : {std::pair{deep, 24}, {deep, 48}, {2.5, 24}}) {
     const PanelModel model = make_unit_hemisphere(depth, meridians);

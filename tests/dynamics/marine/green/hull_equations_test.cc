@@ -55,7 +55,8 @@ Complex force_of(const PanelModel& model, const HullEquations::Settings& setting
   return equations.calc_radiation(equations.solve(w), w)(mode, mode);
 }
 
-// 144 panels on a quarter of the hull are off by 1.3 % in surge, 36 by 4.3 %: the edge keeps the order below 2.
+// 144 panels on a quarter of the hull are off by 1.3 % in surge, 36 by 4.3 %: the edge keeps the
+// order below 2.
 TEST(HullEquations, TruncatedCylinder) {
   const PanelModel model = make_model({{"cylinder", cylinder_of(32), Vector3::Zero()}},
                                       {1.0, standard_gravity}, {true, true});

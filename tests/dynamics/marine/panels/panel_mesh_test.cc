@@ -197,6 +197,36 @@ TEST(SurfaceMesh, ThreeBodiesInARow) {
   EXPECT_EQ(4 * restrict_to_symmetry(surface.mesh, {true, true}).size(), surface.mesh.size());
 }
 
+// Three columns about a thinner one: lines half way between them do not meet in points. Each panel's
+// centroid lies in its own panel alone, as between two bodies.
+TEST(SurfaceMesh, CoversTheWaterBetweenColumnsOfAPlatform) {
+  const auto line_of_column = [](double x, double y, double radius, int vertices) {
+    WaterLine line;
+    for (int k = 0; k < vertices; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / vertices;
+      line.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle), 0.0);
+    }
+    return line;
+  };
+  const std::vector<WaterLine> lines{
+      line_of_column(0, 0, 3.25, 12), line_of_column(14.43, 25, 6, 28),
+      line_of_column(14.43, -25, 6, 28), line_of_column(-28.87, 0, 6, 28)};
+  const SurfaceMesh surface = make_surface_mesh(lines, {.first_ring = 1.5, .radius = 150});
+  double covered = surface.mesh.total_area();
+  for (const WaterLine& line : lines) covered += enclosed_area(line);
+  EXPECT_LT(covered, std::numbers::pi * 150.0 * 150.0);
+  EXPECT_GT(covered, 0.98 * std::numbers::pi * 150.0 * 150.0);
+  EXPECT_EQ(2 * restrict_to_symmetry(surface.mesh, {false, true}).size(), surface.mesh.size());
+  for (std::size_t i = 0; i < surface.mesh.panels.size(); i += 7) {
+    double angle = 0.0;
+    for (const Panel& panel : surface.mesh.panels) {
+      const Vector3 above = surface.mesh.panels[i].centroid - Vector3(0, 0, 1e-6);
+      angle += calc_panel_potentials(panel, above).dipole;
+    }
+    EXPECT_NEAR(angle, 2.0 * std::numbers::pi, 1e-4);
+  }
+}
+
 /// A ring with a hole of 2 m, and what floats in it.
 std::vector<WettedBody> ring_around(const std::vector<PanelMesh>& inner) {
   std::vector<WettedBody> bodies{

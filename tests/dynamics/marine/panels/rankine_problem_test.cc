@@ -238,8 +238,9 @@ PanelModel make_even_box(int length, int breadth, int draught, double depth) {
 }
 
 // Panels of 2 m taken together are what panels of 4 m are: at infinite frequency the added mass of
-// heave, surge and pitch changes as much, to a quarter. With equations in the mean over the clusters
-// heave changed by half of that. So it is where the bottom's image is nearer than a panel is wide.
+// heave, surge and pitch changes as much, to a quarter. With equations in the mean over the
+// clusters heave changed by half of that. So it is where the bottom's image is nearer than a panel
+// is wide.
 class ClustersOfABox : public ::testing::TestWithParam<double> {};
 
 TEST_P(ClustersOfABox, AreAMeshOfTwiceTheSize) {

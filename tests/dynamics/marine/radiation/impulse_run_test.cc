@@ -78,9 +78,9 @@ TEST(ImpulseRun, LastsAsLongAsWaterSwingsBetweenHulls) {
 }
 
 // Damping and added mass are the integrals of the force, excitation and far field follow from those
-// of the elevation. Force is what the elevation presses with: the two are one, however often the run
-// went on. With a taper that began before the run last went on they differed, by up to a third of
-// what the water did late.
+// of the elevation. Force is what the elevation presses with: the two are one, however often the
+// run went on. With a taper that began before the run last went on they differed, by up to a third
+// of what the water did late.
 TEST(ImpulseRun, ForceIsThatOfTheElevationHoweverLongItLasts) {
   const PanelModel model = make_boxes(false);
   const RankinePart part(model, {1, 1});

@@ -281,7 +281,7 @@ TEST(Wamit, SaysWhatIsWrong) {
   EXPECT_THAT(message(sound, "5 0 3 1 0 1 0\n"),
               HasSubstr("the period 5 s is not among those of the .1 file"));
   EXPECT_THAT(message_of_import([] { import_hydrodynamics("x.txt", {}); }),
-              HasSubstr("is none of .h5 (BEMIO), .1, .3, .hst (WAMIT), .nc (Capytaine)"));
+              HasSubstr("is none of .h5 (BEMIO), .1, .2, .3, .hst (WAMIT), .nc (Capytaine)"));
 }
 
 /// Names the dimensions of a variable as NetCDF-4 does: references to the coordinates' variables.

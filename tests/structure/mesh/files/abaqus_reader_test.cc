@@ -176,6 +176,30 @@ B, S1, M1-M2
   EXPECT_NEAR(deck.mesh.materials.at(0).shear_modulus(), 80e9, 1);
 }
 
+// What counts from the node is turned into what counts from the centroid, whichever comes first.
+TEST(AbaqusReader, CentroidMayFollowTheShearCentre) {
+  const Deck deck = abaqus(R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+*ELEMENT, TYPE=B31, ELSET=B
+1, 1, 2
+*BEAM GENERAL SECTION, ELSET=B, SECTION=GENERAL, DENSITY=7850.
+.01, 1.e-6, 1.e-7, 4.e-6, 2.e-6
+0., 1., 0.
+206.e9, 80.e9
+*SHEAR CENTER
+.1, .25
+*SECTION POINTS
+.2, .3
+*CENTROID
+.1, .2
+)");
+  const BeamSection& section = deck.mesh.section_of(deck.mesh.beams.at(0));
+  expect_near(deck.mesh.beams[0].offset[0], Vector3(0, 0.1, 0.2), 1e-12);
+  expect_near(section.shear_centre, Eigen::Vector2d(0, 0.05), 1e-12);
+  expect_near(section.stress_points.at(0), Eigen::Vector2d(0.1, 0.1), 1e-12);
+}
+
 TEST(AbaqusReader, MassesAndSprings) {
   const Deck deck = abaqus(nodes + R"(*ELEMENT, TYPE=MASS, ELSET=M
 1, 1

@@ -159,6 +159,19 @@ MAT1,7,206.+9,,.3,7850.
   EXPECT_DOUBLE_EQ(section.shear_area_2, 0.01);
   EXPECT_EQ(section.shear_area_3, std::numeric_limits<double>::infinity());
   expect_near(section.shear_centre, Eigen::Vector2d(-0.03, -0.02), 1e-15);
+  expect_near(section.twist_centre(), section.shear_centre, 0);
+}
+
+// The axis of a CBAR is its centroids', about which it twists, too; a tee keeps its shear centre
+// for what is checked of stiffeners.
+TEST(NastranReader, BarsTwistAboutTheirCentroid) {
+  const Deck deck = nastran(
+      "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\nCBAR,1,5,1,2,0.,0.,1.\n"
+      "PBARL,5,7,,T\n,.2,.4,.02,.01\nMAT1,7,206.+9,,.3,7850.\n");
+  const BeamSection& section = deck.mesh.section_of(deck.mesh.beams.at(0));
+  expect_near(section.shear_centre, tee_bar(0.4, 0.01, 0.2, 0.02).section.shear_centre, 1e-15);
+  EXPECT_TRUE(section.twist_centre().isZero(0));
+  EXPECT_TRUE(deck.mesh.beams[0].offset[0].isZero(0));
 }
 
 TEST(NastranReader, TaperedBeams) {

@@ -76,7 +76,8 @@ double area_of(const Mesh& mesh, const std::string& ending) {
   return area;
 }
 
-// The mid-surfaces by hand: from the deck's to the flange's, and the flange from the web's outwards.
+// The mid-surfaces by hand: from the deck's to the flange's, and the flange from the web's
+// outwards.
 TEST(StiffenerPlates, WeighWhatTheirMiddlePlanesDo) {
   const double t = 0.012, height = 0.3, web = 0.01, width = 0.09, flange = 0.016;
   for (const int side : {1, -1})
