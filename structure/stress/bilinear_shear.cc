@@ -20,11 +20,7 @@ Eigen::Matrix<double, 2, 4> derivatives(const Eigen::Vector2d& xi) {
 
 BilinearShear::BilinearShear(const Space& space, int cell) {
   for (int i = 0; i < 4; ++i) corners_.col(i) = space.nodes().col(space.shell_nodes(cell)[i]);
-  // The axes of ShellOperator in the middle of the cell.
-  const Eigen::Matrix<double, 3, 2> g = corners_ * derivatives({0.5, 0.5}).transpose();
-  const Vector3 normal = Vector3(g.col(0)).cross(Vector3(g.col(1))).normalized();
-  c_1_ = (g.col(0) - normal * normal.dot(g.col(0))).normalized();
-  c_2_ = normal.cross(c_1_);
+  along_ = corners_ * derivatives({0.5, 0.5}).row(0).transpose();
   mean_.setZero();
   double area = 0;
   const Eigen::Matrix3Xd rule = square_rule(2);
@@ -44,15 +40,26 @@ double BilinearShear::area_at(const Eigen::Vector2d& xi) const {
 Eigen::Matrix<double, 3, 4> BilinearShear::shear_at(const Eigen::Vector2d& xi) const {
   const Eigen::Matrix<double, 2, 4> by_unit = derivatives(xi);
   const Eigen::Matrix<double, 3, 2> g = corners_ * by_unit.transpose();
-  Eigen::Matrix2d jacobian;  // d(place along c_1, c_2) / d xi
-  jacobian << c_1_.dot(g.col(0)), c_1_.dot(g.col(1)), c_2_.dot(g.col(0)), c_2_.dot(g.col(1));
+  const Eigen::Matrix<double, 3, 2> axes = axes_at(xi);
+  const Eigen::Matrix2d jacobian = axes.transpose() * g;  // d(place along the axes) / d xi
   const Eigen::Matrix<double, 2, 4> by_place = jacobian.inverse().transpose() * by_unit;
-  return c_1_ * by_place.row(1) + c_2_ * by_place.row(0);
+  return axes.col(0) * by_place.row(1) + axes.col(1) * by_place.row(0);
 }
 
-Vector3 BilinearShear::turned_to(const Vector3& e_1, const Vector3& e_2) const {
-  return {c_1_.dot(e_1) * c_2_.dot(e_1), c_1_.dot(e_2) * c_2_.dot(e_2),
-          c_1_.dot(e_1) * c_2_.dot(e_2) + c_1_.dot(e_2) * c_2_.dot(e_1)};
+Eigen::Matrix<double, 3, 2> BilinearShear::axes_at(const Eigen::Vector2d& xi) const {
+  const Eigen::Matrix<double, 3, 2> g = corners_ * derivatives(xi).transpose();
+  const Vector3 normal = Vector3(g.col(0)).cross(Vector3(g.col(1))).normalized();
+  Eigen::Matrix<double, 3, 2> axes;
+  axes.col(0) = (along_ - normal * normal.dot(along_)).normalized();
+  axes.col(1) = normal.cross(Vector3(axes.col(0)));
+  return axes;
+}
+
+Vector3 BilinearShear::turned_to(const Eigen::Vector2d& xi, const Vector3& e_1,
+                                 const Vector3& e_2) const {
+  const Eigen::Matrix<double, 3, 2> axes = axes_at(xi);
+  const Eigen::Vector2d a = axes.transpose() * e_1, b = axes.transpose() * e_2;
+  return {a[0] * a[1], b[0] * b[1], a[0] * b[1] + b[0] * a[1]};
 }
 
 }  // namespace blocklift::structure

@@ -422,7 +422,7 @@ void take_excess_shear(const Space& space, const FieldWalker& walker, const Cell
              by_rows.template middleRows<3>(
                  6 * static_cast<Eigen::Index>(space.shell_nodes(at.cell)[node]));
     const double area = weight * square.size * square.size;
-    strain -= area * shear.turned_to(square.e_1, square.e_2) * sum;
+    strain -= area * shear.turned_to(at.xi, square.e_1, square.e_2) * sum;
   });
 }
 

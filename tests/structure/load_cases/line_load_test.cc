@@ -19,12 +19,13 @@ namespace {
 using ::testing::HasSubstr;
 
 // A bar of 100 x 200 mm and 4 m, bent along its height by forces along y.
-constexpr double youngs_modulus = 2e11, length = 4, second_moment = 2e-4 / 3, half_height = 0.1;
-constexpr double shear_modulus = youngs_modulus / 2.6, torsion = 4.58e-5;
+constexpr double loaded_modulus = 2e11, loaded_length = 4, loaded_second_moment = 2e-4 / 3,
+                 loaded_half_height = 0.1;
+constexpr double loaded_shear_modulus = loaded_modulus / 2.6, loaded_torsion = 4.58e-5;
 // Shear, which the bar has none of, is resisted by ten thousand times its area.
-constexpr double slender = 1e-4;
+constexpr double slender_share = 1e-4;
 
-std::string bar_deck(const std::string& supports_and_loads, const std::string& offsets = "") {
+std::string loaded_bar(const std::string& supports_and_loads, const std::string& offsets = "") {
   return "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
          "GRID,1,,0.,0.,0.\nGRID,2,,4.,0.,0.\n"
          "CBAR,1,1,1,2,0.,1.,0.\n" +
@@ -34,37 +35,40 @@ std::string bar_deck(const std::string& supports_and_loads, const std::string& o
          supports_and_loads + "ENDDATA\n";
 }
 
-const char* const clamped_at_1 = "SPC1,1,123456,1\n";
+const char* const clamped_at_first = "SPC1,1,123456,1\n";
 
-ElasticModel model_of_bars(const Deck& deck, int degree) {
+ElasticModel loaded_model(const Deck& deck, int degree) {
   Mesh mesh = deck.mesh;
   for (Material& material : mesh.materials) material.yield_stress = 235e6;
   return {std::move(mesh), {degree, {}}};
 }
 
-DeckCaseSolution solve_bars(const Deck& deck, int degree = 3) {
-  return solve_deck(model_of_bars(deck, degree), deck, 1).cases.at(0);
+DeckCaseSolution solve_loaded(const Deck& deck, int degree = 3) {
+  return solve_deck(loaded_model(deck, degree), deck, 1).cases.at(0);
 }
 
-Eigen::Matrix<double, 6, 1> motion_at(const Deck& deck, const DeckCaseSolution& solution,
-                                      int vertex) {
-  return solution.motion.segment<6>(6L * model_of_bars(deck, 3).space().node_of_vertex(vertex));
+Eigen::Matrix<double, 6, 1> motion_of_loaded(const Deck& deck, const DeckCaseSolution& solution,
+                                             int vertex) {
+  return solution.motion.segment<6>(6L * loaded_model(deck, 3).space().node_of_vertex(vertex));
 }
 
-double bending_stress(double moment) { return moment * half_height / second_moment; }
+double stress_of_moment(double moment) {
+  return moment * loaded_half_height / loaded_second_moment;
+}
 
-struct Expected {
+struct ExpectedCantilever {
   double tip = 0;     ///< along y, m
   double moment = 0;  ///< at the clamp, N m
 };
 
-void expect_cantilever(const std::string& loads, const Expected& expected) {
-  const Deck deck = test::nastran(bar_deck(clamped_at_1 + loads));
-  const DeckCaseSolution solution = solve_bars(deck);
-  EXPECT_NEAR(motion_at(deck, solution, 1)[1], expected.tip, slender * std::abs(expected.tip))
+void expect_cantilever(const std::string& loads, const ExpectedCantilever& expected) {
+  const Deck deck = test::nastran(loaded_bar(clamped_at_first + loads));
+  const DeckCaseSolution solution = solve_loaded(deck);
+  EXPECT_NEAR(motion_of_loaded(deck, solution, 1)[1], expected.tip,
+              slender_share * std::abs(expected.tip))
       << loads;
-  EXPECT_NEAR(solution.stress.peak_von_mises.value, bending_stress(expected.moment),
-              1e-3 * bending_stress(expected.moment))
+  EXPECT_NEAR(solution.stress.peak_von_mises.value, stress_of_moment(expected.moment),
+              1e-3 * stress_of_moment(expected.moment))
       << loads;
   EXPECT_LT(solution.force_residual, 1e-7) << loads;
 }
@@ -72,21 +76,23 @@ void expect_cantilever(const std::string& loads, const Expected& expected) {
 // P a^2 (3 l - a) / (6 E I), P a at the clamp.
 TEST(LineLoads, AForceBetweenTheEnds) {
   constexpr double force = 1e4, a = 1.5;
-  const Expected expected{-force * a * a * (3 * length - a) / (6 * youngs_modulus * second_moment),
-                          force * a};
+  const ExpectedCantilever expected{
+      -force * a * a * (3 * loaded_length - a) / (6 * loaded_modulus * loaded_second_moment),
+      force * a};
   expect_cantilever("PLOAD1,2,1,FY,LE,1.5,-10000.\n", expected);
   expect_cantilever("PLOAD1,2,1,FYE,FR,.375,-10000.,.375,-10000.\n", expected);
 }
 
 // Between two clamps and in the middle: P l / 8 there and at the ends; P l^3 / (192 E I).
 TEST(LineLoads, AForceInTheMiddleBetweenTwoClamps) {
-  const Deck deck = test::nastran(bar_deck("SPC1,1,123456,1,2\nPLOAD1,2,1,FY,FR,.5,-10000.\n"));
+  const Deck deck = test::nastran(loaded_bar("SPC1,1,123456,1,2\nPLOAD1,2,1,FY,FR,.5,-10000.\n"));
   ASSERT_EQ(deck.mesh.beams.size(), 2U);
-  const DeckCaseSolution solution = solve_bars(deck, 1);
-  const double due = bending_stress(1e4 * length / 8);
+  const DeckCaseSolution solution = solve_loaded(deck, 1);
+  const double due = stress_of_moment(1e4 * loaded_length / 8);
   EXPECT_NEAR(solution.stress.peak_von_mises.value, due, 1e-3 * due);
-  const double sunk = -1e4 * std::pow(length, 3) / (192 * youngs_modulus * second_moment);
-  EXPECT_NEAR(motion_at(deck, solution, 2)[1], sunk, slender * -sunk);
+  const double sunk =
+      -1e4 * std::pow(loaded_length, 3) / (192 * loaded_modulus * loaded_second_moment);
+  EXPECT_NEAR(motion_of_loaded(deck, solution, 2)[1], sunk, slender_share * -sunk);
 }
 
 // From 0 at 1 m to q at 3 m, the sum of forces at their places: q (x - 1) / 2 dx.
@@ -95,49 +101,53 @@ TEST(LineLoads, ALinearLoadOnAPart) {
   const auto antiderivative = [](double x) {
     return 13. / 4 * std::pow(x, 4) - 4 * std::pow(x, 3) - std::pow(x, 5) / 5;
   };
-  const Expected expected{
-      -q / 2 * (antiderivative(3) - antiderivative(1)) / (6 * youngs_modulus * second_moment),
-      q * (1 + 4. / 3)};
+  const ExpectedCantilever expected{-q / 2 * (antiderivative(3) - antiderivative(1)) /
+                                        (6 * loaded_modulus * loaded_second_moment),
+                                    q * (1 + 4. / 3)};
   expect_cantilever("PLOAD1,2,1,FY,FR,.25,0.,.75,-10000.\n", expected);
   expect_cantilever("PLOAD1,2,1,FY,LE,1.,0.,3.,-10000.\n", expected);
 }
 
 // An even load on the outer half: q l^2 / 2 (1 - 1/4) at the clamp; q (41 l^4 / 384) / (E I).
 TEST(LineLoads, AnEvenLoadOnAPart) {
-  expect_cantilever("PLOAD1,2,1,FY,FR,.5,-10000.,1.,-10000.\n",
-                    {-1e4 * 41 * std::pow(length, 4) / (384 * youngs_modulus * second_moment),
-                     1e4 * length * length * 3 / 8});
+  expect_cantilever(
+      "PLOAD1,2,1,FY,FR,.5,-10000.,1.,-10000.\n",
+      {-1e4 * 41 * std::pow(loaded_length, 4) / (384 * loaded_modulus * loaded_second_moment),
+       1e4 * loaded_length * loaded_length * 3 / 8});
 }
 
 // A triangle between two clamps: q l^2 / 20 at its higher end. The cubic moments of a quarter of
 // the bar are parabolas here, q l^2 / 7680 off at its ends: 0.3 %.
 TEST(LineLoads, ATriangleBetweenTwoClamps) {
   const Deck deck =
-      test::nastran(bar_deck("SPC1,1,123456,1,2\nPLOAD1,2,1,FY,FR,0.,0.,1.,-10000.\n"));
-  const double due = bending_stress(1e4 * length * length / 20);
-  EXPECT_NEAR(solve_bars(deck).stress.peak_von_mises.value, due, 4e-3 * due);
+      test::nastran(loaded_bar("SPC1,1,123456,1,2\nPLOAD1,2,1,FY,FR,0.,0.,1.,-10000.\n"));
+  const double due = stress_of_moment(1e4 * loaded_length * loaded_length / 20);
+  EXPECT_NEAR(solve_loaded(deck).stress.peak_von_mises.value, due, 4e-3 * due);
 }
 
 // M a (l - a / 2) / (E I) at the tip, M at the clamp; an even moment per length gives m l there and
 // m l^3 / (3 E I) at the tip.
 TEST(LineLoads, MomentsAcross) {
   constexpr double moment = 1e4, a = 1.5;
-  expect_cantilever("PLOAD1,2,1,MZ,LE,1.5,10000.\n",
-                    {moment * a * (length - a / 2) / (youngs_modulus * second_moment), moment});
+  expect_cantilever(
+      "PLOAD1,2,1,MZ,LE,1.5,10000.\n",
+      {moment * a * (loaded_length - a / 2) / (loaded_modulus * loaded_second_moment), moment});
   expect_cantilever(
       "PLOAD1,2,1,MZE,FR,0.,10000.,1.,10000.\n",
-      {moment * std::pow(length, 3) / (3 * youngs_modulus * second_moment), moment * length});
+      {moment * std::pow(loaded_length, 3) / (3 * loaded_modulus * loaded_second_moment),
+       moment * loaded_length});
 }
 
 // Even t per length: t l^2 / (2 G J); T at a place: T a / (G J).
 TEST(LineLoads, MomentsAlong) {
   const auto twist = [](const std::string& load) {
-    const Deck deck = test::nastran(bar_deck(clamped_at_1 + load));
-    return motion_at(deck, solve_bars(deck), 1)[3];
+    const Deck deck = test::nastran(loaded_bar(clamped_at_first + load));
+    return motion_of_loaded(deck, solve_loaded(deck), 1)[3];
   };
-  const double even = 1000 * length * length / (2 * shear_modulus * torsion);
+  const double even =
+      1000 * loaded_length * loaded_length / (2 * loaded_shear_modulus * loaded_torsion);
   EXPECT_NEAR(twist("PLOAD1,2,1,MX,FR,0.,1000.,1.,1000.\n"), even, 1e-6 * even);
-  const double at_a_place = 1000 * 1.5 / (shear_modulus * torsion);
+  const double at_a_place = 1000 * 1.5 / (loaded_shear_modulus * loaded_torsion);
   EXPECT_NEAR(twist("PLOAD1,2,1,MXE,LE,1.5,1000.\n"), at_a_place, 1e-6 * at_a_place);
 }
 
@@ -149,7 +159,7 @@ TEST(LineLoads, DirectionsAndProjections) {
         "CBAR,1,1,1,2,0.,0.,1.\nPBAR,1,1,0.02,6.7-5,1.7-5,4.58-5\nMAT1,1,2.+11,,0.3,7850.\n"
         "SPC1,1,123456,1\n" +
         load + "ENDDATA\n");
-    return solve_bars(deck).applied;
+    return solve_loaded(deck).applied;
   };
   const auto expect_force = [&](const std::string& load, const Vector3& force, double share) {
     const Wrench wrench = applied(load);
@@ -173,7 +183,7 @@ TEST(LineLoads, DirectionsAndProjections) {
 // (4, 0, 3.3) it is 5 m.
 TEST(LineLoads, OffsetBarsBearTheirLoadsBesideTheirGrids) {
   const auto applied = [](const std::string& load, const std::string& offsets) {
-    return solve_bars(test::nastran(bar_deck(clamped_at_1 + load, offsets))).applied;
+    return solve_loaded(test::nastran(loaded_bar(clamped_at_first + load, offsets))).applied;
   };
   const Wrench even = applied("PLOAD1,2,1,FY,FR,0.,100.,1.,100.\n", ",,,0.,0.,.3,0.,0.,.3\n");
   EXPECT_LT((even.moment - Vector3(2, 0, .3).cross(Vector3(0, 400, 0))).norm(), 1e-6);
@@ -222,15 +232,15 @@ TEST(LineLoads, TapersAreDividedToo) {
 // Written and read again, loads along bars act as before; for Abaqus they are put on the nodes.
 TEST(LineLoads, WrittenAndReadAgainTheyAreTheSame) {
   const Deck deck = test::nastran(
-      bar_deck(std::string(clamped_at_1) +
-                   "PLOAD1,2,1,FY,LE,1.5,-10000.\nPLOAD1,2,1,FZ,FR,.25,0.,.75,-100.\n"
-                   "PLOAD1,2,1,MX,FR,0.,20.,1.,20.\nPLOAD1,2,1,FY,FR,0.,-100.,1.,-100.\n",
-               ",,,0.,0.,.3,0.,0.,.3\n"));
-  const DeckCaseSolution before = solve_bars(deck);
+      loaded_bar(std::string(clamped_at_first) +
+                     "PLOAD1,2,1,FY,LE,1.5,-10000.\nPLOAD1,2,1,FZ,FR,.25,0.,.75,-100.\n"
+                     "PLOAD1,2,1,MX,FR,0.,20.,1.,20.\nPLOAD1,2,1,FY,FR,0.,-100.,1.,-100.\n",
+                 ",,,0.,0.,.3,0.,0.,.3\n"));
+  const DeckCaseSolution before = solve_loaded(deck);
   const Deck again = test::nastran(to_nastran(deck));
-  const Eigen::Matrix<double, 6, 1> tip = motion_at(deck, before, 1);
-  EXPECT_LT((motion_at(again, solve_bars(again), 1) - tip).norm(), 1e-6 * tip.norm());
-  const Wrench steps = solve_bars(test::abaqus(to_abaqus(deck))).applied;
+  const Eigen::Matrix<double, 6, 1> tip = motion_of_loaded(deck, before, 1);
+  EXPECT_LT((motion_of_loaded(again, solve_loaded(again), 1) - tip).norm(), 1e-6 * tip.norm());
+  const Wrench steps = solve_loaded(test::abaqus(to_abaqus(deck))).applied;
   EXPECT_LT((steps.force - before.applied.force).norm(), 1e-6 * before.applied.force.norm());
   EXPECT_LT((steps.moment - before.applied.moment).norm(), 1e-6 * before.applied.moment.norm());
 }

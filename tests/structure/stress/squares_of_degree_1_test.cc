@@ -43,5 +43,26 @@ TEST(SquaresOfDegree1, HaveNoShearWhereAPlateBendsInItsPlane) {
   }
 }
 
+// A warped plate turns as a rigid body: z = x (y - 0.2) / 2. Along one plane of a cell its rotation
+// would have a shear of some hundredths. What is left is how far the plate bulges from the plane of
+// a square of 50 mm: 1.3e-5 of the rotation by the same integral over squares of this surface.
+TEST(SquaresOfDegree1, HaveNoStressWhereAWarpedPlateTurns) {
+  const Vector3 rotation(0.3, 0.5, 0.8);
+  const ElasticModel model(testing::sheet_mesh(
+                               [](double x, double y) -> Vector3 {
+                                 return Vector3(x, 0.4 * y, x * (0.4 * y - 0.2) / 2);
+                               },
+                               2, 1, 0.02, testing::plain_steel()),
+                           {1, {}});
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(model.freedoms(), 1);
+  for (int n = 0; n < model.space().node_count(); ++n) {
+    motion.col(0).segment<3>(6 * n) = rotation.cross(Vector3(model.space().nodes().col(n)));
+    motion.col(0).segment<3>(6 * n + 3) = rotation;
+  }
+  const CheckedStress checked(model, motion);
+  ASSERT_GT(checked.squares().size(), 10U);
+  EXPECT_LT(checked.components().cwiseAbs().maxCoeff(), 4e-5 * 210e9);
+}
+
 }  // namespace
 }  // namespace blocklift::structure

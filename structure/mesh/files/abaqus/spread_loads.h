@@ -22,10 +22,10 @@ inline constexpr std::string_view known_surface_loads =
 /// not known for the element.
 ///
 /// P, HP (zero at one level, its magnitude at another; along z), TRVEC (along a vector) and TRSHR
-/// (along its part in the surface) per area; BX, BY, BZ per volume; PX, PY, PZ, P1, P2 per length of
-/// a beam; per length of a shell's edge EDNOR inwards, EDSHR along it, EDTRA against the normal,
-/// EDLD along a vector. Source: Abaqus Analysis User's Guide, distributed loads; directions of edge
-/// loads: 3DEXPERIENCE, about shell edge loads.
+/// (along its part in the surface) are per area; BX, BY, BZ per volume; PX, PY, PZ, P1, P2 per
+/// length of a beam; per length of a shell's edge EDNOR inwards, EDSHR along it, EDTRA against the
+/// normal, EDLD along a vector. Source: Abaqus Analysis User's Guide, distributed loads; directions
+/// of edge loads: 3DEXPERIENCE, about shell edge loads.
 /// @param fields element or set, kind, magnitude, and what the kind needs.
 /// @throws CardError for fields that are wrong, and for what cannot be said: tractions along a
 ///   surface that is not flat, and HP beyond the level where it is zero.

@@ -80,19 +80,31 @@ bool acts_on_released_ends(const Mesh& mesh, const BeamLoad& load) {
   axes.col(2) = axes.col(0).cross(beam.axis_2).normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
   const double size = line_between(mesh, beam, beam.offset).norm();
+  const auto centre_at = [&](std::size_t end) -> Vector3 {
+    return axes.rightCols<2>() * section_at(mesh, beam, static_cast<double>(end)).twist_centre();
+  };
   const std::size_t values = load.is_at_a_place() ? 1 : 2;
-  for (std::size_t end = 0; end < 2; ++end)
+  for (std::size_t end = 0; end < 2; ++end) {
+    // What acts at the other end does not reach this one.
+    if (load.is_at_a_place() && load.span[0] == (end == 0 ? 1 : 0)) continue;
     for (std::size_t v = 0; v < values; ++v) {
       const Vector3& force = load.force[v];
-      // About the centroid, which stays where a released rotation turns the end.
-      const Vector3 moment = load.moment[v] + (load.arm[end] - beam.offset[end]).cross(force);
+      // A released bending turns the end about its centroid, a released twist about the shear
+      // centre.
+      const auto about = [&](const Vector3& place) -> Vector3 {
+        return load.moment[v] + (load.arm[end] - beam.offset[end] - place).cross(force);
+      };
+      const Vector3 bending = about(Vector3::Zero()), twist = about(centre_at(end));
       const double least = rounding * std::max(size * force.norm(), load.moment[v].norm());
       for (int c = 0; c < 6; ++c) {
         if (!beam.release[end][c]) continue;
-        const double along = c < 3 ? size * force.dot(axes.col(c)) : moment.dot(axes.col(c - 3));
+        const double along = c < 3    ? size * force.dot(axes.col(c))
+                             : c == 3 ? twist.dot(axes.col(0))
+                                      : bending.dot(axes.col(c - 3));
         if (std::abs(along) > least) return true;
       }
     }
+  }
   return false;
 }
 

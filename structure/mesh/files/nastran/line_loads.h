@@ -7,8 +7,8 @@
 namespace blocklift::structure {
 
 /// Shares of a bar's length, between its ends, at which a PLOAD1 wants the bar divided: where it
-/// acts at a place, begins or ends, and, where it is not even, between. Elements then have the exact
-/// moments, or those of a linear load to some thousandths.
+/// acts at a place, begins or ends, and, where it is not even, between. Elements then have the
+/// exact moments, or those of a linear load to some thousandths.
 /// @param length of the line that the bar's offsets lead to, in the deck's units.
 /// @throws CardError as line_loads does for the card alone.
 std::vector<double> divisions_by_line_load(const CardView& card, double length);

@@ -95,6 +95,8 @@ void write_line_load(const Mesh& mesh, const BeamLoad& load, long set, long numb
 void write_loads_of_masses(const LoadSet& set, long label, const UnitSystem& units,
                            CardWriter& out) {
   constexpr std::size_t of_velocity = 3, of_acceleration = 8;
+  if (!set.edge_loads.empty() || !set.volume_loads.empty())
+    throw ModelError("loads of edges or per volume: Nastran knows none");
   Vector3 gravity = set.gravity;
   if (!set.pulls.empty()) throw ModelError("gravity on a part of the masses: Nastran knows none");
   for (const Spin& spin : set.spins) {

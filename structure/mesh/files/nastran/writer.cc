@@ -14,7 +14,6 @@
 #include "structure/index.h"
 #include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
-#include "structure/mesh/files/deck/line_loads.h"
 #include "structure/mesh/files/deck/link_frames.h"
 #include "structure/mesh/files/deck/numbering.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
@@ -519,8 +518,6 @@ class NastranText {
       for (const PlateLoad& load : set.plate_loads) write_plate_load(load_label_[s], load);
       for (const SolidLoad& load : set.solid_loads) write_solid_load(load_label_[s], load);
       for (const BeamLoad& load : set.beam_loads) write_beam_load(load_label_[s], load);
-      if (!set.edge_loads.empty() || !set.volume_loads.empty())
-        throw ModelError("loads of edges or per volume: Nastran knows none");
       write_loads_of_masses(set, load_label_[s], units_, out_);
     }
     for (std::size_t i = 0; i < deck_.load_cases.size(); ++i) {

@@ -98,13 +98,16 @@ TEST(NastranLoads, ALoadAlongWhatPinFlagsLeaveFreeIsLeftOut) {
         "1.-5\nMAT1,7,206.+9,,.3,7850.\n" +
         load);
   };
-  for (const std::string load : {"PLOAD1,2,20,FX,FR,0.,1.,1.,1.\n", "PLOAD1,2,20,MY,FR,.5,1.\n"}) {
+  for (const std::string load :
+       {"PLOAD1,2,20,FX,FR,0.,1.,1.,1.\n", "PLOAD1,2,20,MY,FR,0.,1.,1.,1.\n"}) {
     const Deck deck = deck_with(load);
     EXPECT_THAT(entry(deck, "PLOAD1").left_out, HasSubstr("a motion that pin flags leave free"));
     ASSERT_EQ(deck.remarks.size(), 1U) << load;
     EXPECT_THAT(deck.remarks[0].place, HasSubstr("deck.bdf:7"));
   }
   EXPECT_TRUE(deck_with("PLOAD1,2,20,FZ,FR,0.,1.,1.,1.\n").remarks.empty());
+  // Between its ends the bar has a node, which bears a moment.
+  EXPECT_TRUE(deck_with("PLOAD1,2,20,MY,FR,.5,1.\n").remarks.empty());
 }
 
 TEST(NastranLoads, ASetOfWrongLoadsIsNotSaidToBeMissing) {
