@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using Force = std::complex<double>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A column of 2 m radius that stands on the bottom of 10 m of water, which surges and sways.
 /// Waves' force by MacCamy and Fuchs (1954), F = 4 rho g tanh(kh)/(k^2 H1'(kR)); damping of what

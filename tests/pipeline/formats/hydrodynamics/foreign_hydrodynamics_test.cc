@@ -23,7 +23,7 @@ using dynamics::HydrodynamicDatabase;
 using ::testing::HasSubstr;
 using Complex = std::complex<double>;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 template <class Action>
 std::string message_of_import(const Action& action) {
