@@ -252,8 +252,8 @@ std::string lack_of_waves(const std::string& origin) {
       "holds no force of waves{}; what names the database can float in calm water alone", where);
 }
 
-/// What another program's file lacks, or has in other units. The table says the latter, too, where
-/// it is printed.
+/// What another program's file lacks, or has in other units. The latter is said by the table where
+/// that is printed.
 void say_doubts_about_import(const HydroOptions& options, const HydrodynamicFile& file) {
   const dynamics::HydrodynamicDatabase& database = file.series.databases.front();
   const auto say = [&](const std::string& what) { say_warning(*options.import + ": " + what); };
@@ -263,7 +263,7 @@ void say_doubts_about_import(const HydroOptions& options, const HydrodynamicFile
         "mass, and weight acts where the vessel has it");
   }
   if (database.headings.empty()) say(lack_of_waves(file.origin));
-  if (!options.export_format) return;
+  if (!options.export_format && !is_quiet()) return;
   for (const std::string& doubt : doubts_about_conventions(database)) say(doubt);
 }
 

@@ -128,9 +128,9 @@ void compare_channels(const TimeWindow& window, MeasuredLift& lift) {
 
 /// May the record be what was computed and noise? Of a load that hangs almost still the noise is
 /// larger than what moves, so that even a sound cell has no correlation.
-bool may_be_noise(const Agreement& agreement) {
+bool may_be_noise(double scale, double deviation) {
   constexpr double deviations = 3;
-  return std::abs(*agreement.scale - 1) <= deviations * agreement.scale_deviation;
+  return std::abs(scale - 1) <= deviations * deviation;
 }
 
 /// What makes a channel doubtful as a whole: a dead cell, another channel, another unit or sign.
@@ -152,7 +152,8 @@ std::string doubt_of(const HeldChannel& channel, const TimeWindow& window) {
   const std::string wrong_mean = fmt::format(
       "is {:.4g} times the computed one on average: its unit or its zero may be another", ratio);
   // Where nothing moves in the computed lift there is nothing that a record could follow.
-  if (!channel.agreement->scale || may_be_noise(*channel.agreement))
+  if (!channel.agreement->scale ||
+      may_be_noise(*channel.agreement->scale, channel.agreement->scale_deviation))
     return has_wrong_mean ? wrong_mean : std::string();
   const double correlation = channel.agreement->correlation, scale = *channel.agreement->scale;
   if (correlation < least_correlation)

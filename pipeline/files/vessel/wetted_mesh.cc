@@ -173,9 +173,8 @@ std::string doubt_about_size(const std::string& who, const Hull& hull) {
   const Vector3 size = bounds[1] - bounds[0];
   if (!(size.maxCoeff() > longest)) return {};
   return fmt::format(
-      "The hull of {} is {:.4g} x {:.4g} x {:.4g} m large: lengths of a mesh are metres, and the "
-      "file may have "
-      "millimetres (then {:.4g} m long).",
+      "The hull of {} is {:.0f} x {:.0f} x {:.0f} m large: lengths of a mesh are metres, and the "
+      "file may have millimetres (then {:.4g} m long).",
       who, size.x(), size.y(), size.z(), 1e-3 * size.maxCoeff());
 }
 

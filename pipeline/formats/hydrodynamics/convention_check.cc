@@ -179,15 +179,15 @@ RatioSpread spread_of(const std::vector<RadiatedPower>& powers, const Ratio& rat
 /// 1.17. An error in the frequencies that is taken for another has spreads of 1.5 and more.
 constexpr double acceptable_ratio = 1.25, spread_of_one_factor = 1.2, fitting_median = 1.15;
 
-bool fits_one(const RatioSpread& ratios) {
-  return std::abs(std::log(ratios.median)) < std::log(fitting_median) &&
-         ratios.spread() < spread_of_one_factor;
-}
-
 /// What else the file's frequencies or damping may be.
+/// @param largest_spread of ratios that such an error explains.
 std::vector<std::string> errors_of_frequency(const std::vector<RadiatedPower>& powers,
-                                             const Water& water) {
+                                             const Water& water, double largest_spread) {
   std::vector<std::string> found;
+  const auto fits_one = [&](const RatioSpread& ratios) {
+    return std::abs(std::log(ratios.median)) < std::log(fitting_median) &&
+           ratios.spread() < largest_spread;
+  };
   const auto say = [&](const char* what) {
     if (std::find(found.begin(), found.end(), what) == found.end()) found.emplace_back(what);
   };
@@ -264,7 +264,11 @@ std::string doubt_about_haskind(const HydrodynamicDatabase& database) {
   const bool one_factor = ratios.spread() < spread_of_one_factor;
   const bool is_off = std::abs(std::log(ratios.median)) > std::log(acceptable_ratio);
   if (!is_off && one_factor) return {};
-  std::vector<std::string> reasons = errors_of_frequency(most, water);
+  // A median of one that coarse panels spread is no error of the frequencies unless that leaves
+  // less than half of the spread, in logarithms.
+  const double explained =
+      is_off ? spread_of_one_factor : std::min(spread_of_one_factor, std::sqrt(ratios.spread()));
+  std::vector<std::string> reasons = errors_of_frequency(most, water, explained);
   if (reasons.empty() && (!is_off || some_mode_right)) return {};
   if (one_factor) reasons.insert(reasons.begin(), error_of_scale(ratios.median, water));
   std::string text = fmt::format(

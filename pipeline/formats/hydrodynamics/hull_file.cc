@@ -128,10 +128,14 @@ dynamics::Hull closed_above(const dynamics::Hull& hull, double tolerance) {
       throw dynamics::ModelError(defect.message);
   }
   dynamics::Hull closed = with_lids(hull, tolerance);
-  for (int panel = hull.panel_count(); panel < closed.panel_count(); ++panel) {
-    const dynamics::Vector3 area = closed.panel_area_vector(panel);
+  for (int panel = hull.panel_count(); panel < closed.panel_count();) {
+    // A lid is a fan about its middle, some of whose triangles look down where its rim has a bay.
+    const int centre = closed.panel(panel)[0];
+    dynamics::Vector3 area = dynamics::Vector3::Zero();
+    for (; panel < closed.panel_count() && closed.panel(panel)[0] == centre; ++panel)
+      area += closed.panel_area_vector(panel);
     if (area.z() >= steepest * area.norm()) continue;
-    const dynamics::Vector3 middle = closed.panel_midpoint(panel);
+    const dynamics::Vector3& middle = closed.vertex(centre);
     throw dynamics::ModelError(fmt::format(
         "hull \"{}\": close_openings closes what is open at the top, and the opening at ({:.4g}, "
         "{:.4g}, {:.4g}) m looks {}; add the panels that are missing there, mirror a mesh that is "

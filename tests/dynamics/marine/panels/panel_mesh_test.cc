@@ -197,8 +197,8 @@ TEST(SurfaceMesh, ThreeBodiesInARow) {
   EXPECT_EQ(4 * restrict_to_symmetry(surface.mesh, {true, true}).size(), surface.mesh.size());
 }
 
-// Three columns about a thinner one: lines half way between them do not meet in points. Each panel's
-// centroid lies in its own panel alone, as between two bodies.
+// Three columns about a thinner one: lines half way between them do not meet in points. Each
+// panel's centroid lies in its own panel alone, as between two bodies.
 TEST(SurfaceMesh, CoversTheWaterBetweenColumnsOfAPlatform) {
   const auto line_of_column = [](double x, double y, double radius, int vertices) {
     WaterLine line;

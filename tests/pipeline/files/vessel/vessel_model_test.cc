@@ -138,7 +138,7 @@ TEST(VesselModel, AMeshInMillimetresIsDoubted) {
       dynamics::make_barge({.length = 40e3, .breadth = 20e3, .depth = 6e3}, {4, 2, 2, 1});
   EXPECT_EQ(
       doubt_about_size("vessel barge", millimetres),
-      "The hull of vessel barge is 4e+04 x 2e+04 x 6000 m large: lengths of a mesh are metres, "
+      "The hull of vessel barge is 40000 x 20000 x 6000 m large: lengths of a mesh are metres, "
       "and the file may have millimetres (then 40 m long).");
 }
 

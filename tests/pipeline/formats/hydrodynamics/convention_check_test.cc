@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 using ::testing::Not;
 using Force = std::complex<double>;
 
-using std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 
 /// A column of 2 m radius that stands on the bottom of 10 m of water, which surges and sways.
 /// Waves' force by MacCamy and Fuchs (1954), F = 4 rho g tanh(kh)/(k^2 H1'(kR)); damping of what
@@ -34,9 +34,9 @@ HydrodynamicDatabase column(int headings = 12) {
   database.reference_points = {{0, 0, 0}};
   database.displaced_volumes = {0};
   const double rho = database.water.density, g = database.water.gravity;
-  for (int n = 0; n < headings; ++n) database.headings.push_back(2 * pi * n / headings);
+  for (int n = 0; n < headings; ++n) database.headings.push_back(2 * half_turn * n / headings);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(6, 6);
-  A(0, 0) = A(1, 1) = rho * pi * R * R * h;
+  A(0, 0) = A(1, 1) = rho * half_turn * R * R * h;
   database.infinite_added_mass = A;
   for (int n = 0; n < 18; ++n) {
     const double w = 0.3 + 0.1 * n, k = calc_wave_number(w, database.water), x = k * R;
@@ -136,12 +136,12 @@ TEST(Conventions, FrequenciesThatAreNone) {
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre(HasSubstr("if the damping were multiplied by the frequency twice")));
   database = column();
-  take_for(database, [](double w) { return 2 * pi / w; });
+  take_for(database, [](double w) { return 2 * half_turn / w; });
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre(HasSubstr("if periods were taken for frequencies in rad/s, or these for "
                                     "periods")));
   database = column();
-  take_for(database, [](double w) { return w / (2 * pi); });
+  take_for(database, [](double w) { return w / (2 * half_turn); });
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre(HasSubstr("if the frequencies were in Hz, and not in rad/s")));
 }
@@ -156,7 +156,7 @@ TEST(Conventions, PeriodsShowInHeave) {
     database.diffraction[k].row(2).setConstant(1e5 * std::exp(-4 * wave_number));
   }
   EXPECT_THAT(doubts_about_conventions(database), IsEmpty());
-  take_for(database, [](double w) { return 2 * pi / w; });
+  take_for(database, [](double w) { return 2 * half_turn / w; });
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre("the excitation of column heave is 0.20 of its stiffness at the lowest "
                           "frequency and 0.88 at the highest, where long waves have all of it; it "
@@ -173,7 +173,7 @@ TEST(Conventions, PhasesOfAnotherTimeFactor) {
                           "were conjugated (time as exp(-i w t), where the format has exp(i w t)) "
                           "(then 0.94)"));
   database = column();
-  for (double& heading : database.headings) heading -= pi;
+  for (double& heading : database.headings) heading -= half_turn;
   // Surge and sway alone do not tell waves that come from there from forces of the other sign.
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre(AllOf(HasSubstr("if the headings were those from which the waves come"),
@@ -183,17 +183,17 @@ TEST(Conventions, PhasesOfAnotherTimeFactor) {
 
 TEST(Conventions, HeadingsInAnotherUnit) {
   HydrodynamicDatabase database = column();
-  for (double& heading : database.headings) heading *= pi / 180;
+  for (double& heading : database.headings) heading *= half_turn / 180;
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre(HasSubstr("if the headings were in radians, and were read as degrees "
                                     "(then 0.94)")));
   database = column();
-  for (double& heading : database.headings) heading *= 180 / pi;
+  for (double& heading : database.headings) heading *= 180 / half_turn;
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre(HasSubstr("if the headings were in degrees, and were read as radians")));
   // Without long waves the figures themselves tell.
   database = column();
-  for (double& heading : database.headings) heading *= pi / 180;
+  for (double& heading : database.headings) heading *= half_turn / 180;
   database.infinite_added_mass.resize(0, 0);
   EXPECT_THAT(doubts_about_conventions(database),
               ElementsAre("its 12 headings lie between 0 and 5.76 degrees, as if the headings were "

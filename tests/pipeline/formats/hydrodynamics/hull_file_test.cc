@@ -1,7 +1,11 @@
 #include "pipeline/formats/hydrodynamics/hull_file.h"
 
+#include <array>
 #include <fstream>
+#include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +67,26 @@ TEST(HullFile, ClosesNothingButTheTop) {
   };
   std::string without_bottom = whole.substr(0, whole.find("0 0 -2  0 1 -2"));
   refuses(without_bottom.replace(without_bottom.find("\n3\n"), 3, "\n2\n"), "looks down");
+}
+
+// A dock of 6 x 6 x 1 m with a bay of 2 x 4 m, in which the middle of its rim lies.
+TEST(HullFile, ClosesADockWithABay) {
+  using Point = std::array<int, 2>;
+  const std::vector<std::array<int, 4>> cells{
+      {0, 0, 2, 2}, {2, 0, 4, 2}, {4, 0, 6, 2}, {0, 2, 2, 6}, {4, 2, 6, 6}};
+  const std::vector<Point> rim{{0, 0}, {2, 0}, {4, 0}, {6, 0}, {6, 2}, {6, 6},
+                               {4, 6}, {4, 2}, {2, 2}, {2, 6}, {0, 6}, {0, 2}};
+  std::string text = "dock\n1 9.80665\n0 0\n17\n";
+  for (const auto& [x, y, end_x, end_y] : cells)
+    text += fmt::format("{0} {1} -1 {0} {3} -1 {2} {3} -1 {2} {1} -1\n", x, y, end_x, end_y);
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const auto& [x, y] = rim[i];
+    const auto& [next_x, next_y] = rim[(i + 1) % rim.size()];
+    text += fmt::format("{0} {1} -1 {2} {3} -1 {2} {3} 0 {0} {1} 0\n", x, y, next_x, next_y);
+  }
+  const TemporaryFolder folder;
+  const Hull dock = read_hull(put(folder, "dock.gdf", text), {.close_openings = true});
+  EXPECT_NEAR(calc_enclosed_volume(dock).volume, 28, 1e-12);
 }
 
 TEST(HullFile, GivesBackWhatItWrites) {
