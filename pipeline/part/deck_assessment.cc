@@ -31,8 +31,8 @@ std::string why_none(const structure::Deck& deck, const structure::DeckSolution&
   return text;
 }
 
-/// What of a kind of cards is not in the model, and why; empty: all is, or it says no more than what
-/// a solver is to print.
+/// What of a kind of cards is not in the model, and why; empty: all is, or it says no more than
+/// what a solver is to print.
 std::string left_out_of(const structure::LedgerEntry& entry) {
   if (entry.left_out.empty() || entry.is_wish) return {};
   const std::string how_many = entry.used < entry.read

@@ -197,8 +197,7 @@ std::vector<BeamGaussPoint> beam_gauss_points(const Space& space, int cell) {
   std::vector<BeamGaussPoint> points;
   for (unsigned q = 0; q < rule.size(); ++q) {
     const double xi = rule.point(q)[0];
-    BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
-    if (beam.is_rod) section.twists_about_centroid = true;  // it bears no shear
+    const BeamSection section = section_at(mesh, beam, located.origin + located.size * xi);
     BeamPoint at_place = beam_point(space, cell, xi);
     BeamGaussPoint& point = points.emplace_back();
     point.xi = xi;

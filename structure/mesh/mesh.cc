@@ -178,6 +178,8 @@ std::vector<SectionPoint> shear_points_between(const BeamSection& from, const Be
 
 BeamSection section_at(const Mesh& mesh, const Beam& beam, double share) {
   BeamSection section = mesh.section_of(beam);
+  // A rod bears no shear that would go through a point of its own.
+  if (beam.is_rod) section.twists_about_centroid = true;
   if (beam.end_section < 0) return section;
   const BeamSection& end = mesh.beam_sections[beam.end_section];
   const auto between = [share](double& value, double of_end) {

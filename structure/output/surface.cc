@@ -348,10 +348,8 @@ void Surface::add_beams(const Space& space, const Eigen::MatrixXd& motions,
     for (std::size_t k = 0; k < fields.size(); ++k) {
       const auto motion = motions.col(k);
       const BeamMotion moved = beam_motion_at(space, station.cell, station.xi, motion);
-      const Eigen::VectorXd of_points = beam_stresses(space, station.cell, station.xi, motion);
-      double stress = 0;
-      for (Eigen::Index row = 0; row < of_points.rows(); row += 6)
-        stress = std::max(stress, von_mises(Stress(of_points.segment<6>(row))));
+      const double stress =
+          largest_von_mises(beam_stresses(space, station.cell, station.xi, motion));
       for (const int point : station.points) {
         fields[k].displacement[point] =
             moved.displacement + moved.rotation.cross(points_[point] - centroid);

@@ -1,6 +1,5 @@
 #include "structure/output/vtu.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -80,10 +79,7 @@ class Collector {
     const Beam& beam = space_.mesh().beams[located.beam];
     for (int i = 0; i <= located.degree; ++i) {
       const double xi = static_cast<double>(i) / located.degree;
-      const Eigen::VectorXd stress = beam_stresses(space_, cell, xi, motion_, heat_);
-      double largest = 0;
-      for (Eigen::Index row = 0; row < stress.rows(); row += 6)
-        largest = std::max(largest, von_mises(Stress(stress.segment<6>(row))));
+      const double largest = largest_von_mises(beam_stresses(space_, cell, xi, motion_, heat_));
       add_point(beam_point(space_, cell, xi).place,
                 beam_motion_at(space_, cell, xi, motion_, heat_).displacement,
                 {std::abs(beam_stress_at_centroid(space_, cell, xi, motion_, heat_)[0]), largest,

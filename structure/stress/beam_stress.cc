@@ -9,6 +9,7 @@
 #include "structure/formulation/beam.h"
 #include "structure/formulation/gauss_line.h"
 #include "structure/space/joints.h"
+#include "structure/stress_tensor.h"
 
 namespace blocklift::structure {
 
@@ -33,10 +34,7 @@ double modulus_of(const Mesh& mesh, const BeamSection& section) {
 
 BeamSection section_of(const Space& space, int cell, double xi) {
   const BeamCell& located = space.beams()[cell];
-  const Beam& beam = beam_of(space, cell);
-  BeamSection section = section_at(space.mesh(), beam, located.origin + located.size * xi);
-  if (beam.is_rod) section.twists_about_centroid = true;  // it bears no shear
-  return section;
+  return section_at(space.mesh(), beam_of(space, cell), located.origin + located.size * xi);
 }
 
 /// Motion of a cell's own ends.
@@ -149,6 +147,13 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
                                   point.of_force[1] * state.forces.row(2);
   }
   return stresses;
+}
+
+double largest_von_mises(const Eigen::VectorXd& stresses) {
+  double largest = 0;
+  for (Eigen::Index row = 0; row < stresses.rows(); row += 6)
+    largest = std::max(largest, von_mises(Stress(stresses.segment<6>(row))));
+  return largest;
 }
 
 Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,

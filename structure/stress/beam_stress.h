@@ -23,10 +23,14 @@ Eigen::MatrixXd beam_stresses(const Space& space, int cell, double xi,
                               const Eigen::Ref<const Eigen::MatrixXd>& motions,
                               const CellHeat* heat = nullptr);
 
-/// The points of a beam's section at a share of its length that beam_stresses looks at, as many
-/// all along it: checked_points(), of a rod, whose stress is one all over its section, the one with
-/// most torsion.
+/// The points of a beam's section at a share of its length that beam_stresses looks at:
+/// checked_points(), of a rod, whose stress is one all over its section, the one with most torsion.
+/// A taper may have fewer at an end where its torsion constant or its area vanishes.
 std::vector<SectionPoint> points_of_beam(const Mesh& mesh, const Beam& beam, double share);
+
+/// The largest von Mises stress of the points of a section, Pa.
+/// @param stresses a column of beam_stresses.
+double largest_von_mises(const Eigen::VectorXd& stresses);
 
 /// Mean normal stress over the section, N / A, a column a motion.
 Eigen::RowVectorXd beam_stress_at_centroid(const Space& space, int cell, double xi,

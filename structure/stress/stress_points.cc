@@ -31,12 +31,15 @@ StressPoints::StressPoints(const Space& space)
     : space_(space),
       shell_points_(2 * space.nodes_per_shell() * static_cast<int>(space.shells().size())) {
   for (std::size_t cell = 0; cell < space.beams().size(); ++cell) {
-    const Beam& beam = space.mesh().beams[space.beams()[cell].beam];
-    const int points = static_cast<int>(points_of_beam(space.mesh(), beam, 0).size());
+    const BeamCell& located = space.beams()[cell];
     // Between the ends, too: one cell may be all that a deck has between two supports.
-    for (const double xi : {0.0, 0.5, 1.0})
-      for (int point = 0; point < points; ++point)
-        beam_points_.push_back({static_cast<int>(cell), xi, point});
+    for (const double xi : {0.0, 0.5, 1.0}) {
+      const std::size_t points = points_of_beam(space.mesh(), space.mesh().beams[located.beam],
+                                                located.origin + located.size * xi)
+                                     .size();
+      for (std::size_t point = 0; point < points; ++point)
+        beam_points_.push_back({static_cast<int>(cell), xi, static_cast<int>(point)});
+    }
   }
   const std::vector<Solid>& solids = space.mesh().solids;
   for (std::size_t s = 0; s < solids.size(); ++s)

@@ -1,7 +1,6 @@
 // Stress in beams, their ends released or not.
 #include "structure/stress/beam_stress.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -12,7 +11,7 @@
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/formulation/beam.h"
 #include "structure/mesh/sections.h"
-#include "structure/stress_tensor.h"
+#include "structure/stress/stress_points.h"
 #include "tests/structure/motions.h"
 
 namespace blocklift::structure {
@@ -48,12 +47,6 @@ Eigen::VectorXd along(const Eigen::MatrixXd& stresses) {
 }
 Eigen::VectorXd across(const Eigen::MatrixXd& stresses) {
   return stresses.col(0)(Eigen::seqN(3, stresses.rows() / 6, 6));
-}
-double largest_von_mises(const Eigen::MatrixXd& stresses) {
-  double largest = 0;
-  for (Eigen::Index row = 0; row < stresses.rows(); row += 6)
-    largest = std::max(largest, von_mises(Stress(stresses.col(0).segment<6>(row))));
-  return largest;
 }
 
 // Uniform bending about an axis off the nodes: u_z = k x^2 / 2, theta_y = -k x; the stress at the
@@ -175,6 +168,31 @@ TEST(BeamStress, TwistedTaper) {
   const double torsion = (mesh.beam_sections[0].torsion + mesh.beam_sections[1].torsion) / 2;
   EXPECT_NEAR(points_of_beam(mesh, mesh.beams[0], 0.5).front().of_torsion, 0.08 / torsion,
               1e-9 / torsion);
+}
+
+// By figures alone a section has fewer points where it does not resist torsion. Where a taper ends in
+// such a one, each place along it has its own number of them.
+TEST(BeamStress, TaperWhoseTorsionConstantVanishes) {
+  Mesh mesh = bar();
+  mesh.beam_sections.push_back(mesh.beam_sections[0]);
+  mesh.beam_sections[1].torsion = 0;
+  mesh.beams[0].end_section = 1;
+  const Space space(mesh, {2, {}});
+  const StressPoints points(space);
+  int expected = 0;
+  for (const double share : {0.0, 0.5, 1.0})
+    expected += static_cast<int>(points_of_beam(mesh, mesh.beams[0], share).size());
+  ASSERT_LT(points_of_beam(mesh, mesh.beams[0], 1).size(),
+            points_of_beam(mesh, mesh.beams[0], 0).size());
+  ASSERT_EQ(points.count(), expected);
+  const Eigen::VectorXd stretched = testing::motion_of(space, [](const Vector3& p) {
+    Motion6 m = Motion6::Zero();
+    m[0] = 1e-3 * p.x();
+    return m;
+  });
+  const double due = 1e-3 * mesh.materials[0].youngs_modulus;
+  const Eigen::VectorXd found = along(points.stresses(0, points.count(), stretched));
+  EXPECT_LT((found.array() - due).abs().maxCoeff(), 1e-6 * due);
 }
 
 // A force through the shear centre of a channel makes a moment about the centroid, which does not

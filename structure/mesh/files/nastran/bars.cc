@@ -518,9 +518,6 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
           fmt::format("a bar, beam or rod has property {}, which is a {}", property, name)};
     NastranBar read;
     read.is_rod = !(bar.section.second_moment_2 > 0 || bar.section.second_moment_3 > 0);
-    // A rod bears no shear that would go through a point of its own.
-    if (read.is_rod) bar.section.twists_about_centroid = true;
-    if (read.is_rod && bar.end) bar.end->twists_about_centroid = true;
     read.section = add_section(model, name, bar.material, bar.section, property);
     if (bar.end) read.end_section = add_section(model, name, bar.material, *bar.end, property);
     read.centroid = bar.centroid;
