@@ -51,7 +51,7 @@ Vector3 turning_axis(const std::vector<ShellShare>& shares) {
     const Vector3 m = mean.normalized();
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - m * m.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(across * spread * across);
-    const Vector3 axis = m.cross(Vector3(solver.eigenvectors().col(2))).normalized();
+    Vector3 axis = m.cross(Vector3(solver.eigenvectors().col(2))).normalized();
     if (axis.dot(spread * axis) < little) return axis;
   }
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
@@ -60,7 +60,7 @@ Vector3 turning_axis(const std::vector<ShellShare>& shares) {
 /// Angles about an axis, from the first normal that is not along it.
 class AnglesAbout {
  public:
-  AnglesAbout(const Vector3& axis, const std::vector<ShellShare>& shares) : axis_(axis) {
+  AnglesAbout(const Vector3& axis, const std::vector<ShellShare>& shares) {
     const auto has_angle = [&](const ShellShare& share) {
       return std::abs(share.normal.dot(axis)) < 0.9;
     };
@@ -72,7 +72,7 @@ class AnglesAbout {
   double of(const Vector3& normal) const { return std::atan2(normal.dot(e_2_), normal.dot(e_1_)); }
 
  private:
-  Vector3 axis_, e_1_, e_2_;
+  Vector3 e_1_, e_2_;
 };
 
 /// An angle brought to less than a turn beyond another one, which a rounding may miss.

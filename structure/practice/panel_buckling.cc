@@ -392,7 +392,8 @@ void BlockPanels::integrate(const ElasticModel& model,
 
 double BlockPanels::field_width(int panel, const Vector3& along) const {
   const Panel& of = panels_[panel];
-  return runs_along_1(of, along) ? of.size.b / of.fields_b : of.size.a / of.fields_a;
+  return runs_along_1(of, along) ? std::min(spans_[panel][1], of.size.b / of.fields_b)
+                                 : std::min(spans_[panel][0], of.size.a / of.fields_a);
 }
 
 Eigen::RowVectorXd BlockPanels::stress_beside(int panel, const Vector3& along,

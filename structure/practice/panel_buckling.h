@@ -112,7 +112,7 @@ class BlockPanels {
   const std::vector<Panel>& panels() const { return panels_; }
   /// Place in panels() of a shell's panel; -1: it is a lug's.
   int panel_of(int shell) const { return panel_of_shell_[shell]; }
-  /// Width of a panel's fields across a direction in its plane, m.
+  /// Width of a panel's fields across a direction in its plane, m; without what cuts add.
   double field_width(int panel, const Vector3& along) const;
   /// Membrane stress along a direction in a panel, mean over that half of a field which lies on the
   /// side of a place on the panel's edge, Pa; a column a motion.
