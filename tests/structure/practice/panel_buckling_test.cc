@@ -425,7 +425,7 @@ TEST(BlockPanels, OpeningsAndBracketsAreNotCut) {
 }
 
 /// Pipe along x, 2 m long, of 72 flat facets that turn by 5 degrees each.
-Mesh pipe(double radius) {
+Mesh pipe_that_bends(double radius) {
   constexpr int facets = 72, rings = 2;
   Mesh mesh;
   mesh.materials = {steel};
@@ -460,7 +460,7 @@ Motion6 bent_upwards(const Vector3& x) {
 // 3 D / (R^2 t) (Timoshenko and Gere, 1961, chapter 7), however narrow its sectors.
 TEST(BlockPanels, APipeIsCutIntoSectors) {
   const double radius = 0.5;
-  const ElasticModel model(pipe(radius), {2, {}});
+  const ElasticModel model(pipe_that_bends(radius), {2, {}});
   const BlockPanels panels(model, testing::motion_of(model.space(), bent_upwards), {});
   ASSERT_EQ(panels.panels().size(), 12U);
   double least = 0;
