@@ -14,6 +14,7 @@
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/practice/bar_chains.h"
+#include "structure/practice/buckling_fields.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/shell_stress.h"
 
@@ -25,80 +26,6 @@ constexpr Eigen::Index rows_per_panel = 5;
 
 bool is_lug(const Mesh& mesh, int shell) { return mesh.regions[mesh.shells[shell].region].is_lug; }
 
-/// Fields that buckle as one: pads belong to their plates, beams and lugs' edges hold.
-PlateFields find_buckling_fields(const Mesh& mesh, const std::set<EdgeKey>& beams) {
-  return find_fields(mesh, 0.15, [&](int a, int b, int vertex_1, int vertex_2) {
-    return is_lug(mesh, a) == is_lug(mesh, b) && beams.count({vertex_1, vertex_2}) == 0;
-  });
-}
-
-/// A shell as it counts in its panel: area, middle and normal of the field's side.
-struct ShellShare {
-  double area = 0;
-  Vector3 middle = Vector3::Zero();
-  Vector3 normal = Vector3::Zero();
-};
-
-ShellShare share_of_shell(const Mesh& mesh, int number, bool is_flipped) {
-  const Shell& shell = mesh.shells[number];
-  const auto corner = [&](double x, double y) { return position(mesh, shell, {x, y}); };
-  ShellShare share;
-  // Two triangles: the middle of a triangle as a shell lies elsewhere than that of its square.
-  const std::array<std::array<Vector3, 3>, 2> halves{
-      {{corner(0, 0), corner(1, 0), corner(0, 1)}, {corner(1, 1), corner(0, 1), corner(1, 0)}}};
-  Vector3 area_vector = Vector3::Zero();
-  for (const auto& [a, b, c] : halves) {
-    const Vector3 half = 0.5 * (b - a).cross(c - a);
-    area_vector += half;
-    share.area += half.norm();
-    share.middle += half.norm() * (a + b + c) / 3;
-  }
-  share.middle /= share.area;
-  share.normal = (is_flipped ? -1.0 : 1.0) * area_vector.normalized();
-  return share;
-}
-
-/// The direction in which most of a field's outline runs, in the plane across a normal; of two
-/// alike the one nearer to x, then y, so that square panels of a plate lie the same way.
-Vector3 main_direction(const Mesh& mesh, const PlateField& field, const Vector3& normal) {
-  constexpr double parallel = 0.995;  // cosine
-  std::vector<Vector3> chords;
-  for (const auto& outline : field.outlines)
-    for (const FieldEdge& edge : outline) {
-      const Vector3 chord =
-          mesh.vertices[edge.pieces.back().to] - mesh.vertices[edge.pieces.front().from];
-      chords.push_back(chord - normal * normal.dot(chord));
-    }
-  const auto preference = [](const Vector3& d) { return std::abs(d.x()) + 0.5 * std::abs(d.y()); };
-  Vector3 best = normal.unitOrthogonal();
-  double longest = 0;
-  for (const Vector3& chord : chords) {
-    if (chord.norm() == 0) continue;
-    const Vector3 direction = chord.normalized();
-    double total = 0;
-    for (const Vector3& other : chords)
-      if (std::abs(direction.dot(other)) > parallel * other.norm()) total += other.norm();
-    const bool is_alike = std::abs(total - longest) <= 1e-6 * longest;
-    if (is_alike ? preference(direction) <= preference(best) + 1e-6 : total < longest) continue;
-    longest = total;
-    best = direction;
-  }
-  Eigen::Index axis = 0;
-  best.cwiseAbs().maxCoeff(&axis);
-  return best[axis] < 0 ? Vector3(-best) : best;
-}
-
-void find_axes(const Mesh& mesh, const PlateField& field, Panel& panel) {
-  Vector3 normal = Vector3::Zero();
-  for (std::size_t i = 0; i < field.shells.size(); ++i) {
-    const ShellShare share = share_of_shell(mesh, field.shells[i], field.is_flipped[i]);
-    normal += share.area * share.normal;
-  }
-  panel.normal = normal.normalized();
-  panel.e_1 = main_direction(mesh, field, panel.normal);
-  panel.e_2 = panel.normal.cross(panel.e_1);
-}
-
 /// Bounding rectangle in a panel's own axes, m.
 struct Bounds {
   Eigen::Vector2d lower = Eigen::Vector2d::Constant(1e300);
@@ -109,11 +36,12 @@ Eigen::Vector2d in_plane(const Panel& panel, const Vector3& place) {
   return {panel.e_1.dot(place), panel.e_2.dot(place)};
 }
 
-Bounds bounds_of(const Mesh& mesh, const PlateField& field, const Panel& panel) {
+Bounds bounds_of(const Mesh& mesh, const BucklingFields& fields, const PlateField& field,
+                 const Panel& panel) {
   Bounds bounds;
   for (const int shell : field.shells)
     for (const int vertex : mesh.shells[shell].vertices) {
-      const Eigen::Vector2d place = in_plane(panel, mesh.vertices[vertex]);
+      const Eigen::Vector2d place = in_plane(panel, fields.place(mesh, vertex));
       bounds.lower = bounds.lower.cwiseMin(place);
       bounds.upper = bounds.upper.cwiseMax(place);
     }
@@ -163,33 +91,70 @@ double enclosed_area(const Mesh& mesh, const std::vector<FieldEdge>& outline, co
   return area;
 }
 
-/// The sides of the bounding rectangle that lie free. Each piece of the field's outer outline
-/// counts for the sides to which it faces, as long as it is seen from there: a side is free where
-/// more than half of what faces it is held by no other plate or beam. Holes do not count.
-FreeEdges find_free_edges(const Mesh& mesh, const PlateField& field, const std::set<EdgeKey>& beams,
-                          const Panel& panel) {
+/// Length of what faces a side of a panel's rectangle, m.
+struct Facing {
+  double free = 0, held = 0;  ///< by another plate or a beam
+  double cut = 0;             ///< towards another piece of the same plate
+};
+
+/// By the sides across e_1 and e_2, lower and upper.
+using FacingSides = std::array<std::array<Facing, 2>, 2>;
+
+/// Each piece of the field's outer outline counts for the sides to which it faces, as long as it is
+/// seen from there. Holes do not count.
+FacingSides find_facing(const Mesh& mesh, const PlateField& field, const std::set<EdgeKey>& beams,
+                        const std::set<EdgeKey>& cuts, const Panel& panel) {
+  FacingSides result;
   const auto outer = std::max_element(
       field.outlines.begin(), field.outlines.end(), [&](const auto& one, const auto& other) {
         return enclosed_area(mesh, one, panel) < enclosed_area(mesh, other, panel);
       });
-  if (outer == field.outlines.end()) return {};
-  // Length that is free less what is held, of the sides across e_1 and e_2, lower and upper.
-  std::array<std::array<double, 2>, 2> free{};
+  if (outer == field.outlines.end()) return result;
   for (const FieldEdge& edge : *outer)
     for (const FieldEdge::Piece& piece : edge.pieces) {
-      const bool is_free = edge.is_free && beams.count(std::minmax(piece.from, piece.to)) == 0;
+      const EdgeKey key = std::minmax(piece.from, piece.to);
       const Eigen::Vector2d run =
           in_plane(panel, mesh.vertices[piece.to]) - in_plane(panel, mesh.vertices[piece.from]);
       const Eigen::Vector2d outward(run.y(), -run.x());  // the field is on the left
-      for (int across = 0; across < 2; ++across)
-        free[across][outward[across] > 0 ? 1 : 0] += (is_free ? 1 : -1) * std::abs(outward[across]);
+      for (int across = 0; across < 2; ++across) {
+        Facing& side = result[static_cast<std::size_t>(across)][outward[across] > 0 ? 1 : 0];
+        const bool is_free = edge.is_free && beams.count(key) == 0;
+        (cuts.count(key) != 0 ? side.cut
+         : is_free            ? side.free
+                              : side.held) += std::abs(outward[across]);
+      }
     }
-  FreeEdges result;
-  for (std::size_t end = 0; end < 2; ++end) {
-    result.along_b += free[0][end] > 0 ? 1 : 0;
-    result.along_a += free[1][end] > 0 ? 1 : 0;
-  }
   return result;
+}
+
+/// A side is free where more than half of what faces it is neither held nor cut.
+FreeEdges find_free_edges(const FacingSides& sides) {
+  const auto count = [](const std::array<Facing, 2>& ends) {
+    return static_cast<int>(std::count_if(
+        ends.begin(), ends.end(), [](const Facing& end) { return end.free > end.held + end.cut; }));
+  };
+  return {count(sides[1]), count(sides[0])};
+}
+
+/// Longer sides for what a cut does not hold. Towards a cut over more than half of an edge the
+/// panel counts as long as all of the plate, so that no half wave ends there. Over less of it, c of
+/// the edge's length L, the side s across it grows by half of c, times s / L where that is less
+/// than one. Of an L of three squares that is held all round, its longer piece then buckles under
+/// equal compression at 0.91 of what the L does, whose membrane frequency is known (Fox, Henrici
+/// and Moler, 1967); with a support along the cut it would at 1.28.
+void lengthen_at_cuts(const FacingSides& facing, double whole_length, Panel& panel) {
+  const std::array<double, 2> sides = {panel.size.a, panel.size.b};
+  std::array<double, 2> counted = sides;
+  for (std::size_t across = 0; across < 2; ++across)
+    for (const Facing& end : facing[across]) {
+      const double edge = sides[1 - across];
+      if (end.cut > 0.5 * edge * (1 + 1e-6))
+        counted[across] = std::max(counted[across], whole_length);
+      else
+        counted[across] += 0.5 * end.cut * std::min(1.0, sides[across] / edge);
+    }
+  panel.size.a = counted[0];
+  panel.size.b = counted[1];
 }
 
 /// Membrane stresses (11, 22, 12) of a point's rows turned into a panel's axes.
@@ -267,6 +232,14 @@ BucklingUtilisation biaxial_utilisation(const PanelSize& size, const Material& m
   const double critical =
       elastic * at_elastic / johnson_ostenfeld(at_elastic, material.yield_stress);
   return {with_shear(elastic, shear.elastic), with_shear(critical, shear.critical)};
+}
+
+/// Of compression round curved plating, spread over the side `width` along its generators.
+Share share_round(double arc, double width, double thickness, int free_edges,
+                  const Material& material, const Compression& compression) {
+  const double k = compression_coefficient(arc, width, 1, free_edges);
+  return share_of(compression.largest, k * euler_stress(material, thickness, width),
+                  material.yield_stress);
 }
 
 /// Does a direction run along a panel's side a rather than b?
@@ -347,13 +320,21 @@ BlockPanels::BlockPanels(const ElasticModel& model,
 void BlockPanels::describe(const Mesh& mesh) {
   const std::set<EdgeKey> beams = edges_with_beams(mesh);
   panel_of_shell_.assign(mesh.shells.size(), -1);
-  for (const PlateField& field : find_buckling_fields(mesh, beams).fields) {
+  const BucklingFields found = find_buckling_fields(mesh, beams);
+  for (const BucklingField& one : found.fields) {
+    const PlateField& field = one.field;
     if (is_lug(mesh, field.shells.front())) continue;
     Panel& panel = panels_.emplace_back();
-    find_axes(mesh, field, panel);
-    const Bounds bounds = bounds_of(mesh, field, panel);
-    measure(mesh, field, bounds, panel);
-    panel.free = find_free_edges(mesh, field, beams, panel);
+    const FieldAxes axes = axes_of(mesh, field);
+    panel.normal = axes.normal;
+    panel.e_1 = axes.e_1;
+    panel.e_2 = axes.e_2;
+    measure(mesh, field, bounds_of(mesh, found, field, panel), panel);
+    spans_.emplace_back(panel.size.a, panel.size.b);
+    const FacingSides facing = find_facing(mesh, field, beams, found.cuts, panel);
+    panel.free = find_free_edges(facing);
+    if (one.whole_length > 0) lengthen_at_cuts(facing, one.whole_length, panel);
+    if (one.arc > 0) (runs_along_1(panel, one.bend_axis) ? panel.arc_b : panel.arc_a) = one.arc;
     for (const int shell : field.shells) panel_of_shell_[shell] = static_cast<int>(shells_.size());
     shells_.push_back(field.shells);
   }
@@ -402,17 +383,17 @@ void BlockPanels::integrate(const ElasticModel& model,
       Eigen::Vector3d weights = Eigen::Vector3d::Zero();  // volume and second moments
       for (const int shell : shells_[p])
         for (const int cell : finder.cells_of(shell)) add(p, cell, recovery, weights);
-      const PanelSize& size = panels_[p].size;
       components_.middleRows<3>(rows_per_panel * p) /= weights[0];
-      components_.row(rows_per_panel * p + 3) *= size.b / 2 / weights[1];
-      components_.row(rows_per_panel * p + 4) *= size.a / 2 / weights[2];
+      components_.row(rows_per_panel * p + 3) *= spans_[p][1] / 2 / weights[1];
+      components_.row(rows_per_panel * p + 4) *= spans_[p][0] / 2 / weights[2];
     }
   });
 }
 
 double BlockPanels::field_width(int panel, const Vector3& along) const {
   const Panel& of = panels_[panel];
-  return runs_along_1(of, along) ? of.size.b / of.fields_b : of.size.a / of.fields_a;
+  return runs_along_1(of, along) ? std::min(spans_[panel][1], of.size.b / of.fields_b)
+                                 : std::min(spans_[panel][0], of.size.a / of.fields_a);
 }
 
 Eigen::RowVectorXd BlockPanels::stress_beside(int panel, const Vector3& along,
@@ -441,7 +422,20 @@ BucklingUtilisation BlockPanels::utilisation(int panel, const PanelStress& stres
   size.b /= of.fields_b;
   take_field(field.s11, field.s11_gradient, of.fields_b);
   take_field(field.s22, field.s22_gradient, of.fields_a);
-  return buckling_utilisation(size, of.free, materials_[of.material], field);
+  const Material& material = materials_[of.material];
+  BucklingUtilisation result = buckling_utilisation(size, of.free, material, field);
+  const auto take = [&](const Share& round) {
+    result.elastic = std::max(result.elastic, round.elastic);
+    result.critical = std::max(result.critical, round.critical);
+  };
+  // Stiffeners along the generators divide the arc.
+  if (of.arc_b > 0 && of.fields_b == 1)
+    take(share_round(of.arc_b, size.a, size.thickness, of.free.along_b, material,
+                     compression_of(field.s22, field.s22_gradient)));
+  if (of.arc_a > 0 && of.fields_a == 1)
+    take(share_round(of.arc_a, size.b, size.thickness, of.free.along_a, material,
+                     compression_of(field.s11, field.s11_gradient)));
+  return result;
 }
 
 std::vector<BlockPanels::Worst> BlockPanels::find_worst(const Eigen::MatrixXd& factors,

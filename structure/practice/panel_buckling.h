@@ -70,7 +70,8 @@ BucklingUtilisation buckling_utilisation(const PanelSize& size, const FreeEdges&
                                          const Material& material, const PanelStress& stress);
 
 /// Panel of a block: a field of plate between its neighbours, its kinks and beams, of whatever
-/// direction. Changes of thickness within it do not hold it; lugs are none.
+/// direction, or a piece of one that goes round a corner or a bend (find_buckling_fields). Changes
+/// of thickness within it do not hold it; lugs are none.
 struct Panel {
   std::string plate;  ///< name of the region that has most of it, "web_frames at x = 4 m"
   std::string group;  ///< name of that region's group
@@ -79,7 +80,11 @@ struct Panel {
   Vector3 e_2 = Vector3::Zero();       ///< along b, normal x e_1
   Vector3 centre_B = Vector3::Zero();  ///< of its material, m
   /// Of its bounding rectangle along e_1 and e_2; thickness of the thinnest plate of a tenth of it.
+  /// A cut towards another piece of its plate holds nothing: sides across one count longer.
   PanelSize size;
+  /// Of a sector of curved plating, whose sides hold nothing: length along the side a (b) over
+  /// which it buckles under compression along that side, m; 0: none is curved that way.
+  double arc_a = 0, arc_b = 0;
   FreeEdges free;
   /// How many fields between stiffeners the sides a and b are wide. Where stiffeners stand is not
   /// known, so that one field is taken to be as wide as their spacing; this need not be whole.
@@ -107,7 +112,7 @@ class BlockPanels {
   const std::vector<Panel>& panels() const { return panels_; }
   /// Place in panels() of a shell's panel; -1: it is a lug's.
   int panel_of(int shell) const { return panel_of_shell_[shell]; }
-  /// Width of a panel's fields across a direction in its plane, m.
+  /// Width of a panel's fields across a direction in its plane, m; without what cuts add.
   double field_width(int panel, const Vector3& along) const;
   /// Membrane stress along a direction in a panel, mean over that half of a field which lies on the
   /// side of a place on the panel's edge, Pa; a column a motion.
@@ -132,6 +137,7 @@ class BlockPanels {
 
   std::vector<Material> materials_;
   std::vector<Panel> panels_;
+  std::vector<Eigen::Vector2d> spans_;    ///< sides of each panel without what cuts add, m
   std::vector<std::vector<int>> shells_;  ///< of each panel
   std::vector<int> panel_of_shell_;
   Eigen::MatrixXd components_;  ///< rows 5 panel + (s11, s22, s12, gradients)
