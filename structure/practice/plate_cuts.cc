@@ -289,7 +289,8 @@ std::optional<PlateCut> find_plate_cut(const Mesh& mesh, const PlateField& field
   if (enclosed > filled * whole.area) return std::nullopt;
   std::optional<PlateCut> best;
   double least = worth_it * whole.area;
-  for (const CutRays& rays : CutFinder(std::move(outlines)).candidates()) {
+  const CutFinder finder(std::move(outlines));
+  for (const CutRays& rays : finder.candidates()) {
     PlateCut cut = flat.cut(rays);
     if (cut.pieces < 2) continue;
     const double area = flat.area_about(cut);

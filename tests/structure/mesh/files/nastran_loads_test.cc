@@ -96,7 +96,7 @@ TEST(NastranLoads, ALoadAlongWhatPinFlagsLeaveFreeIsLeftOut) {
     return nastran(
         "GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nCBAR,20,8,1,2,0.,0.,1.\n,1,56\nPBAR,8,7,.01,1.-5,1.-5,"
         "1.-5\nMAT1,7,206.+9,,.3,7850.\n" +
-        load);
+        load + "ENDDATA\n");
   };
   for (const std::string load :
        {"PLOAD1,2,20,FX,FR,0.,1.,1.,1.\n", "PLOAD1,2,20,MY,FR,0.,1.,1.,1.\n"}) {
