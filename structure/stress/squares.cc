@@ -189,15 +189,32 @@ class SquarePlacer {
     square.shell = at.shell;
     square.region = mesh_.shells[at.shell].region;
     square.centre_B = position_of(at);
-    const Vector3 normal = normal_of(mesh_, at);
-    square.e_1 = (e_1 - normal * normal.dot(e_1)).normalized();
-    square.e_2 = normal.cross(square.e_1);
+    square.e_1 = e_1;
+    turn_to(normal_of(mesh_, at), square);
     return square;
   }
 
+  static void turn_to(const Vector3& normal, Square& square) {
+    square.e_1 = (square.e_1 - normal * normal.dot(square.e_1)).normalized();
+    square.e_2 = normal.cross(square.e_1);
+  }
+
+  /// Turns a square on an edge into the plane that touches a curved plate at the square's centre:
+  /// in that at its edge a rotation of the plate has a strain.
+  void turn_to_centre(const PlateField& field, const Vector3& on_edge, Square& square) const {
+    square.centre_B = on_edge + 0.5 * square.size * square.e_2;
+    if (const auto found = walker_.find(square.centre_B, start_of(square)))
+      turn_to(side_of(field, found->shell) * normal_of(mesh_, *found), square);
+  }
+
+  /// Of a shell that looks as its field does: 1.
+  static double side_of(const PlateField& field, int shell) {
+    const auto found = std::find(field.shells.begin(), field.shells.end(), shell);
+    return field.is_flipped[found - field.shells.begin()] ? -1 : 1;
+  }
+
   bool lies_inside(const Square& square) const {
-    const auto points = contour(square);
-    return std::all_of(points.begin(), points.end(), [&](const ContourPoint& point) {
+    return std::ranges::all_of(contour(square), [&](const ContourPoint& point) {
       const auto found = walker_.find(point.place, start_of(square));
       return found &&
              (position(mesh_, mesh_.shells[found->shell], found->xi) - point.place).norm() <
@@ -209,22 +226,16 @@ class SquarePlacer {
   bool put_on_edge(const PlateField& field, const FieldEdge& edge, double s, double size) {
     const ShellPlace begin = place_of(edge, s), middle = place_of(edge, s + size / 2),
                      end = place_of(edge, s + size);
-    const auto at_place = [&](const ShellPlace& p) {
-      return position(mesh_, mesh_.shells[p.shell], p.xi);
-    };
-    const auto shell = std::find(field.shells.begin(), field.shells.end(), middle.shell);
-    const double side = field.is_flipped[shell - field.shells.begin()] ? -1 : 1;
     Square square;
     square.size = size;
     square.shell = middle.shell;
     square.region = mesh_.shells[middle.shell].region;
-    square.e_1 = (at_place(end) - at_place(begin)).normalized();
-    const Vector3 normal = side * normal_of(mesh_, middle);
-    square.e_1 = (square.e_1 - normal * normal.dot(square.e_1)).normalized();
-    square.e_2 = normal.cross(square.e_1);
+    square.e_1 = (position_of(end) - position_of(begin)).normalized();
+    turn_to(side_of(field, middle.shell) * normal_of(mesh_, middle), square);
+    turn_to_centre(field, position_of(middle), square);
     // On a curved edge either the chord or the tangent has the square inside.
     for (const Vector3& base :
-         {at_place(middle), Vector3(0.5 * (at_place(begin) + at_place(end)))}) {
+         {position_of(middle), Vector3(0.5 * (position_of(begin) + position_of(end)))}) {
       square.centre_B = base + 0.5 * size * square.e_2;
       if (!lies_inside(square)) continue;
       squares_.push_back(square);
