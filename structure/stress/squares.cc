@@ -14,6 +14,7 @@
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/large_pages.h"
+#include "structure/mesh/shell_edges.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/bilinear_shear.h"
 #include "structure/stress/square_about.h"
@@ -68,14 +69,14 @@ ShellPlace place_of(const FieldEdge& edge, double s) {
 }
 
 Vector3 normal_of(const Mesh& mesh, const ShellPlace& place) {
-  const Shell& shell = mesh.shells[place.shell];
-  const Eigen::Vector2d inward = place.xi + 0.01 * (Eigen::Vector2d(0.5, 0.5) - place.xi);
-  const double step = 1e-3;
-  const Vector3 g_1 = position(mesh, shell, inward + Eigen::Vector2d(step, 0)) -
-                      position(mesh, shell, inward - Eigen::Vector2d(step, 0));
-  const Vector3 g_2 = position(mesh, shell, inward + Eigen::Vector2d(0, step)) -
-                      position(mesh, shell, inward - Eigen::Vector2d(0, step));
-  return g_1.cross(g_2).normalized();
+  const auto normal_at = [&](const Eigen::Vector2d& xi) -> Vector3 {
+    const Eigen::Matrix<double, 3, 2> g = tangents(mesh, place.shell, xi);
+    return Vector3(g.col(0)).cross(Vector3(g.col(1)));
+  };
+  const Eigen::Vector2d middle(0.5, 0.5);
+  // A triangle has none in the corner that is an edge of its unit square.
+  const bool has_none = normal_at(place.xi).norm() < 1e-3 * normal_at(middle).norm();
+  return normal_at(has_none ? place.xi + 0.01 * (middle - place.xi) : place.xi).normalized();
 }
 
 /// Distances from both ends of an edge at which squares begin: one behind the other at the ends,
@@ -226,16 +227,13 @@ class SquarePlacer {
   bool put_on_edge(const PlateField& field, const FieldEdge& edge, double s, double size) {
     const ShellPlace begin = place_of(edge, s), middle = place_of(edge, s + size / 2),
                      end = place_of(edge, s + size);
-    Square square;
-    square.size = size;
-    square.shell = middle.shell;
-    square.region = mesh_.shells[middle.shell].region;
+    Square square{.size = size, .region = mesh_.shells[middle.shell].region, .shell = middle.shell};
     square.e_1 = (position_of(end) - position_of(begin)).normalized();
     turn_to(side_of(field, middle.shell) * normal_of(mesh_, middle), square);
     turn_to_centre(field, position_of(middle), square);
     // On a curved edge either the chord or the tangent has the square inside.
-    for (const Vector3& base :
-         {position_of(middle), Vector3(0.5 * (position_of(begin) + position_of(end)))}) {
+    const Vector3 chord = 0.5 * (position_of(begin) + position_of(end));
+    for (const Vector3& base : {position_of(middle), chord}) {
       square.centre_B = base + 0.5 * size * square.e_2;
       if (!lies_inside(square)) continue;
       squares_.push_back(square);
