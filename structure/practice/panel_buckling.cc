@@ -137,21 +137,26 @@ FreeEdges find_free_edges(const FacingSides& sides) {
 }
 
 /// Longer sides for what a cut does not hold. Towards a cut over more than half of an edge the
-/// panel counts as long as all of the plate, so that no half wave ends there. Over less of it, c of
-/// the edge's length L, the side s across it grows by half of c, times s / L where that is less
-/// than one. Of an L of three squares that is held all round, its longer piece then buckles under
-/// equal compression at 0.91 of what the L does, whose membrane frequency is known (Fox, Henrici
-/// and Moler, 1967); with a support along the cut it would at 1.28.
+/// panel counts as long as all of the plate, so that no half wave ends there; across the way on
+/// which most is cut it stays the strip that it is. Over less of an edge, c of its length L, and
+/// that way, the side s across it grows by half of c, times s / L where that is less than one. Of
+/// an L of three squares that is held all round, its longer piece then buckles under equal
+/// compression at 0.91 of what the L does, whose membrane frequency is known (Fox, Henrici and
+/// Moler, 1967); with a support along the cut it would at 1.28.
 void lengthen_at_cuts(const FacingSides& facing, double whole_length, Panel& panel) {
   const std::array<double, 2> sides = {panel.size.a, panel.size.b};
+  const auto cut_share = [&](std::size_t across) {
+    return std::max(facing[across][0].cut, facing[across][1].cut) / sides[1 - across];
+  };
+  const std::size_t along = cut_share(0) >= cut_share(1) ? 0 : 1;
   std::array<double, 2> counted = sides;
   for (std::size_t across = 0; across < 2; ++across)
     for (const Facing& end : facing[across]) {
-      const double edge = sides[1 - across];
-      if (end.cut > 0.5 * edge * (1 + 1e-6))
+      const double edge = sides[1 - across], cut = std::min(end.cut, edge);
+      if (across == along && cut > 0.5 * edge * (1 + 1e-6))
         counted[across] = std::max(counted[across], whole_length);
       else
-        counted[across] += 0.5 * end.cut * std::min(1.0, sides[across] / edge);
+        counted[across] += 0.5 * cut * std::min(1.0, sides[across] / edge);
     }
   panel.size.a = counted[0];
   panel.size.b = counted[1];
