@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_edges.h"
 #include "dynamics/marine/hull/point_text.h"
 
 namespace blocklift::dynamics {
@@ -210,25 +211,6 @@ Hull with_mirror_image(const Hull& hull, int axis, double tolerance) {
 
 namespace {
 
-// Panels on each edge; `forward` tells whether a panel runs from the smaller vertex to the larger.
-struct EdgeSide {
-  int panel;
-  bool forward;
-};
-
-std::map<std::array<int, 2>, std::vector<EdgeSide>> find_edge_sides(const Hull& hull) {
-  std::map<std::array<int, 2>, std::vector<EdgeSide>> edges;
-  for (int panel = 0; panel < hull.panel_count(); ++panel) {
-    const std::span<const int> corners = hull.panel(panel);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const int a = corners[i];
-      const int b = corners[(i + 1) % corners.size()];
-      edges[{std::min(a, b), std::max(a, b)}].push_back({panel, a < b});
-    }
-  }
-  return edges;
-}
-
 // Six times the volume between a panel and Bo.
 double six_volumes(const Hull& hull, int panel) {
   double sum = 0.0;
@@ -248,9 +230,9 @@ Hull turned_outwards(const Hull& hull) {
   };
   const auto count = static_cast<std::size_t>(hull.panel_count());
   std::vector<std::vector<Neighbour>> neighbours(count);
-  for (const auto& [edge, sides] : find_edge_sides(hull)) {
+  for (const auto& [edge, sides] : find_edges(hull)) {
     if (sides.size() != 2) continue;
-    const bool opposed = sides[0].forward == sides[1].forward;
+    const bool opposed = sides[0].is_forward == sides[1].is_forward;
     neighbours[sides[0].panel].push_back({sides[1].panel, opposed});
     neighbours[sides[1].panel].push_back({sides[0].panel, opposed});
   }
@@ -287,19 +269,12 @@ namespace {
 
 // Edges that one panel has and no other has in the opposite sense: from vertex to vertex.
 std::map<int, std::vector<int>> find_rim(const Hull& hull) {
-  std::map<std::array<int, 2>, int> balance;
-  for (int panel = 0; panel < hull.panel_count(); ++panel) {
-    const std::span<const int> corners = hull.panel(panel);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const int a = corners[i];
-      const int b = corners[(i + 1) % corners.size()];
-      a < b ? ++balance[{a, b}] : --balance[{b, a}];
-    }
-  }
   std::map<int, std::vector<int>> rim;
-  for (const auto& [edge, count] : balance) {
-    if (count > 0) rim[edge[1]].push_back(edge[0]);  // the lid runs the other way
-    if (count < 0) rim[edge[0]].push_back(edge[1]);
+  for (const auto& [edge, panels] : find_edges(hull)) {
+    const auto forward = std::ranges::count_if(panels, &PanelAtEdge::is_forward);
+    const auto backward = static_cast<std::ptrdiff_t>(panels.size()) - forward;
+    if (forward > backward) rim[edge[1]].push_back(edge[0]);  // the lid runs the other way
+    if (forward < backward) rim[edge[0]].push_back(edge[1]);
   }
   return rim;
 }

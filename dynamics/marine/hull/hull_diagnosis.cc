@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_edges.h"
 #include "dynamics/marine/hull/point_text.h"
 
 namespace blocklift::dynamics {
@@ -91,25 +92,6 @@ void check_shapes(const Hull& hull, double largest_warp, Findings& findings) {
   }
 }
 
-struct EdgeUse {
-  std::vector<int> forward;   // panels that run from the smaller vertex number to the larger
-  std::vector<int> backward;  // and those that run back
-};
-
-std::map<std::array<int, 2>, EdgeUse> find_edges(const Hull& hull) {
-  std::map<std::array<int, 2>, EdgeUse> edges;
-  for (int panel = 0; panel < hull.panel_count(); ++panel) {
-    const std::span<const int> corners = hull.panel(panel);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const int a = corners[i];
-      const int b = corners[(i + 1) % corners.size()];
-      EdgeUse& use = edges[{std::min(a, b), std::max(a, b)}];
-      (a < b ? use.forward : use.backward).push_back(panel);
-    }
-  }
-  return edges;
-}
-
 void check_doubled(const Hull& hull, Findings& findings) {
   std::map<std::vector<int>, int> first;
   for (int panel = 0; panel < hull.panel_count(); ++panel) {
@@ -124,13 +106,14 @@ void check_doubled(const Hull& hull, Findings& findings) {
 }
 
 void check_edges(const Hull& hull, Findings& findings) {
-  for (const auto& [edge, use] : find_edges(hull)) {
+  for (const auto& [edge, panels] : find_edges(hull)) {
     const Vector3& a = hull.vertex(edge[0]);
     const Vector3& b = hull.vertex(edge[1]);
     const Vector3 middle = 0.5 * (a + b);
     const std::string where = "the edge from " + text_of_point(a) + " to " + text_of_point(b) + " ";
-    const std::size_t count = use.forward.size() + use.backward.size();
-    const int panel = use.forward.empty() ? use.backward.front() : use.forward.front();
+    const std::size_t count = panels.size();
+    const auto forward = std::ranges::find_if(panels, &PanelAtEdge::is_forward);
+    const int panel = forward == panels.end() ? panels.front().panel : forward->panel;
     if (count == 1) {
       findings.add(HullDefectKind::open_edge, panel, middle,
                    where +
@@ -140,10 +123,10 @@ void check_edges(const Hull& hull, Findings& findings) {
       findings.add(HullDefectKind::crowded_edge, panel, middle,
                    where + "belongs to " + std::to_string(count) +
                        " panels; two are due. Remove inner walls and doubled panels");
-    } else if (use.forward.size() != 1) {
-      const std::vector<int>& both = use.forward.empty() ? use.backward : use.forward;
-      findings.add(HullDefectKind::twisted_edge, both[0], middle,
-                   where + "is run along in the same sense by panel " + std::to_string(both[1]) +
+    } else if (panels[0].is_forward == panels[1].is_forward) {
+      findings.add(HullDefectKind::twisted_edge, panel, middle,
+                   where + "is run along in the same sense by panel " +
+                       std::to_string(panels[1].panel) +
                        ": one of the two is turned round; reverse the order of its vertices");
     }
   }

@@ -13,30 +13,16 @@
 #include <fmt/ranges.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_edges.h"
 #include "dynamics/marine/hull/point_text.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 using dynamics::Hull;
+using dynamics::HullEdges;
+using dynamics::PanelAtEdge;
 using dynamics::Vector3;
-
-/// The panels at an edge, and whether each runs along it from the smaller vertex to the larger.
-using EdgePanels = std::map<std::array<int, 2>, std::vector<std::pair<int, bool>>>;
-
-template <class Keep>
-EdgePanels edges_of_mesh(const Hull& hull, const Keep& keep) {
-  EdgePanels edges;
-  for (int k = 0; k < hull.panel_count(); ++k) {
-    if (!keep(k)) continue;
-    const std::span<const int> panel = hull.panel(k);
-    for (std::size_t i = 0; i < panel.size(); ++i) {
-      const int from = panel[i], to = panel[(i + 1) % panel.size()];
-      edges[{std::min(from, to), std::max(from, to)}].emplace_back(k, from < to);
-    }
-  }
-  return edges;
-}
 
 /// Of those edges at which the hull is open, for a hull that lies on one side of a plane that holds
 /// them all: 0 of x = 0, 1 of y = 0.
@@ -66,8 +52,7 @@ std::string words_about_half(int axis) {
 
 /// @throws dynamics::ModelError if an edge that does not lie at the surface has but one panel.
 template <class AtSurface>
-void require_closed_below(const Hull& wetted, const EdgePanels& edges,
-                          const AtSurface& at_surface) {
+void require_closed_below(const Hull& wetted, const HullEdges& edges, const AtSurface& at_surface) {
   std::vector<std::array<int, 2>> open;
   for (const auto& [edge, panels] : edges) {
     if (panels.size() == 1 && !(at_surface(edge[0]) && at_surface(edge[1]))) open.push_back(edge);
@@ -86,9 +71,9 @@ void require_closed_below(const Hull& wetted, const EdgePanels& edges,
 
 /// Lids would be put on both sides of panels that are turned round.
 /// @throws dynamics::ModelError naming the first edge of such a panel.
-void require_one_sense(const Hull& wetted, const EdgePanels& edges) {
+void require_one_sense(const Hull& wetted, const HullEdges& edges) {
   const auto twisted = std::find_if(edges.begin(), edges.end(), [](const auto& edge) {
-    return edge.second.size() == 2 && edge.second[0].second == edge.second[1].second;
+    return edge.second.size() == 2 && edge.second[0].is_forward == edge.second[1].is_forward;
   });
   if (twisted == edges.end()) return;
   const auto& [edge, panels] = *twisted;
@@ -96,7 +81,7 @@ void require_one_sense(const Hull& wetted, const EdgePanels& edges) {
       "hull \"{}\": the edge from {} to {} is run along in the same sense by panels {} and {}: "
       "one of the two is turned round; {}",
       wetted.name(), dynamics::text_of_point(wetted.vertex(edge[0])),
-      dynamics::text_of_point(wetted.vertex(edge[1])), panels[0].first, panels[1].first,
+      dynamics::text_of_point(wetted.vertex(edge[1])), panels[0].panel, panels[1].panel,
       fmt::join(hints_on_mesh(wetted), "; ")));
 }
 
@@ -114,7 +99,9 @@ Hull with_freeboard(const Hull& wetted) {
     const std::span<const int> panel = wetted.panel(k);
     return !std::all_of(panel.begin(), panel.end(), at_surface);
   };
-  const EdgePanels edges = edges_of_mesh(wetted, is_wet);
+  HullEdges edges = find_edges(wetted);
+  for (auto& [edge, panels] : edges)
+    std::erase_if(panels, [&](const PanelAtEdge& at_edge) { return !is_wet(at_edge.panel); });
   require_closed_below(wetted, edges, at_surface);
   require_one_sense(wetted, edges);
   for (int k = 0; k < wetted.panel_count(); ++k)
@@ -131,7 +118,8 @@ Hull with_freeboard(const Hull& wetted) {
   std::set<std::pair<int, int>> rim;
   for (const auto& [edge, panels] : edges) {
     if (panels.size() != 1) continue;
-    rim.insert(panels.front().second ? std::pair(edge[0], edge[1]) : std::pair(edge[1], edge[0]));
+    rim.insert(panels.front().is_forward ? std::pair(edge[0], edge[1])
+                                         : std::pair(edge[1], edge[0]));
   }
   for (const auto& [from, to] : rim) hull.add_panel({to, from, raise(from), raise(to)});
   return with_lids(hull, tolerance);
@@ -142,12 +130,12 @@ std::vector<std::string> hints_on_mesh(const Hull& hull) {
   std::vector<std::array<int, 2>> open;
   std::vector<int> twisted(static_cast<std::size_t>(hull.panel_count()), 0);
   std::vector<int> sound = twisted;
-  for (const auto& [edge, panels] : edges_of_mesh(hull, [](int) { return true; })) {
+  for (const auto& [edge, panels] : find_edges(hull)) {
     if (panels.size() == 1) open.push_back(edge);
     if (panels.size() != 2) continue;
-    const bool is_twisted = panels[0].second == panels[1].second;
-    for (const auto& [panel, forward] : panels)
-      ++(is_twisted ? twisted : sound)[static_cast<std::size_t>(panel)];
+    const bool is_twisted = panels[0].is_forward == panels[1].is_forward;
+    for (const PanelAtEdge& at_edge : panels)
+      ++(is_twisted ? twisted : sound)[static_cast<std::size_t>(at_edge.panel)];
   }
   std::vector<std::string> hints;
   if (const std::optional<int> half = plane_of_half(hull, open))
