@@ -12,7 +12,7 @@
 #include "parallel/threads.h"
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
-#include "structure/mesh/plate_finder.h"
+#include "structure/mesh/fields/plate_finder.h"
 #include "structure/stress/block_field.h"
 
 namespace blocklift::pipeline {

@@ -12,7 +12,7 @@
 #include "parallel/threads.h"
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/stress/block_field.h"
 #include "structure/stress/square_about.h"
 #include "structure/stress_tensor.h"

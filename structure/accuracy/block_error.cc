@@ -13,7 +13,7 @@
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/index.h"
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/stress/shell_stress.h"

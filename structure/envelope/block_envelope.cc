@@ -10,7 +10,7 @@
 #include "algebra/products.h"
 #include "parallel/threads.h"
 #include "structure/envelope/coordinate_motions.h"
-#include "structure/mesh/solid_lugs.h"
+#include "structure/mesh/lugs/solid_lugs.h"
 
 namespace blocklift::structure {
 

@@ -11,6 +11,7 @@
 
 #include "algebra/decompositions.h"
 #include "structure/error.h"
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/space/joints.h"
 
 namespace blocklift::structure {
@@ -123,17 +124,6 @@ Eigen::MatrixXd motion_with_releases(const Eigen::MatrixXd& stiffness,
 }
 
 }  // namespace
-
-Eigen::Matrix3d beam_axes(const Mesh& mesh, const Beam& beam) {
-  const Vector3 along = (mesh.vertices[beam.vertices[1]] + beam.offset[1] -
-                         mesh.vertices[beam.vertices[0]] - beam.offset[0])
-                            .normalized();
-  Eigen::Matrix3d axes;
-  axes.row(0) = along;
-  axes.row(1) = (beam.axis_2 - along * along.dot(beam.axis_2)).normalized();
-  axes.row(2) = along.cross(axes.row(1).transpose());
-  return axes;
-}
 
 BeamPoint beam_point(const Space& space, int cell, double xi) {
   const BeamCell& located = space.beams()[cell];

@@ -4,12 +4,10 @@
 
 #include <Eigen/Core>
 
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/space/space.h"
 
 namespace blocklift::structure {
-
-/// Axes of a beam: the rows are axes 1 (along it), 2 and 3.
-Eigen::Matrix3d beam_axes(const Mesh& mesh, const Beam& beam);
 
 /// A point of a beam with what it feels of its cell's freedoms.
 struct BeamPoint {

@@ -13,6 +13,7 @@
 #include "structure/formulation/beam.h"
 #include "structure/index.h"
 #include "structure/load_cases/deck_solution.h"
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {

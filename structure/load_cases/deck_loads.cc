@@ -11,6 +11,7 @@
 #include "structure/formulation/beam.h"
 #include "structure/formulation/shell.h"
 #include "structure/formulation/solid.h"
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/files/deck/coordinate_systems.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
@@ -122,7 +123,8 @@ class LoadAdder {
     // Exact for the beams' degrees, a force and an arm that are linear in place: a square's rule
     // seen along one side, whose weights sum to one.
     const Eigen::Matrix3Xd rule = square_rule(space_.degree() + 2);
-    const double length = line_of(along).norm();
+    const double length =
+        line_beside(space_.mesh(), space_.mesh().beams[along.beam], along.arm).norm();
     for (const BeamCell& cell : space_.beams()) {
       if (cell.beam != along.beam) continue;
       const double from = std::max(cell.origin, along.span[0]),
@@ -190,14 +192,6 @@ class LoadAdder {
           weight * edge.norm() * values[i] * force;
   }
 
-  /// The line that bears a load, from end to end of its beam.
-  Vector3 line_of(const BeamLoad& along) const {
-    const Mesh& mesh = space_.mesh();
-    const Beam& beam = mesh.beams[along.beam];
-    return mesh.vertices[beam.vertices[1]] + along.arm[1] - mesh.vertices[beam.vertices[0]] -
-           along.arm[0];
-  }
-
   /// Cells that meet at the place have a node there: either takes all of it.
   void add_at_a_place(const BeamLoad& load, double factor) {
     constexpr double rounding = 1e-9;
@@ -215,17 +209,12 @@ class LoadAdder {
   void add_in_cell(const BeamCell& cell, const BeamLoad& along, double share, double weight) {
     const double t =
         along.is_at_a_place() ? 0 : (share - along.span[0]) / (along.span[1] - along.span[0]);
-    const auto between = [](const std::array<Vector3, 2>& ends, double at) -> Vector3 {
-      return (1 - at) * ends[0] + at * ends[1];
-    };
-    const Vector3 force = weight * between(along.force, t);
-    const Vector3 moment =
-        weight * between(along.moment, t) + between(along.arm, share).cross(force);
+    const LoadAtPlace here = load_at(along, along.arm, t);
     const std::vector<double> values =
         lagrange_values(cell.degree, (share - cell.origin) / cell.size);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      load_.segment<3>(row_of(cell.nodes[i])) += values[i] * force;
-      load_.segment<3>(row_of(cell.nodes[i]) + 3) += values[i] * moment;
+      load_.segment<3>(row_of(cell.nodes[i])) += weight * values[i] * here.force;
+      load_.segment<3>(row_of(cell.nodes[i]) + 3) += weight * values[i] * here.moment;
     }
   }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/diagnosis/diagnosis.h"
 
 namespace blocklift::structure {
 

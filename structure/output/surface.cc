@@ -19,6 +19,7 @@
 #include "structure/formulation/beam.h"
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/output/divided_cell.h"
 #include "structure/stress/beam_stress.h"

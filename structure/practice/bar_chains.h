@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/mesh/mesh.h"
-#include "structure/mesh/shell_edges.h"
 
 namespace blocklift::structure {
 

@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/mesh/mesh.h"
-#include "structure/mesh/shell_edges.h"
 
 namespace blocklift::structure {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-#include "structure/mesh/shell_edges.h"
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/practice/buckling_fields.h"
 
 namespace blocklift::structure {

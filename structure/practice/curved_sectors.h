@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/mesh/mesh.h"
 
 namespace blocklift::structure {

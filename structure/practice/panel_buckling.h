@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/response/elastic_model.h"
 
 namespace blocklift::structure {

@@ -5,9 +5,9 @@
 #include <set>
 #include <vector>
 
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/mesh/mesh.h"
-#include "structure/mesh/shell_edges.h"
 #include "structure/practice/buckling_fields.h"
 
 namespace blocklift::structure {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/space/space.h"
 
 namespace blocklift::structure {

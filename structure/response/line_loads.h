@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/shell_tree.h"
+#include "structure/mesh/fields/shell_tree.h"
 #include "structure/response/cell_finder.h"
 #include "structure/space/space.h"
 

@@ -15,7 +15,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
-#include "structure/mesh/shell_edges.h"
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/edge_nodes.h"
 #include "structure/space/joints.h"

@@ -6,7 +6,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/affine_constraints.h>
 
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/space/edge_nodes.h"
 #include "structure/space/space.h"
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "structure/formulation/cell_heat.h"
-#include "structure/mesh/section_shear.h"
+#include "structure/mesh/beams/section_shear.h"
 #include "structure/space/space.h"
 
 namespace blocklift::structure {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/plate_finder.h"
+#include "structure/mesh/fields/plate_finder.h"
 #include "structure/response/cell_finder.h"
 #include "structure/response/elastic_model.h"
 

@@ -9,7 +9,7 @@
 #include "parallel/threads.h"
 #include "structure/error.h"
 #include "structure/index.h"
-#include "structure/mesh/shell_tree.h"
+#include "structure/mesh/fields/shell_tree.h"
 #include "structure/system/matter.h"
 
 namespace blocklift::structure {

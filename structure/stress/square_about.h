@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/stress/squares.h"
 
 namespace blocklift::structure {

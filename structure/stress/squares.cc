@@ -14,7 +14,7 @@
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/large_pages.h"
-#include "structure/mesh/shell_edges.h"
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/bilinear_shear.h"
 #include "structure/stress/square_about.h"

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "structure/formulation/cell_heat.h"
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/response/elastic_model.h"
 #include "structure/square_site.h"
 

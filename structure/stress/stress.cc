@@ -7,7 +7,7 @@
 
 #include "parallel/threads.h"
 #include "structure/index.h"
-#include "structure/mesh/solid_lugs.h"
+#include "structure/mesh/lugs/solid_lugs.h"
 #include "structure/stress_tensor.h"
 
 namespace blocklift::structure {

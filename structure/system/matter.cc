@@ -15,6 +15,7 @@
 #include "structure/formulation/solid.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"

@@ -11,8 +11,8 @@
 
 #include <Eigen/Dense>
 
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
-#include "structure/mesh/sections.h"
 
 namespace blocklift::models {
 

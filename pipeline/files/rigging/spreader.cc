@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/declaration/table.h"
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "pipeline/declaration/format.h"
 #include "pipeline/files/structure/mesh_groups.h"
-#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/diagnosis/diagnosis.h"
 #include "structure/mesh/files/deck/deck.h"
 
 namespace blocklift::pipeline {

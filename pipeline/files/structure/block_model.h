@@ -11,8 +11,8 @@
 #include "pipeline/files/structure/load_edge.h"
 #include "pipeline/files/structure/padeye_format.h"
 #include "pipeline/mechanism/mechanism_parts.h"
-#include "structure/mesh/plane_frame.h"
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
+#include "structure/mesh/fields/plane_frame.h"
 
 namespace blocklift::pipeline {
 
@@ -29,7 +29,7 @@ struct MaterialModel {
 };
 
 /// Rectangle normal to an axis of the block, or of the frame of a plate by its corners
-/// (structure/mesh/plane_frame.h): its extent along the two other axes, m.
+/// (structure/mesh/fields/plane_frame.h): its extent along the two other axes, m.
 struct Rectangle {
   std::size_t normal = 0;          ///< 0, 1, 2 for x, y, z, or u, v, n
   bool is_in_plate_frame = false;  ///< the axes are u, v, n

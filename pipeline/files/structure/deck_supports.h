@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/diagnosis/diagnosis.h"
 #include "structure/mesh/files/deck/deck.h"
 
 namespace blocklift::pipeline {

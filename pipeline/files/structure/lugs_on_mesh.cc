@@ -11,8 +11,8 @@
 #include "pipeline/files/structure/block_model.h"
 #include "structure/error.h"
 #include "structure/letter_case.h"
-#include "structure/mesh/lug_on_mesh.h"
-#include "structure/mesh/plate_finder.h"
+#include "structure/mesh/fields/plate_finder.h"
+#include "structure/mesh/lugs/lug_on_mesh.h"
 
 namespace blocklift::pipeline {
 namespace {

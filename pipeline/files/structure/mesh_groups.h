@@ -6,8 +6,8 @@
 
 #include "pipeline/declaration/format.h"
 #include "pipeline/declaration/geometry_format.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/deck/deck.h"
-#include "structure/mesh/sections.h"
 
 namespace blocklift::pipeline {
 

@@ -4,7 +4,7 @@
 
 #include "pipeline/declaration/format.h"
 #include "pipeline/declaration/geometry_format.h"
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 
 namespace blocklift::pipeline {
 

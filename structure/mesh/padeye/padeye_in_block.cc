@@ -13,9 +13,9 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/fields/plate_finder.h"
+#include "structure/mesh/fields/shell_solid_joint.h"
 #include "structure/mesh/padeye/padeye.h"
-#include "structure/mesh/plate_finder.h"
-#include "structure/mesh/shell_solid_joint.h"
 
 namespace blocklift::structure {
 

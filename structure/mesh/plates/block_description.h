@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/mesh.h"
-#include "structure/mesh/sections.h"
 
 namespace blocklift::structure {
 
@@ -124,7 +124,7 @@ struct Lug {
   Vector3 p_BPin = Vector3::Zero();
 };
 
-/// Thickened region of a plane free plate, in the plate's frame (structure/mesh/plane_frame.h).
+/// Thickened region of a plane free plate, in the plate's frame (structure/mesh/fields/plane_frame.h).
 struct FreePad {
   std::string name;
   std::string plate;

@@ -15,12 +15,12 @@
 #include "structure/child_process.h"
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/fields/plane_frame.h"
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/surfaces/cell_collector.h"
 #include "structure/mesh/files/surfaces/deck_packet.h"
 #include "structure/mesh/files/surfaces/fragments.h"
 #include "structure/mesh/files/surfaces/surface_mesher.h"
-#include "structure/mesh/plane_frame.h"
 #include "structure/mesh/plates/free_sheets.h"
 
 namespace blocklift::structure {

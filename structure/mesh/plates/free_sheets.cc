@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/mesh/plane_frame.h"
+#include "structure/mesh/fields/plane_frame.h"
 #include "structure/mesh/plates/line_pieces.h"
 
 namespace blocklift::structure {

@@ -10,9 +10,9 @@
 #include "pipeline/build/describe_block.h"
 #include "pipeline/build/stiffener_plates.h"
 #include "pipeline/files/library/model_library.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
-#include "structure/mesh/sections.h"
 #include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {

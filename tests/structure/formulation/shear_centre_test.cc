@@ -8,7 +8,7 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/formulation/beam.h"
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/stress/beam_stress.h"
 #include "structure/system/matter.h"
 #include "structure/system/natural_modes.h"

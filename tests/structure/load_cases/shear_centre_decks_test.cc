@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "structure/load_cases/deck_solution.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/writer.h"
-#include "structure/mesh/sections.h"
 #include "tests/structure/mesh/files/deck_text.h"
 
 namespace blocklift::structure {

@@ -18,7 +18,7 @@
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/reader.h"
 #include "structure/mesh/files/nastran/writer.h"
-#include "structure/mesh/lug_on_mesh.h"
+#include "structure/mesh/lugs/lug_on_mesh.h"
 #include "structure/mesh/padeye/padeye_in_block.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/unit_responses.h"

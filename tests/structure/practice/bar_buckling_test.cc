@@ -9,8 +9,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/plates/shell_generator.h"
-#include "structure/mesh/sections.h"
 #include "structure/practice/tripping.h"
 #include "structure/response/unit_responses.h"
 #include "tests/structure/motions.h"

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/mesh/plates/shell_generator.h"
-#include "structure/mesh/shell_edges.h"
 #include "tests/structure/hull_block.h"
 #include "tests/structure/motions.h"
 #include "tests/structure/practice/halved_beams.h"

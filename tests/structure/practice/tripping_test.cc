@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/practice/stiffener_chains.h"
 #include "tests/structure/practice/sample_steel.h"
 

@@ -10,7 +10,7 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/formulation/beam.h"
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/stress/stress_points.h"
 #include "tests/structure/motions.h"
 

@@ -10,7 +10,7 @@
 #include "structure/error.h"
 #include "structure/formulation/shell.h"
 #include "structure/mesh/laminate.h"
-#include "structure/mesh/lug_on_mesh.h"
+#include "structure/mesh/lugs/lug_on_mesh.h"
 #include "structure/response/elastic_model.h"
 #include "structure/space/links.h"
 #include "structure/system/assembly.h"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/abaqus/model.h"
-#include "structure/mesh/sections.h"
 
 namespace blocklift::structure {
 

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/files/deck/line_loads.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/solid_shape.h"
@@ -92,6 +93,7 @@ class SpreadLoadReader {
       load.beam = b;
       load.force.fill(mesh_.section_of(beam).area * force);
       load.arm = beam.offset;
+      require_held(load);
       set.beam_loads.push_back(load);
     }
     return set;
@@ -101,25 +103,27 @@ class SpreadLoadReader {
     LoadSet set;
     for (const int b : element_.beams) {
       const Beam& beam = mesh_.beams[b];
-      const Vector3 line =
-          (model_.place(beam.vertices[1]) - model_.place(beam.vertices[0])).normalized();
-      const Vector3 axis_3 = line.cross(beam.axis_2).normalized();
-      const Vector3 axis = kind == "P1"   ? Vector3(axis_3.cross(line))
-                           : kind == "P2" ? axis_3
-                                          : Vector3(Vector3::Unit(kind[1] - 'X'));
+      const Eigen::Matrix3d axes =
+          axes_along(model_.place(beam.vertices[1]) - model_.place(beam.vertices[0]), beam.axis_2);
+      const Vector3 axis = kind == "P1" || kind == "P2" ? Vector3(axes.row(kind[1] - '0'))
+                                                        : Vector3(Vector3::Unit(kind[1] - 'X'));
       BeamLoad load;
       load.beam = b;
       load.force.fill(magnitude() * model_.units.force / model_.units.length * axis);
-      if (acts_on_released_ends(mesh_, load))
-        throw CardError{fmt::format(
-            "a load {} acts along what *RELEASE leaves free of element {}, which is not known",
-            kind, element_.label)};
+      require_held(load);
       set.beam_loads.push_back(load);
     }
     return set;
   }
 
  private:
+  void require_held(const BeamLoad& load) const {
+    if (acts_on_released_ends(mesh_, load))
+      throw CardError{fmt::format(
+          "a load {} acts along what *RELEASE leaves free of element {}, which is not known",
+          fields_[1], element_.label)};
+  }
+
   double magnitude() const { return abaqus_real(fields_, 2, "magnitude"); }
 
   Vector3 direction() const {

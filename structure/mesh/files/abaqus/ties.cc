@@ -12,8 +12,8 @@
 
 #include "algebra/decompositions.h"
 #include "structure/index.h"
+#include "structure/mesh/fields/shell_tree.h"
 #include "structure/mesh/files/abaqus/model.h"
-#include "structure/mesh/shell_tree.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {

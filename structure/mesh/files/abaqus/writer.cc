@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/files/abaqus/temperature_text.h"
 #include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
@@ -224,10 +225,10 @@ class AbaqusText {
           fmt::format("beam {} is tapered; Abaqus' general sections are of one size", beam.label));
     if (beam.is_rod) return kind;
     const Vector3 line = mesh_.vertices[beam.vertices[1]] - mesh_.vertices[beam.vertices[0]];
-    const Vector3 axis_3 = line.cross(beam.axis_2).normalized();
-    kind.axis_2 = axis_3.cross(line).normalized();
-    kind.centroid << beam.offset[0].dot(kind.axis_2), beam.offset[0].dot(axis_3);
-    const Vector3 across = kind.centroid[0] * kind.axis_2 + kind.centroid[1] * axis_3;
+    const Eigen::Matrix<double, 2, 3> axes = axes_along(line, beam.axis_2).bottomRows<2>();
+    kind.axis_2 = axes.row(0);
+    kind.centroid = axes * beam.offset[0];
+    const Vector3 across = axes.transpose() * kind.centroid;
     if ((beam.offset[0] - across).norm() + (beam.offset[1] - across).norm() > 1e-9 * line.norm())
       throw ModelError(
           fmt::format("beam {} has offsets that differ between its ends or go along it; "

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "structure/mesh/beams/beam_axes.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -15,11 +17,16 @@ Vector3 at_share(const std::array<Vector3, 2>& ends, double share) {
   return (1 - share) * ends[0] + share * ends[1];
 }
 
-Vector3 line_between(const Mesh& mesh, const Beam& beam, const std::array<Vector3, 2>& arms) {
-  return mesh.vertices[beam.vertices[1]] + arms[1] - mesh.vertices[beam.vertices[0]] - arms[0];
-}
-
 }  // namespace
+
+LoadAtPlace load_at(const BeamLoad& load, const std::array<Vector3, 2>& arm, double share_of_span) {
+  const double share = load.span[0] + share_of_span * (load.span[1] - load.span[0]);
+  LoadAtPlace at_place;
+  at_place.force = at_share(load.force, share_of_span);
+  at_place.moment =
+      at_share(load.moment, share_of_span) + at_share(arm, share).cross(at_place.force);
+  return at_place;
+}
 
 std::array<PointLoad, 2> loads_at_ends(const Mesh& mesh, const BeamLoad& load) {
   const Beam& beam = mesh.beams[load.beam];
@@ -27,13 +34,11 @@ std::array<PointLoad, 2> loads_at_ends(const Mesh& mesh, const BeamLoad& load) {
   for (std::size_t end = 0; end < 2; ++end) at_ends[end].vertex = beam.vertices[end];
   const auto add = [&](double t, double weight) {
     const double share = load.span[0] + t * (load.span[1] - load.span[0]);
-    const Vector3 force = weight * at_share(load.force, t);
-    const Vector3 moment =
-        weight * at_share(load.moment, t) + at_share(load.arm, share).cross(force);
+    const LoadAtPlace here = load_at(load, load.arm, t);
     for (std::size_t end = 0; end < 2; ++end) {
-      const double value = end == 0 ? 1 - share : share;
-      at_ends[end].force += value * force;
-      at_ends[end].moment += value * moment;
+      const double value = weight * (end == 0 ? 1 - share : share);
+      at_ends[end].force += value * here.force;
+      at_ends[end].moment += value * here.moment;
     }
   };
   if (load.is_at_a_place()) {
@@ -41,7 +46,7 @@ std::array<PointLoad, 2> loads_at_ends(const Mesh& mesh, const BeamLoad& load) {
     return at_ends;
   }
   // Two points of Gauss: exact for what is linear in place thrice over.
-  const double length = (load.span[1] - load.span[0]) * line_between(mesh, beam, load.arm).norm();
+  const double length = (load.span[1] - load.span[0]) * line_beside(mesh, beam, load.arm).norm();
   for (const double side : {-1, 1}) add((1 + side / std::sqrt(3.0)) / 2, length / 2);
   return at_ends;
 }
@@ -75,13 +80,11 @@ bool acts_on_released_ends(const Mesh& mesh, const BeamLoad& load) {
   constexpr double rounding = 1e-9;
   const Beam& beam = mesh.beams[load.beam];
   if (beam.release == std::array<BeamRelease, 2>{}) return false;
-  Eigen::Matrix3d axes;
-  axes.col(0) = line_between(mesh, beam, beam.offset).normalized();
-  axes.col(2) = axes.col(0).cross(beam.axis_2).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  const double size = line_between(mesh, beam, beam.offset).norm();
+  const Eigen::Matrix3d axes = beam_axes(mesh, beam);
+  const double size = line_beside(mesh, beam, beam.offset).norm();
   const auto centre_at = [&](std::size_t end) -> Vector3 {
-    return axes.rightCols<2>() * section_at(mesh, beam, static_cast<double>(end)).twist_centre();
+    return axes.bottomRows<2>().transpose() *
+           section_at(mesh, beam, static_cast<double>(end)).twist_centre();
   };
   const std::size_t values = load.is_at_a_place() ? 1 : 2;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -98,9 +101,9 @@ bool acts_on_released_ends(const Mesh& mesh, const BeamLoad& load) {
       const double least = rounding * std::max(size * force.norm(), load.moment[v].norm());
       for (int c = 0; c < 6; ++c) {
         if (!beam.release[end][c]) continue;
-        const double along = c < 3    ? size * force.dot(axes.col(c))
-                             : c == 3 ? twist.dot(axes.col(0))
-                                      : bending.dot(axes.col(c - 3));
+        const double along = c < 3    ? size * axes.row(c).dot(force)
+                             : c == 3 ? axes.row(0).dot(twist)
+                                      : axes.row(c - 3).dot(bending);
         if (std::abs(along) > least) return true;
       }
     }

@@ -7,6 +7,15 @@
 
 namespace blocklift::structure {
 
+/// Force and moment of a load along a beam, per m of the line that bears it or, at one place, whole.
+struct LoadAtPlace {
+  Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
+};
+
+/// A load at a share of its span, the moment about a line beside the one that bears it.
+/// @param arm from that line to the one that bears it, at the beam's ends, m.
+LoadAtPlace load_at(const BeamLoad& load, const std::array<Vector3, 2>& arm, double share_of_span);
+
 /// What a load along a beam is at its two vertices if a linear element bears it: as much force, and
 /// as much moment about any place, as the load has.
 std::array<PointLoad, 2> loads_at_ends(const Mesh& mesh, const BeamLoad& load);

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/nastran/model.h"
-#include "structure/mesh/sections.h"
 
 namespace blocklift::structure {
 

@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/nastran/line_loads.h"
 #include "structure/mesh/files/nastran/model.h"
@@ -251,7 +252,7 @@ class Bars {
       beam.axis_2 = line.unitOrthogonal();
       model_.log.remark(card.line(), card.name() + " without bending stiffness is taken as a rod");
     }
-    const Eigen::Matrix3d own = triad(line, beam.axis_2);
+    const Eigen::Matrix3d own = axes_along(line, beam.axis_2).transpose();
     for (std::size_t end = 0; end < 2; ++end) {
       const Vector3 given(card.real(10 + 3 * end, "offset", 0.0),
                           card.real(11 + 3 * end, "offset", 0.0),
@@ -279,10 +280,10 @@ class Bars {
           "edge of a plate: divide the beam and the plate at its stations",
           property)};
     const Vector3 from = model_.place(first), line = model_.place(last) - from;
-    const Eigen::Matrix3d axes = triad(line + whole.offset[1] - whole.offset[0], whole.axis_2);
+    const Eigen::Matrix3d axes = axes_along(line + whole.offset[1] - whole.offset[0], whole.axis_2);
     const auto offset = [&](double share, const Eigen::Vector2d& centroid) -> Vector3 {
       return whole.offset[0] + share * (whole.offset[1] - whole.offset[0]) +
-             axes.rightCols<2>() * centroid;
+             axes.bottomRows<2>().transpose() * centroid;
     };
     // Without stations it may taper from end to end; with them it ends as the last of these says.
     NastranStation end{1, whole.section, bar.end_centroid};
@@ -400,14 +401,6 @@ class Bars {
       throw CardError{
           fmt::format("OFFT \"{}\" is not known; G or B, then G or O twice, is due", option)};
     return option;
-  }
-
-  static Eigen::Matrix3d triad(const Vector3& line, const Vector3& axis_2) {
-    Eigen::Matrix3d axes;
-    axes.col(0) = line.normalized();
-    axes.col(2) = axes.col(0).cross(axis_2).normalized();
-    axes.col(1) = axes.col(2).cross(axes.col(0));
-    return axes;
   }
 
   /// The vector that orients the plane of axes 1 and 2.

@@ -12,6 +12,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/beams/beam_axes.h"
+
 namespace blocklift::structure {
 
 namespace {
@@ -89,7 +91,7 @@ struct WholeBar {
   std::vector<int> pieces;
   std::vector<double> bounds;  ///< one more than pieces, from 0 to 1
   std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};
-  Eigen::Matrix3d axes;  ///< columns
+  Eigen::Matrix3d axes;  ///< rows
 
   Vector3 offset_at(double share) const { return (1 - share) * offset[0] + share * offset[1]; }
 };
@@ -106,9 +108,7 @@ WholeBar whole_bar(const NastranModel& model, int first) {
   for (const int piece : bar.pieces)
     bar.bounds.push_back((model.place(beams[piece].vertices[1]) - from).norm() / line.norm());
   bar.bounds.back() = 1;
-  bar.axes.col(0) = (line + bar.offset[1] - bar.offset[0]).normalized();
-  bar.axes.col(2) = bar.axes.col(0).cross(beams[first].axis_2).normalized();
-  bar.axes.col(1) = bar.axes.col(2).cross(bar.axes.col(0));
+  bar.axes = axes_along(line + bar.offset[1] - bar.offset[0], beams[first].axis_2);
   return bar;
 }
 
@@ -150,11 +150,11 @@ std::vector<BeamLoad> line_loads(const NastranModel& model, const CardView& card
   if (given.is_moment && mesh.beams[first].is_rod)
     throw CardError{fmt::format("a moment of set {} is along element {}, which does not bend",
                                 card.text(0), card.text(1))};
-  const Vector3 direction = given.is_along_element ? Vector3(bar.axes.col(given.axis))
+  const Vector3 direction = given.is_along_element ? Vector3(bar.axes.row(given.axis))
                                                    : Vector3(Vector3::Unit(given.axis));
   double unit = given.is_moment ? model.units.moment() : model.units.force;
   if (!given.is_at_a_place()) unit /= model.units.length;
-  if (given.is_projected) unit *= bar.axes.col(0).cross(direction).norm();
+  if (given.is_projected) unit *= Vector3(bar.axes.row(0)).cross(direction).norm();
   const auto value_at = [&](double share) -> Vector3 {
     const double t =
         given.is_at_a_place() ? 0 : (share - given.place[0]) / (given.place[1] - given.place[0]);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/deck/coordinate_systems.h"
+#include "structure/mesh/files/deck/line_loads.h"
 
 namespace blocklift::structure {
 
@@ -24,24 +25,6 @@ void write_turning(long label, const Vector3& radians, std::size_t field, CardWr
   fields.resize(std::max<std::size_t>(fields.size(), field + 1));
   fields[field] = CardField(1.0);
   out.card("RFORCE", std::move(fields));
-}
-
-/// Forces and moments of a load along a bar, per length of a line at some offsets from its nodes.
-struct AlongLine {
-  Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
-};
-
-/// @param beside of the line that bears the load from the one it is written on, at the beam's ends.
-AlongLine at_share_of_span(const BeamLoad& load, const std::array<Vector3, 2>& beside,
-                           double stretch, double t) {
-  const auto between = [](const std::array<Vector3, 2>& ends, double at) -> Vector3 {
-    return (1 - at) * ends[0] + at * ends[1];
-  };
-  const double share = load.span[0] + t * (load.span[1] - load.span[0]);
-  AlongLine along;
-  along.force = stretch * between(load.force, t);
-  along.moment = stretch * between(load.moment, t) + between(beside, share).cross(along.force);
-  return along;
 }
 
 void write_component(const std::string& type, const BeamLoad& load, double from, double to,
@@ -73,9 +56,13 @@ void write_line_load(const Mesh& mesh, const BeamLoad& load, long set, long numb
   std::array<Vector3, 2> beside{load.arm[0] - offsets[0], load.arm[1] - offsets[1]};
   for (Vector3& arm : beside)
     if (arm.norm() < rounding * line.norm()) arm.setZero();
-  const AlongLine from = at_share_of_span(load, beside, stretch, 0),
-                  middle = at_share_of_span(load, beside, stretch, 0.5),
-                  to = at_share_of_span(load, beside, stretch, load.is_at_a_place() ? 0 : 1);
+  // Per length of the line that the card is about, not of the one that bears the load.
+  const auto on_line = [&](double share_of_span) {
+    const LoadAtPlace here = load_at(load, beside, share_of_span);
+    return LoadAtPlace{stretch * here.force, stretch * here.moment};
+  };
+  const LoadAtPlace from = on_line(0), middle = on_line(0.5),
+                    to = on_line(load.is_at_a_place() ? 0 : 1);
   const Vector3 bulge = middle.moment - (from.moment + to.moment) / 2;
   if (!load.is_at_a_place() && bulge.norm() > rounding * line.norm() * middle.force.norm())
     throw ModelError(

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/files/deck/edge_middles.h"
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/link_frames.h"
@@ -329,13 +330,11 @@ class NastranText {
     std::array<Vector3, 2> offsets = beam.offset;
     constexpr int rounds = 20;  // each is as much smaller as the sections' difference to the length
     for (int round = 0; round < rounds; ++round) {
-      const Vector3 line = between + offsets[1] - offsets[0];
-      const Vector3 axis_3 = line.cross(beam.axis_2).normalized();
-      const Vector3 axis_2 = axis_3.cross(line).normalized();
+      const Eigen::Matrix3d axes = axes_along(between + offsets[1] - offsets[0], beam.axis_2);
       for (std::size_t end = 0; end < 2; ++end) {
         const Eigen::Vector2d centre =
             section_at(mesh_, beam, static_cast<double>(end)).twist_centre();
-        offsets[end] = beam.offset[end] + centre[0] * axis_2 + centre[1] * axis_3;
+        offsets[end] = beam.offset[end] + axes.bottomRows<2>().transpose() * centre;
       }
     }
     return offsets;

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/mesh.h"
-#include "structure/mesh/sections.h"
 
 namespace blocklift::structure {
 

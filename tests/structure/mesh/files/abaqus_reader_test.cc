@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/laminate.h"
 #include "structure/mesh/mass_properties.h"
-#include "structure/mesh/sections.h"
 #include "tests/structure/mesh/files/abaqus_plate.h"
 #include "tests/structure/mesh/files/deck_text.h"
 

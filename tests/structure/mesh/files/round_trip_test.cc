@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/diagnosis/diagnosis.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/card_writer.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "structure/error.h"
-#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/diagnosis/diagnosis.h"
 #include "structure/mesh/directional.h"
 #include "structure/mesh/files/abaqus/reader.h"
 #include "structure/mesh/files/abaqus/writer.h"

@@ -17,13 +17,13 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/surfaces/cad_file.h"
 #include "structure/mesh/files/surfaces/given_properties.h"
 #include "structure/mesh/files/surfaces/surface_reader.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
-#include "structure/mesh/sections.h"
 
 namespace blocklift::structure {
 namespace {

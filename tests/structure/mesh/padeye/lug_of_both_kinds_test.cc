@@ -12,9 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "structure/formulation/solid.h"
+#include "structure/mesh/fields/shell_solid_joint.h"
 #include "structure/mesh/padeye/padeye_in_block.h"
 #include "structure/mesh/plates/shell_generator.h"
-#include "structure/mesh/shell_solid_joint.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/response/unit_responses.h"
 #include "structure/stress/squares.h"

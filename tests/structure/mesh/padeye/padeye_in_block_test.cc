@@ -13,7 +13,7 @@
 
 #include "structure/envelope/block_envelope.h"
 #include "structure/error.h"
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 #include "structure/mesh/mass_properties.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/part/padeye_model.h"

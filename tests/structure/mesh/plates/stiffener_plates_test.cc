@@ -11,9 +11,9 @@
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/mesh/plates/stiffener_sheets.h"
-#include "structure/mesh/sections.h"
 #include "structure/practice/panel_buckling.h"
 #include "structure/response/elastic_model.h"
 #include "tests/structure/hull_block.h"

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "structure/mesh/fields/plate_finder.h"
 #include "structure/mesh/mesh.h"
-#include "structure/mesh/plate_finder.h"
 
 namespace blocklift::structure {
 

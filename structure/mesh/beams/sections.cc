@@ -1,4 +1,4 @@
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "structure/error.h"
-#include "structure/mesh/section_shear.h"
-#include "structure/mesh/thin_walls.h"
+#include "structure/mesh/beams/section_shear.h"
+#include "structure/mesh/beams/thin_walls.h"
 
 namespace blocklift::structure {
 

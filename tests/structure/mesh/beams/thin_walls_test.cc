@@ -1,6 +1,6 @@
 // Thin walls with cells against closed forms.
 
-#include "structure/mesh/thin_walls.h"
+#include "structure/mesh/beams/thin_walls.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "structure/mesh/solid_lugs.h"
+#include "structure/mesh/lugs/solid_lugs.h"
 
 #include <algorithm>
 #include <map>

@@ -1,4 +1,4 @@
-#include "structure/mesh/lug_on_mesh.h"
+#include "structure/mesh/lugs/lug_on_mesh.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 // Cross-sections against closed forms and published lists.
 
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Which shells lie near a place, what a ray meets.
-#include "structure/mesh/shell_tree.h"
+#include "structure/mesh/fields/shell_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "structure/mesh/shell_solid_joint.h"
+#include "structure/mesh/fields/shell_solid_joint.h"
 
 #include <algorithm>
 #include <array>

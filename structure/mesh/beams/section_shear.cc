@@ -1,4 +1,4 @@
-#include "structure/mesh/section_shear.h"
+#include "structure/mesh/beams/section_shear.h"
 
 #include <algorithm>
 #include <cmath>

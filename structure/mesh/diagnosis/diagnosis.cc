@@ -1,4 +1,4 @@
-#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/diagnosis/diagnosis.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,8 @@
 
 #include "algebra/decompositions.h"
 #include "structure/index.h"
-#include "structure/mesh/section_shear.h"
+#include "structure/mesh/beams/beam_axes.h"
+#include "structure/mesh/beams/section_shear.h"
 #include "structure/mesh/shell_shape.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/mesh/spring_motion.h"
@@ -508,12 +509,7 @@ class Doctor {
 
   template <typename Resist>
   void resist_by(const Beam& beam, const Resist& resist) const {
-    const Vector3 line =
-        vertex(beam.vertices[1]) + beam.offset[1] - vertex(beam.vertices[0]) - beam.offset[0];
-    Eigen::Matrix3d axes;
-    axes.col(0) = line.normalized();
-    axes.col(2) = axes.col(0).cross(beam.axis_2).normalized();
-    axes.col(1) = axes.col(2).cross(axes.col(0));
+    const Eigen::Matrix3d axes = beam_axes(mesh_, beam);
     // Hinged at both ends about an axis, a beam is a rod across the other.
     const bool hinged_2 = beam.release[0][4] && beam.release[1][4];
     const bool hinged_3 = beam.release[0][5] && beam.release[1][5];
@@ -523,7 +519,7 @@ class Doctor {
         if (i < 4 && (beam.release[0][i] || beam.release[1][i])) continue;
         if (beam.release[end][i] || (beam.is_rod && i != 0)) continue;
         if ((i == 1 && hinged_3) || (i == 2 && hinged_2)) continue;
-        resist(beam.vertices[end], motion(axes.col(i % 3), beam.offset[end], i >= 3));
+        resist(beam.vertices[end], motion(axes.row(i % 3), beam.offset[end], i >= 3));
       }
   }
 

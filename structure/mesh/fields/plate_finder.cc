@@ -1,4 +1,4 @@
-#include "structure/mesh/plate_finder.h"
+#include "structure/mesh/fields/plate_finder.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Shear stress in sections of beams against closed forms.
 
-#include "structure/mesh/section_shear.h"
+#include "structure/mesh/beams/section_shear.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 
 namespace blocklift::structure {
 namespace {

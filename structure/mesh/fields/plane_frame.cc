@@ -1,4 +1,4 @@
-#include "structure/mesh/plane_frame.h"
+#include "structure/mesh/fields/plane_frame.h"
 
 #include <Eigen/Geometry>
 

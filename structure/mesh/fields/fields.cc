@@ -1,4 +1,4 @@
-#include "structure/mesh/fields.h"
+#include "structure/mesh/fields/fields.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include <Eigen/Dense>
 
 #include "algebra/decompositions.h"
-#include "structure/mesh/shell_edges.h"
-#include "structure/mesh/solid_lugs.h"
+#include "structure/mesh/fields/shell_edges.h"
+#include "structure/mesh/lugs/solid_lugs.h"
 
 namespace blocklift::structure {
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 
 namespace blocklift::structure {
 

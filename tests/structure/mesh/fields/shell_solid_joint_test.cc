@@ -1,5 +1,5 @@
 // Solids that stand on plating: even stress passes from the one to the other.
-#include "structure/mesh/shell_solid_joint.h"
+#include "structure/mesh/fields/shell_solid_joint.h"
 
 #include <algorithm>
 #include <array>

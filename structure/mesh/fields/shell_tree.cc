@@ -1,4 +1,4 @@
-#include "structure/mesh/shell_tree.h"
+#include "structure/mesh/fields/shell_tree.h"
 
 #include <algorithm>
 #include <array>

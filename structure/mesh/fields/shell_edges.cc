@@ -1,4 +1,4 @@
-#include "structure/mesh/shell_edges.h"
+#include "structure/mesh/fields/shell_edges.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "structure/mesh/thin_walls.h"
+#include "structure/mesh/beams/thin_walls.h"
 
 #include <algorithm>
 #include <cmath>

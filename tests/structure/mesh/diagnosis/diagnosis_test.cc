@@ -1,6 +1,6 @@
 // The doctor, on meshes that have one thing wrong each.
 
-#include "structure/mesh/diagnosis.h"
+#include "structure/mesh/diagnosis/diagnosis.h"
 
 #include <array>
 #include <utility>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "structure/error.h"
-#include "structure/mesh/sections.h"
+#include "structure/mesh/beams/sections.h"
 #include "structure/mesh/shell_shape.h"
 
 namespace blocklift::structure {

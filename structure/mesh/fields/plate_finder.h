@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "structure/mesh/fields.h"
-#include "structure/mesh/shell_tree.h"
+#include "structure/mesh/fields/fields.h"
+#include "structure/mesh/fields/shell_tree.h"
 
 namespace blocklift::structure {
 
