@@ -13,7 +13,9 @@
 #include "structure/formulation/solid.h"
 #include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/files/deck/coordinate_systems.h"
+#include "structure/mesh/files/deck/line_loads.h"
 #include "structure/mesh/solid_shape.h"
+#include "structure/response/cell_finder.h"
 #include "structure/space/joints.h"
 #include "structure/system/matter.h"
 
@@ -52,7 +54,14 @@ FacePoint face_point(std::size_t corners, const Eigen::Vector2d& xi) {
 /// Adds loads to a load vector of a space.
 class LoadAdder {
  public:
-  LoadAdder(const Space& space, Eigen::VectorXd& load) : space_(space), load_(load) {}
+  LoadAdder(const Space& space, Eigen::VectorXd& load)
+      : space_(space),
+        cells_of_shells_(space),
+        cells_of_beams_(space.mesh().beams.size()),
+        load_(load) {
+    for (std::size_t cell = 0; cell < space.beams().size(); ++cell)
+      cells_of_beams_[static_cast<std::size_t>(space.beams()[cell].beam)].push_back(cell);
+  }
 
   void add(const PointLoad& point, double factor) {
     const int node = space_.node_of_vertex(point.vertex);
@@ -125,8 +134,8 @@ class LoadAdder {
     const Eigen::Matrix3Xd rule = square_rule(space_.degree() + 2);
     const double length =
         line_beside(space_.mesh(), space_.mesh().beams[along.beam], along.arm).norm();
-    for (const BeamCell& cell : space_.beams()) {
-      if (cell.beam != along.beam) continue;
+    for (const std::size_t place : cells_of_beams_[along.beam]) {
+      const BeamCell& cell = space_.beams()[place];
       const double from = std::max(cell.origin, along.span[0]),
                    to = std::min(cell.origin + cell.size, along.span[1]);
       if (!(to > from)) continue;
@@ -141,9 +150,8 @@ class LoadAdder {
     // Sides of the unit square in turn; of a triangle the third one is a point.
     const int side = shell.is_triangle() && along.edge == 2 ? 3 : along.edge;
     const Eigen::Matrix3Xd rule = square_rule(space_.degree() + 2);
-    for (int cell = 0; cell < static_cast<int>(space_.shells().size()); ++cell) {
-      const ShellCell& located = space_.shells()[cell];
-      if (located.shell != along.shell || !is_on_side(located, side)) continue;
+    for (const int cell : cells_of_shells_.cells_of(along.shell)) {
+      if (!is_on_side(space_.shells()[cell], side)) continue;
       for (Eigen::Index q = 0; q < rule.cols(); ++q)
         add_on_side(along, cell, side, rule(0, q), factor * rule(2, q));
     }
@@ -195,8 +203,9 @@ class LoadAdder {
   /// Cells that meet at the place have a node there: either takes all of it.
   void add_at_a_place(const BeamLoad& load, double factor) {
     constexpr double rounding = 1e-9;
-    for (const BeamCell& cell : space_.beams()) {
-      if (cell.beam != load.beam || load.span[0] < cell.origin - rounding ||
+    for (const std::size_t place : cells_of_beams_[load.beam]) {
+      const BeamCell& cell = space_.beams()[place];
+      if (load.span[0] < cell.origin - rounding ||
           load.span[0] > cell.origin + cell.size + rounding)
         continue;
       add_in_cell(cell, load, load.span[0], factor);
@@ -237,6 +246,9 @@ class LoadAdder {
   }
 
   const Space& space_;
+  // A deck has a load for each piece of a bar or edge: none of them looks at all cells.
+  CellFinder cells_of_shells_;
+  std::vector<std::vector<std::size_t>> cells_of_beams_;
   Eigen::VectorXd& load_;
 };
 

@@ -216,6 +216,28 @@ TEST(LineLoads, CellsOfABarAlongAPlateShareTheLoad) {
   }
 }
 
+// Bars in a row, each with an even load of its own: none takes that of another.
+TEST(LineLoads, EachBarOfARowHasItsOwn) {
+  constexpr int bars = 40;
+  constexpr double length = 0.1;
+  std::string text = "SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\nGRID,1,,0.,0.,0.\n";
+  double force = 0, moment = 0;
+  for (int k = 1; k <= bars; ++k) {
+    text += fmt::format(
+        "GRID,{1},,{2:.2f},0.,0.\nCBAR,{0},1,{0},{1},0.,1.,0.\n"
+        "PLOAD1,2,{0},FY,FR,0.,{0}.,1.,{0}.\n",
+        k, k + 1, length * k);
+    force += k * length;
+    moment += k * length * length * (k - 0.5);
+  }
+  const Deck deck = test::nastran(
+      text +
+      "PBAR,1,1,0.02,6.7-5,1.7-5,4.58-5\nMAT1,1,2.+11,,0.3,7850.\nSPC1,1,123456,1\nENDDATA\n");
+  const Wrench applied = solve_loaded(deck).applied;
+  EXPECT_LT((applied.force - Vector3(0, force, 0)).norm(), 1e-9 * force);
+  EXPECT_LT((applied.moment - Vector3(0, 0, moment)).norm(), 1e-9 * moment);
+}
+
 // A taper is divided at the place of a load: its sections there lie between those of its ends.
 TEST(LineLoads, TapersAreDividedToo) {
   const Deck deck = test::nastran(
