@@ -186,12 +186,12 @@ class FlatField {
     }
   }
 
+  /// About all shells, where nothing is cut.
   PlateRectangle rectangle() const {
-    std::vector<Vector2d> points;
-    for (const int shell : field_.shells)
-      for (const int vertex : mesh_.shells[shell].vertices)
-        points.push_back(axes_.in_plane(known_.place(mesh_, vertex)));
-    return rectangle_about(points);
+    PlateCut whole;
+    whole.pieces = 1;
+    whole.piece_of_shell.assign(field_.shells.size(), 0);
+    return rectangles_about(whole).front();
   }
 
   /// What a cut does; its pieces are 1 where it parts nothing.
@@ -213,8 +213,8 @@ class FlatField {
     return result;
   }
 
-  /// Of the rectangles about the pieces of a cut, m^2.
-  double area_about(const PlateCut& cut) const {
+  /// About the pieces of a cut, in their order.
+  std::vector<PlateRectangle> rectangles_about(const PlateCut& cut) const {
     std::vector<std::vector<Vector2d>> points(static_cast<std::size_t>(cut.pieces));
     for (std::size_t i = 0; i < field_.shells.size(); ++i)
       for (const int vertex : mesh_.shells[field_.shells[i]].vertices) {
@@ -222,9 +222,9 @@ class FlatField {
         points[static_cast<std::size_t>(cut.piece_of_shell[i])].push_back(axes_.in_plane(
             moved == cut.straightened.end() ? known_.place(mesh_, vertex) : moved->second));
       }
-    double area = 0;
-    for (const auto& piece : points) area += rectangle_about(piece).area;
-    return area;
+    std::vector<PlateRectangle> rectangles;
+    for (const auto& piece : points) rectangles.push_back(rectangle_about(piece));
+    return rectangles;
   }
 
  private:
@@ -293,7 +293,8 @@ std::optional<PlateCut> find_plate_cut(const Mesh& mesh, const PlateField& field
   for (const CutRays& rays : finder.candidates()) {
     PlateCut cut = flat.cut(rays);
     if (cut.pieces < 2) continue;
-    const double area = flat.area_about(cut);
+    double area = 0;
+    for (const PlateRectangle& piece : flat.rectangles_about(cut)) area += piece.area;
     if (area >= least * (1 - 1e-6)) continue;
     least = area;
     best = std::move(cut);
