@@ -1,6 +1,9 @@
 #include "pipeline/measurement/time_series.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "algebra/quantile.h"
 
 namespace blocklift::pipeline {
 
@@ -20,9 +23,7 @@ std::vector<TimeWindow> gaps_of(const TimeSeries& series) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < series.size(); ++i)
     steps.push_back(series.time[i] - series.time[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double usual = *middle;
+  const double usual = algebra::quantile_of(std::move(steps), 0.5);
   for (std::size_t i = 1; i < series.size(); ++i)
     if (series.time[i] - series.time[i - 1] > wide * usual)
       gaps.push_back({series.time[i - 1], series.time[i]});

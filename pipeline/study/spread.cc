@@ -9,6 +9,8 @@
 
 #include <openturns/OT.hxx>
 
+#include "algebra/quantile.h"
+
 namespace blocklift::pipeline {
 namespace {
 
@@ -163,12 +165,7 @@ const Quantile& Spread::quantile_of_better(double share) const {
 
 Quantile find_quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
-  const auto count = static_cast<double>(values.size());
-  const double place = share * (count - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const auto above = std::min(below + 1, values.size() - 1);
-  const double part = place - static_cast<double>(below);
-  Quantile quantile{share, (1 - part) * values[below] + part * values[above],
+  Quantile quantile{share, algebra::quantile_of_sorted(values, share),
                     -std::numeric_limits<double>::infinity(),
                     std::numeric_limits<double>::infinity()};
   // The number of values below the population's quantile is binomial.

@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "algebra/quantile.h"
+
 namespace blocklift::pipeline {
 namespace {
 
@@ -28,15 +30,6 @@ std::string mode_of_body(const HydrodynamicDatabase& database, Eigen::Index mode
 }
 
 bool is_displacement(Eigen::Index mode) { return mode % modes_per_body < 3; }
-
-/// Of values that need not be in order; `share` 0.5: the median.
-double quantile(std::vector<double> values, double share) {
-  const auto place = std::min(values.size() - 1,
-                              static_cast<std::size_t>(share * static_cast<double>(values.size())));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
-                   values.end());
-  return values[place];
-}
 
 // ------------------------------------------------------------------------------ damping and waves
 
@@ -171,7 +164,8 @@ template <class Ratio>
 RatioSpread spread_of(const std::vector<RadiatedPower>& powers, const Ratio& ratio) {
   std::vector<double> ratios;
   for (const RadiatedPower& power : powers) ratios.push_back(ratio(power));
-  return {quantile(ratios, 0.5), quantile(ratios, 0.25), quantile(ratios, 0.75)};
+  return {algebra::quantile_of(ratios, 0.5), algebra::quantile_of(ratios, 0.25),
+          algebra::quantile_of(ratios, 0.75)};
 }
 
 /// Of this program's own databases (seven hulls, deep and shallow water, both methods) the mode
