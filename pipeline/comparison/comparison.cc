@@ -95,6 +95,21 @@ std::vector<InputDifference> compare_input(const std::vector<ComparedResult>& re
   return differences;
 }
 
+/// What counts as zero among figures of one kind (ComparedFigure::rounding).
+void set_rounding(std::vector<ComparedFigure>& figures) {
+  constexpr double share = 1e-9;
+  const auto kind_of = [](const ComparedFigure& figure) {
+    return std::pair(figure.figure.group, figure.figure.unit);
+  };
+  std::map<std::pair<std::string, std::string>, double> largest;
+  for (const ComparedFigure& figure : figures) {
+    double& of_kind = largest[kind_of(figure)];
+    for (const Json& value : figure.values)
+      if (value.is_number()) of_kind = std::max(of_kind, std::abs(value.get<double>()));
+  }
+  for (ComparedFigure& figure : figures) figure.rounding = share * largest[kind_of(figure)];
+}
+
 /// All figures that one of the results has; groups stay together.
 std::vector<ComparedFigure> compare_figures(const std::vector<ComparedResult>& results) {
   MergedNames groups, paths;
@@ -120,6 +135,7 @@ std::vector<ComparedFigure> compare_figures(const std::vector<ComparedResult>& r
       compared.push_back(std::move(row));
     }
   }
+  set_rounding(compared);
   return compared;
 }
 
@@ -172,13 +188,21 @@ void check_tolerances(const std::vector<Tolerance>& tolerances,
   }
 }
 
+/// A share of zero allows nothing but rounding, however large it is.
+bool is_share_of_zero(const ComparedFigure& figure, const Tolerance& tolerance) {
+  return tolerance.is_share && !figure.is_in_percent() && figure.is_from_zero();
+}
+
 bool is_beyond(const ComparedFigure& figure, std::size_t result, const Tolerance& tolerance) {
   const Json& before = figure.values.front();
   const Json& now = figure.values[result];
   if (!before.is_number() || !now.is_number()) return before != now;
-  const double difference = std::abs(now.get<double>() - before.get<double>());
+  const double difference = std::abs(*figure.difference(result));
   double allowed = tolerance.limit.value;
-  if (tolerance.is_share) allowed *= figure.is_in_percent() ? 100 : std::abs(before.get<double>());
+  if (is_share_of_zero(figure, tolerance))
+    allowed = figure.rounding;
+  else if (tolerance.is_share)
+    allowed *= figure.is_in_percent() ? 100 : std::abs(before.get<double>());
   return !(difference <= allowed);
 }
 
@@ -199,12 +223,19 @@ void find_moved(ResultComparison& comparison) {
 }  // namespace
 
 std::optional<double> ComparedFigure::change(std::size_t result) const {
+  const std::optional<double> moved = difference(result);
+  if (!moved || is_in_percent()) return moved;
+  if (is_from_zero()) return std::nullopt;
+  return 100 * *moved / std::abs(values.front().get<double>());
+}
+
+std::optional<double> ComparedFigure::difference(std::size_t result) const {
   if (!values.front().is_number() || !values[result].is_number()) return std::nullopt;
-  const auto before = values.front().get<double>();
-  const auto now = values[result].get<double>();
-  if (is_in_percent()) return now - before;
-  if (before == 0) return std::nullopt;
-  return 100 * (now - before) / std::abs(before);
+  return values[result].get<double>() - values.front().get<double>();
+}
+
+bool ComparedFigure::is_from_zero() const {
+  return values.front().is_number() && std::abs(values.front().get<double>()) <= rounding;
 }
 
 ResultComparison compare_results(std::vector<ComparedResult> results,
@@ -238,7 +269,10 @@ std::string shown_change(const ComparedFigure& figure, std::size_t result) {
   if (figure.values.front().is_string() && figure.values[result].is_string())
     return figure.values.front() == figure.values[result] ? "" : "differs";
   const std::optional<double> change = figure.change(result);
-  if (!change) return "";
+  if (!change) {
+    const std::optional<double> moved = figure.difference(result);
+    return moved && std::abs(*moved) > figure.rounding ? "from 0" : "";
+  }
   // Less than half a unit of the last digit is no change, of either sign.
   const double shown = std::abs(*change) < 0.005 ? 0 : *change;
   // From a thousand on hundredths would say nothing and fill the column.
@@ -252,11 +286,13 @@ std::string shown_move(const ResultComparison& comparison, const MovedFigure& mo
   const auto in_words = [&](const Json& value) {
     return value.is_null() ? "nothing" : shown_value(figure, value);
   };
-  return fmt::format(
-      "{} of {}: {} instead of {}{}{}, beyond {}", figure.figure.path,
-      comparison.results[moved.result].name, in_words(figure.values[moved.result]),
-      in_words(figure.values.front()), figure.figure.unit.empty() ? "" : " " + figure.figure.unit,
-      change.empty() ? "" : " (" + change + ")", comparison.tolerances[moved.tolerance].text);
+  const Tolerance& tolerance = comparison.tolerances[moved.tolerance];
+  return fmt::format("{} of {}: {} instead of {}{}{}, beyond {}{}", figure.figure.path,
+                     comparison.results[moved.result].name, in_words(figure.values[moved.result]),
+                     in_words(figure.values.front()),
+                     figure.figure.unit.empty() ? "" : " " + figure.figure.unit,
+                     change.empty() ? "" : " (" + change + ")", tolerance.text,
+                     is_share_of_zero(figure, tolerance) ? " of 0" : "");
 }
 
 }  // namespace blocklift::pipeline

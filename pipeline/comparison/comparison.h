@@ -22,10 +22,18 @@ struct InputDifference {
 struct ComparedFigure {
   SummaryFigure figure;
   std::vector<nlohmann::ordered_json> values;  ///< one a result, in SI units; null: not there
+  /// What counts as zero, in SI units: a thousandth of a millionth of the largest value of all
+  /// figures of its group and unit.
+  double rounding = 0;
 
   /// From the first result to this one, in per cent; of figures in per cent, points. None where one
-  /// of the two is no number, or the first is zero and not in per cent.
+  /// of the two is no number, or the first counts as zero and is not in per cent: there is no share
+  /// of it.
   std::optional<double> change(std::size_t result) const;
+  /// From the first result to this one, in SI units; none where one of the two is no number.
+  std::optional<double> difference(std::size_t result) const;
+  /// Whether the first result's value counts as zero.
+  bool is_from_zero() const;
   /// Whether the change is one of points.
   bool is_in_percent() const { return figure.unit == "%"; }
 };
@@ -54,7 +62,8 @@ ResultComparison compare_results(std::vector<ComparedResult> results,
 
 /// A value as it is shown: five digits in the figure's own unit, a text as it stands, "-" for null.
 std::string shown_value(const ComparedFigure& figure, const nlohmann::ordered_json& value);
-/// "+1.25 %", "-0.3 points"; "differs" for texts that do, "" where nothing can be said.
+/// "+1.25 %", "-0.3 points"; "from 0" where the first is zero and this one is not, of which there
+/// is no share; "differs" for texts that do, "" where nothing can be said.
 std::string shown_change(const ComparedFigure& figure, std::size_t result);
 /// What moved beyond which tolerance, one sentence.
 std::string shown_move(const ResultComparison& comparison, const MovedFigure& moved);

@@ -22,15 +22,17 @@ Json difference_json(const InputDifference& difference) {
 }
 
 Json figure_json(const ComparedFigure& figure) {
-  Json changes = Json::array();
+  Json changes = Json::array(), differences = Json::array();
+  const auto number = [](const std::optional<double>& one) { return one ? Json(*one) : Json(); };
   for (std::size_t result = 0; result < figure.values.size(); ++result) {
-    const auto change = figure.change(result);
-    changes.push_back(change ? Json(*change) : Json());
+    changes.push_back(number(figure.change(result)));
+    differences.push_back(number(figure.difference(result)));
   }
   return {{"figure", figure.figure.path},
           {"group", figure.figure.group},
           {"label", figure.figure.label},
           {"values", figure.values},
+          {"difference", std::move(differences)},
           {figure.is_in_percent() ? "change_points" : "change_percent", std::move(changes)}};
 }
 

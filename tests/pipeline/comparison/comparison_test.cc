@@ -92,6 +92,43 @@ TEST_F(ComparedFolders, AreHeldToTolerancesOfWhichTheLastCounts) {
   EXPECT_THAT(compare("verdict=0%").moved, IsEmpty());
 }
 
+// Of zero there is no share: what came in its place is shown as it is, and a tolerance in per cent
+// allows rounding alone, one with a unit what it says.
+TEST_F(ComparedFolders, MayCountFromZero) {
+  const auto rope_from = [](double before, double after) {
+    ordered_json summary = test::sample_summary();
+    summary["ropes"][0]["max_dynamic_tension_N"] = before;
+    test::write_sample_folder("before", summary, "case: two-ropes\n", "kind: block\n");
+    summary["ropes"][0]["max_dynamic_tension_N"] = after;
+    test::write_sample_folder("after", summary, "case: two-ropes\n", "kind: block\n");
+  };
+  rope_from(0, 250);
+  const ResultComparison shares = compare("ropes.R1.max_dynamic_tension=50%");
+  ASSERT_EQ(shares.moved.size(), 1u);
+  EXPECT_EQ(shown_move(shares, shares.moved[0]),
+            "ropes.R1.max_dynamic_tension_N of after: 0.25000 instead of 0.00000 kN (from 0), "
+            "beyond 50% of 0");
+  const ordered_json json = comparison_json(shares);
+  EXPECT_EQ(json["figures"][2]["difference"], ordered_json({0.0, 250.0}));
+  EXPECT_EQ(json["figures"][2]["change_percent"][1], nullptr);
+  EXPECT_EQ(compare("ropes.R1.max_dynamic_tension=0.2 kN").moved.size(), 1u);
+  EXPECT_THAT(compare("ropes.R1.max_dynamic_tension=0.3 kN").moved, IsEmpty());
+  // The other rope pulls 230 kN: what is below 0.2 mN is rounding, on both sides.
+  for (const auto& [before, after] :
+       {std::pair(0.0, 0.0), std::pair(0.0, 4e-6), std::pair(-4e-6, 4e-6), std::pair(4e-6, 0.0)}) {
+    rope_from(before, after);
+    const ResultComparison rounded = compare("ropes.R1.max_dynamic_tension=0%");
+    EXPECT_THAT(rounded.moved, IsEmpty()) << before << ' ' << after;
+    EXPECT_EQ(shown_change(rounded.figures[2], 1), "") << before << ' ' << after;
+  }
+  rope_from(4e-6, 250);
+  EXPECT_EQ(compare("ropes.R1.max_dynamic_tension=50%").moved.size(), 1u);
+  // To zero is all of it.
+  rope_from(250, 0);
+  EXPECT_EQ(compare("ropes.R1.max_dynamic_tension=99%").moved.size(), 1u);
+  EXPECT_THAT(compare("ropes.R1.max_dynamic_tension=100%").moved, IsEmpty());
+}
+
 // Ten characters would touch the figure beside them.
 TEST(ShownChange, KeepsToItsColumnHoweverLarge) {
   ComparedFigure figure;
