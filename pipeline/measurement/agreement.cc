@@ -66,11 +66,15 @@ std::optional<Agreement> compare_series(const TimeSeries& measured, const TimeSe
   agreement.ratio_of_means = mean_of(ours.values) / mean_of(theirs);
   agreement.correlation = correlation_of(ours.values, theirs);
   fit_line(ours.values, theirs, agreement);
+  // What was computed where the cell was silent is held against nothing.
   const TimeWindow seen{ours.time.front(), ours.time.back()};
+  const std::vector<TimeWindow> gaps = gaps_of(ours);
   const auto largest_in = [&](const TimeSeries& series) {
-    const TimeSeries part = samples_in(series, seen);
-    return part.size() == 0 ? std::numeric_limits<double>::quiet_NaN()
-                            : *std::max_element(part.values.begin(), part.values.end());
+    double largest = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < series.size(); ++i)
+      if (seen.contains(series.time[i]) && !is_in_gap(gaps, series.time[i]))
+        largest = std::fmax(largest, series.values[i]);
+    return largest;
   };
   agreement.largest_measured = *std::max_element(ours.values.begin(), ours.values.end());
   agreement.largest_computed = *std::max_element(theirs.begin(), theirs.end());

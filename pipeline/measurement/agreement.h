@@ -36,7 +36,7 @@ struct Agreement {
 };
 
 /// Compares at the record's instants that lie in the window; the computed values are linear between
-/// their samples.
+/// their samples. The largest ones are those outside the record's gaps (gaps_of).
 /// @param measured already on the clock of the lift.
 /// @returns none for less than two instants in common.
 std::optional<Agreement> compare_series(const TimeSeries& measured, const TimeSeries& computed,

@@ -29,55 +29,98 @@ namespace {
   throw InputError(diagnostics);
 }
 
+/// What is known of a stretch of time at least, if anything is to be made of it.
+constexpr double least_known_share = 0.5;
+
 bool is_surrounding(const MeasuredChannel& channel) {
   return channel.name == wind_channel || channel.name == wave_channel;
 }
 
-/// The shift of one record, given or found.
-AlignedRecord align(const MeasuredRecord& record, const std::vector<ChannelPair>& pairs,
-                    const std::optional<double>& given, std::vector<std::string>& doubts) {
-  AlignedRecord aligned{record.file, given.value_or(0), std::nullopt};
-  if (given || pairs.empty()) return aligned;
-  aligned.found = find_time_shift(pairs);
-  if (!aligned.found)
-    refuse(record.file,
-           "nothing in this record or in what was computed of it moves, so that the "
-           "two cannot be aligned",
-           {"--shift says by how many seconds the clock of the lift is ahead of the record's"});
-  aligned.shift = aligned.found->shift;
-  if (aligned.found->is_doubtful())
+/// Says how the clock of one record was found.
+AlignedRecord record_of(const MeasuredRecord& record, const AlignedChannels& aligned,
+                        std::vector<std::string>& doubts) {
+  AlignedRecord one{record.file, aligned.clock.shift, std::nullopt};
+  if (!aligned.is_found) return one;
+  one.found = aligned.clock;
+  if (one.found->is_doubtful())
     doubts.push_back(fmt::format(
         "the alignment of {} is to be doubted: its correlation is {:.2f}{}; --shift gives it",
-        record.file, aligned.found->correlation,
-        aligned.found->runner_up
-            ? fmt::format(", that of another shift {:.2f}", *aligned.found->runner_up)
-            : ""));
-  return aligned;
+        record.file, one.found->correlation,
+        one.found->runner_up ? fmt::format(", that of another shift {:.2f}", *one.found->runner_up)
+                             : ""));
+  if (one.found->rate != 0)
+    doubts.push_back(fmt::format(
+        "the clock of {} is {:.2g} % {}, which was put right: the shift is that of its middle",
+        record.file, 100 * std::abs(one.found->rate), one.found->rate > 0 ? "slow" : "fast"));
+  return one;
+}
+
+/// Says where a channel has gaps: what was measured there is not known.
+void doubt_gaps(const HeldChannel& channel, std::vector<std::string>& doubts) {
+  const std::vector<TimeWindow> gaps = gaps_of(channel.measured);
+  if (gaps.empty()) return;
+  const TimeWindow& longest = *std::max_element(
+      gaps.begin(), gaps.end(),
+      [](const TimeWindow& a, const TimeWindow& b) { return a.length() < b.length(); });
+  doubts.push_back(gaps.size() == 1
+                       ? fmt::format("{} has nothing from {:.1f} s to {:.1f} s", channel.name,
+                                     longest.from, longest.to)
+                       : fmt::format("{} has {} gaps, the longest from {:.1f} s to {:.1f} s",
+                                     channel.name, gaps.size(), longest.from, longest.to));
+}
+
+/// Takes a channel over without what is not believed of it, and says so.
+void leave_out(const std::vector<FaultySamples>& faults, HeldChannel& channel,
+               std::vector<std::string>& doubts) {
+  channel.samples = channel.measured.size();
+  if (faults.empty()) return;
+  for (const FaultySamples& one : faults)
+    channel.left_out.push_back(
+        {one.fault,
+         {channel.measured.time[one.begin], channel.measured.time[one.end - 1]},
+         one.end - one.begin});
+  const std::size_t lost = count_left_out(faults, channel.samples);
+  channel.is_refused = 2 * lost > channel.samples;
+  channel.is_doubtful = channel.is_refused;
+  doubts.push_back(fmt::format(
+      "{}: {} of {} samples are left out ({:.1f} %): {}{}", channel.name, lost, channel.samples,
+      100 * static_cast<double>(lost) / static_cast<double>(channel.samples),
+      faults_in_words(faults, channel.measured, channel.unit),
+      channel.is_refused ? ". Less than half is left: it is held against nothing" : ""));
+  channel.measured = without(channel.measured, faults);
 }
 
 /// Puts every record on the clock of the lift and takes its channels over.
 void take_record(const MeasuredRecord& record, const ResultsReader& results,
                  const std::optional<double>& given, MeasuredLift& lift) {
   std::vector<HeldChannel> channels;
-  std::vector<ChannelPair> pairs;
+  std::vector<ChannelToAlign> to_align;
   for (const MeasuredChannel& channel : record.channels) {
     if (is_surrounding(channel)) continue;
-    HeldChannel held{channel.name,
-                     channel.unit,
-                     channel.series,
-                     read_computed_channel(results, channel.name),
-                     {},
-                     {},
-                     {},
-                     {}};
+    HeldChannel held;
+    held.name = channel.name;
+    held.unit = channel.unit;
+    held.measured = channel.series;
+    held.computed = read_computed_channel(results, channel.name);
     if (held.computed.in_motion.size() < 2)
       refuse(record.file, fmt::format("the results have no values of \"{}\"", channel.name));
-    pairs.push_back({held.measured, held.computed.in_motion});
+    to_align.push_back({{held.measured, held.computed.in_motion}, held.unit == "N"});
     channels.push_back(std::move(held));
   }
-  lift.records.push_back(align(record, pairs, given, lift.doubts));
-  for (HeldChannel& channel : channels) {
-    channel.measured = shifted(std::move(channel.measured), lift.records.back().shift);
+  lift.doubts.insert(lift.doubts.end(), record.remarks.begin(), record.remarks.end());
+  std::optional<AlignedChannels> aligned =
+      align_channels(to_align, channels.empty() ? given.value_or(0) : given);
+  if (!aligned)
+    refuse(record.file,
+           "nothing in this record or in what was computed of it moves, so that the "
+           "two cannot be aligned",
+           {"--shift says by how many seconds the clock of the lift is ahead of the record's"});
+  lift.records.push_back(record_of(record, *aligned, lift.doubts));
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    HeldChannel& channel = channels[k];
+    channel.measured = on_clock(std::move(channel.measured), aligned->clock);
+    doubt_gaps(channel, lift.doubts);
+    leave_out(aligned->faults[k], channel, lift.doubts);
     lift.channels.push_back(std::move(channel));
   }
   for (const MeasuredChannel& channel : record.channels) {
@@ -100,24 +143,9 @@ TimeWindow common_time(const std::vector<TimeSeries>& series, TimeWindow window)
   return window;
 }
 
-/// Says where channels have gaps: what was measured there is not known.
-void doubt_gaps(MeasuredLift& lift) {
-  for (const HeldChannel& channel : lift.channels) {
-    const std::vector<TimeWindow> gaps = gaps_of(channel.measured);
-    if (gaps.empty()) continue;
-    const TimeWindow& longest = *std::max_element(
-        gaps.begin(), gaps.end(),
-        [](const TimeWindow& a, const TimeWindow& b) { return a.length() < b.length(); });
-    lift.doubts.push_back(gaps.size() == 1
-                              ? fmt::format("{} has nothing from {:.1f} s to {:.1f} s",
-                                            channel.name, longest.from, longest.to)
-                              : fmt::format("{} has {} gaps, the longest from {:.1f} s to {:.1f} s",
-                                            channel.name, gaps.size(), longest.from, longest.to));
-  }
-}
-
 void compare_channels(const TimeWindow& window, MeasuredLift& lift) {
   for (HeldChannel& channel : lift.channels) {
+    if (channel.is_refused) continue;
     channel.agreement = compare_series(channel.measured, channel.computed.in_motion,
                                        channel.computed.at_rest, window);
     if (!channel.agreement)
@@ -165,49 +193,11 @@ std::string doubt_of(const HeldChannel& channel, const TimeWindow& window) {
   return has_wrong_mean ? wrong_mean : std::string();
 }
 
-/// How far each sample stands out from both its neighbours, to one side; 0 where it lies between.
-std::vector<double> leaps_of(const std::vector<double>& values) {
-  std::vector<double> leaps(values.size(), 0);
-  for (std::size_t i = 1; i + 1 < values.size(); ++i) {
-    const double before = values[i] - values[i - 1], after = values[i] - values[i + 1];
-    if (before * after > 0) leaps[i] = std::min(std::abs(before), std::abs(after));
-  }
-  return leaps;
-}
-
-/// Says where tensions have samples that stand alone: one makes a largest load, and spoils a
-/// correlation. They leap ten times as far as 19 of 20 samples and as all that was computed, and by
-/// a twentieth of the largest load at least.
-void doubt_leaps(const TimeWindow& window, MeasuredLift& lift) {
-  constexpr double far = 10, least_share = 0.05;
-  for (const HeldChannel& channel : lift.channels) {
-    if (channel.unit != "N" || !channel.agreement) continue;
-    const TimeSeries ours = samples_in(channel.measured, window);
-    std::vector<double> theirs;
-    for (const double instant : ours.time) theirs.push_back(channel.computed.in_motion.at(instant));
-    const std::vector<double> leaps = leaps_of(ours.values), computed = leaps_of(theirs);
-    std::vector<double> sorted = leaps;
-    const auto usual = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 19 / 20);
-    std::nth_element(sorted.begin(), usual, sorted.end());
-    const double limit = std::max({far * *usual, far * *std::ranges::max_element(computed),
-                                   least_share * channel.agreement->largest_computed});
-    const auto stands_alone = [&](double leap) { return leap > limit; };
-    const auto first = std::ranges::find_if(leaps, stands_alone);
-    if (first == leaps.end()) continue;
-    const auto count = std::ranges::count_if(leaps, stands_alone);
-    lift.doubts.push_back(fmt::format(
-        "{} leaps at {}, at {:.1f} s first: the cell or its line may have failed there, and its "
-        "largest load and correlation may be made of that",
-        channel.name, count == 1 ? "one sample" : fmt::format("{} samples", count),
-        ours.time[static_cast<std::size_t>(first - leaps.begin())]));
-  }
-}
-
 void doubt_channels(const TimeWindow& window, MeasuredLift& lift) {
   for (HeldChannel& channel : lift.channels) {
     const std::string doubt = doubt_of(channel, window);
-    channel.is_doubtful = !doubt.empty();
-    if (channel.is_doubtful) lift.doubts.push_back(channel.name + ' ' + doubt);
+    channel.is_doubtful = channel.is_refused || !doubt.empty();
+    if (!doubt.empty()) lift.doubts.push_back(channel.name + ' ' + doubt);
   }
 }
 
@@ -216,7 +206,7 @@ void share_ropes(const TimeWindow& window, MeasuredLift& lift) {
   std::vector<TimeSeries> measured;
   std::vector<TimeSeries> computed;
   for (HeldChannel& channel : lift.channels) {
-    if (channel.name.rfind("ropes.", 0) != 0) continue;
+    if (channel.name.rfind("ropes.", 0) != 0 || channel.is_refused) continue;
     ropes.push_back(&channel);
     measured.push_back(channel.measured);
     computed.push_back(channel.computed.in_motion);
@@ -249,10 +239,19 @@ void doubt_beats(MeasuredLift& lift) {
 
 void identify_decays(const TimeWindow& window, MeasuredLift& lift) {
   lift.looked_for_decay = true;
+  std::vector<std::string> unknown;
   for (HeldChannel& channel : lift.channels) {
+    if (channel.is_refused || known_share(channel.measured, window) < least_known_share) {
+      unknown.push_back(channel.name);
+      continue;
+    }
     channel.measured_decay = fit_decay(samples_in(channel.measured, window));
     channel.computed_decay = fit_decay(samples_in(channel.computed.in_motion, window));
   }
+  if (!unknown.empty())
+    lift.doubts.push_back(fmt::format(
+        "less than half of the time from {:g} s to {:g} s is known of {}: no oscillation is fitted",
+        window.from, window.to, list_of_names(unknown)));
   if (std::none_of(lift.channels.begin(), lift.channels.end(),
                    [](const HeldChannel& channel) { return channel.measured_decay.has_value(); }))
     lift.doubts.push_back(
@@ -316,6 +315,32 @@ void take_stated_mass(MeasuredLift& lift) {
   }
 }
 
+/// Of the time in which all ropes' records lie half must be known: what is left of a rest that is
+/// full of faults may be no rest.
+void refuse_little_rest(const std::map<std::string, TimeSeries>& tensions,
+                        const std::vector<std::string>& ropes, const TimeWindow& window,
+                        const std::string& place) {
+  std::vector<TimeSeries> series;
+  for (const std::string& rope : ropes) series.push_back(tensions.at(rope));
+  const TimeWindow common = common_time(series, window);
+  if (!(common.length() > 0)) return;  // said by the number of instants
+  std::vector<std::string> unknown;
+  for (std::size_t k = 0; k < ropes.size(); ++k)
+    if (known_share(series[k], common) < least_known_share) unknown.push_back(ropes[k]);
+  if (!unknown.empty())
+    refuse(place, "the load cannot be weighed: less than half of the time is known of " +
+                      list_of_names(unknown));
+}
+
+/// Why channels that are in a record count as not measured; empty where there are none.
+std::string why_refused(const MeasuredLift& lift) {
+  std::vector<std::string> refused;
+  for (const HeldChannel& channel : lift.channels)
+    if (channel.is_refused) refused.push_back(channel.name);
+  if (refused.empty()) return {};
+  return fmt::format("; less than half of the samples is credible of {}", list_of_names(refused));
+}
+
 void weigh_load(const ResultsReader& results, const MeasurementSettings& settings,
                 MeasuredLift& lift) {
   const TimeWindow& window = *settings.rest;
@@ -323,13 +348,14 @@ void weigh_load(const ResultsReader& results, const MeasurementSettings& setting
   const std::vector<std::string> ropes = ropes_at_load(results);
   if (ropes.empty()) refuse(place, "these results know of no rope at the load");
   std::map<std::string, TimeSeries> tensions;
-  for (const HeldChannel& channel : lift.channels) tensions[channel.name] = channel.measured;
+  for (const HeldChannel& channel : lift.channels)
+    if (!channel.is_refused) tensions[channel.name] = channel.measured;
   std::vector<std::string> missing;
   for (const std::string& rope : ropes)
     if (tensions.count(rope) == 0) missing.push_back(rope);
   if (!missing.empty())
     refuse(place, "the load cannot be weighed: not every rope at it was measured",
-           {"what lacks is " + list_of_names(missing)});
+           {"what lacks is " + list_of_names(missing) + why_refused(lift)});
   if (has_unreadable_gravity(lift.result))
     refuse(place, "gravity stands in the case as an expression, which is not followed here",
            {"write it as a number with its unit"});
@@ -337,6 +363,7 @@ void weigh_load(const ResultsReader& results, const MeasurementSettings& setting
                              .value_or(newton_per_tonne / 1000);
   const auto weighing =
       weigh(weighing_instants(results, tensions, window), gravity, settings.cell_accuracy);
+  refuse_little_rest(tensions, ropes, window, place);
   if (!weighing)
     refuse(place, "the records of all ropes have less than 20 instants in common there");
   lift.weight = HeldWeight{*weighing, window, std::nullopt, std::nullopt};
@@ -405,9 +432,7 @@ MeasuredLift hold_against_measurements(const std::filesystem::path& result,
   lift.computed_wave_height =
       input_quantity(lift.result, ".spectrum.significant_height", Dimension::length);
   const TimeWindow window = settings.window.value_or(whole_time());
-  doubt_gaps(lift);
   compare_channels(window, lift);
-  doubt_leaps(window, lift);
   doubt_channels(window, lift);
   share_ropes(window, lift);
   if (settings.decay) identify_decays(*settings.decay, lift);

@@ -12,6 +12,7 @@
 #include "pipeline/measurement/agreement.h"
 #include "pipeline/measurement/decay.h"
 #include "pipeline/measurement/record.h"
+#include "pipeline/measurement/record_alignment.h"
 #include "pipeline/measurement/surroundings.h"
 #include "pipeline/measurement/time_shift.h"
 #include "pipeline/measurement/weighing.h"
@@ -35,16 +36,27 @@ struct AlignedRecord {
   std::optional<TimeShift> found;  ///< how the shift was found; none where it was given
 };
 
+/// Samples of a channel that were not believed.
+struct LeftOut {
+  Fault fault = Fault::spike;
+  TimeWindow window;  ///< of the lift
+  std::size_t samples = 0;
+};
+
 /// A quantity that was measured and computed.
 struct HeldChannel {
   std::string name;
-  std::string unit;  ///< SI
-  TimeSeries measured;
+  std::string unit;     ///< SI
+  TimeSeries measured;  ///< what of it is believed
   ComputedChannel computed;
   std::optional<Agreement> agreement;
   std::optional<Sharing> sharing;  ///< of ropes, where more than one was measured
   std::optional<Decay> measured_decay, computed_decay;
   bool is_doubtful = false;  ///< constant, or hardly the computed quantity: the doubts say why
+  std::size_t samples = 0;   ///< of the record
+  std::vector<LeftOut> left_out = {};
+  bool is_refused =
+      false;  ///< less than half of its samples is believed: it is held against nothing
 };
 
 /// What the case was computed with, and what the load cells say.

@@ -16,6 +16,7 @@ Json record_json(const AlignedRecord& record) {
   json["other_shift_correlation"] =
       record.found->runner_up ? json_number(*record.found->runner_up) : Json();
   json["doubtful"] = record.found->is_doubtful();
+  json["clock_slow_by"] = record.found->rate;
   return json;
 }
 
@@ -29,8 +30,23 @@ Json decay_json(const std::optional<Decay>& decay) {
           {"explained", decay->explained}};
 }
 
+const char* name_of(Fault fault) {
+  if (fault == Fault::spike) return "spike";
+  if (fault == Fault::drop_out) return "drop_out";
+  return fault == Fault::stuck ? "stuck" : "restart";
+}
+
 Json channel_json(const HeldChannel& channel, bool looked_for_decay) {
-  Json json{{"name", channel.name}, {"unit", channel.unit}};
+  Json json{{"name", channel.name},
+            {"unit", channel.unit},
+            {"samples_of_record", channel.samples},
+            {"left_out", Json::array()},
+            {"refused", channel.is_refused}};
+  for (const LeftOut& one : channel.left_out)
+    json["left_out"].push_back({{"as", name_of(one.fault)},
+                                {"from_s", one.window.from},
+                                {"to_s", one.window.to},
+                                {"samples", one.samples}});
   if (channel.agreement) {
     const Agreement& one = *channel.agreement;
     json["samples"] = one.samples;

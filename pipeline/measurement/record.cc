@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -90,7 +91,7 @@ class RecordReader {
   }
 
   MeasuredRecord read() {
-    MeasuredRecord record{*name_, {}};
+    MeasuredRecord record{*name_, {}, {}};
     if (!is_read_ || !read_time()) return record;
     const std::vector<std::string> names = names_of_channels(results_);
     for (std::size_t i = 0; i < file_.names.size(); ++i)
@@ -98,6 +99,7 @@ class RecordReader {
     if (record.channels.empty() && !diagnostics_.has_errors())
       diagnostics_.error(head_, "the record has no column beside its time",
                          {names_hint("columns may be", names, "")});
+    record.remarks = std::move(remarks_);
     return record;
   }
 
@@ -143,20 +145,73 @@ class RecordReader {
                                             time_.size(), fewest_rows));
       return false;
     }
+    return put_in_order();
+  }
+
+  /// Leaves rows without a time of their own out and sorts in those that come late, as long as they
+  /// are few: of more it is not known what the clock did.
+  bool put_in_order() {
+    constexpr std::size_t few_of = 20, latest_at_once = 5;
+    std::vector<std::size_t> order;
+    std::size_t bad = 0, without_time = 0, late = 0, late_at_once = 0;
+    double last = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < time_.size(); ++i) {
-      const Mark row{name_, file_.lines[i], 1};
-      if (std::isnan(time_[i])) {
-        diagnostics_.error(row, "the row has no time");
+      const bool is_late = !std::isnan(time_[i]) && time_[i] <= last;
+      late_at_once = is_late && time_[i] < last ? late_at_once + 1 : 0;
+      if (std::isnan(time_[i]) || is_late) ++bad;
+      if (few_of * bad > time_.size() || late_at_once > latest_at_once) {
+        complain_about_row(i, last);
         return false;
       }
-      if (i == 0 || time_[i] > time_[i - 1]) continue;
-      diagnostics_.error(row,
-                         fmt::format("the time {:.9g} s does not follow {:.9g} s; time has to rise",
-                                     time_[i], time_[i - 1]),
-                         {"sort the rows by their time, and leave one row for each instant"});
-      return false;
+      if (std::isnan(time_[i])) {
+        ++without_time;
+        continue;
+      }
+      late += is_late && time_[i] < last ? 1 : 0;
+      last = std::max(last, time_[i]);
+      order.push_back(i);
     }
+    // A row of the same time as an earlier one is the second of the two after this.
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return time_[a] < time_[b]; });
+    const std::size_t all = order.size();
+    const auto is_same = [&](std::size_t a, std::size_t b) { return time_[a] == time_[b]; };
+    order.erase(std::unique(order.begin(), order.end(), is_same), order.end());
+    remark(without_time, "had no time and were left out");
+    remark(late, "came later than others of a later time and were sorted in");
+    remark(all - order.size(), "had the time of an earlier row and were left out");
+    take_rows(order);
     return true;
+  }
+
+  void remark(std::size_t rows, const char* what) {
+    if (rows > 0)
+      remarks_.push_back(
+          fmt::format("{} of the {} rows of {} {}", rows, time_.size(), *name_, what));
+  }
+
+  /// @param last the latest time before the row.
+  void complain_about_row(std::size_t i, double last) {
+    const Mark row{name_, file_.lines[i], 1};
+    if (std::isnan(time_[i])) {
+      diagnostics_.error(row, "the row has no time");
+      return;
+    }
+    diagnostics_.error(
+        row,
+        fmt::format("the time {:.9g} s does not follow {:.9g} s; time has to rise", time_[i], last),
+        {"sort the rows by their time, and leave one row for each instant"});
+  }
+
+  void take_rows(const std::vector<std::size_t>& order) {
+    std::vector<double> time;
+    for (const std::size_t i : order) time.push_back(time_[i]);
+    time_ = std::move(time);
+    for (std::vector<double>& column : file_.columns) {
+      std::vector<double> values;
+      for (const std::size_t i : order) values.push_back(column[i]);
+      column = std::move(values);
+    }
   }
 
   /// Instants of a clock become seconds since the record's first; without a date the clock may pass
@@ -234,6 +289,7 @@ class RecordReader {
   std::size_t time_column_ = 0;
   std::vector<double> time_;
   std::set<std::string> seen_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace

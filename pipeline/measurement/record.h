@@ -45,6 +45,7 @@ struct MeasuredChannel {
 struct MeasuredRecord {
   std::string file;  ///< as it is shown
   std::vector<MeasuredChannel> channels;
+  std::vector<std::string> remarks = {};  ///< what was put right in its time; no full stop
 };
 
 /// Wind and waves, which a record may hold and a lift's results do not.
@@ -58,8 +59,10 @@ inline constexpr const char* wave_channel = "waves.elevation";
 /// unit; it counts from the record's first row then. Cells that say nothing are left out of their
 /// channel.
 /// @param results of the lift that was measured, which say what columns may be called.
+/// Of rows up to a twentieth may have no time, that of an earlier row, or come late (up to five at
+/// once): the first are left out, the last are sorted in, and that is remarked.
 /// @throws InputError with all that is wrong with all files: no header, no time, a time that does
-///   not rise, a column with hardly a value, a unit that is unknown
+///   not rise otherwise, a column with hardly a value, a unit that is unknown
 ///   or of another kind, a name that is not there or there twice.
 std::vector<MeasuredRecord> read_records(const std::vector<std::filesystem::path>& paths,
                                          const ResultsReader& results);

@@ -98,6 +98,28 @@ TEST_F(MeasuredRecords, MayHaveGaps) {
               HasSubstr("record.csv:11:1: error: the row has no time"));
 }
 
+// Loggers send rows twice, late, or without a time: a few of them are no reason to refuse all.
+TEST_F(MeasuredRecords, MayHaveAFewRowsOutOfOrder) {
+  std::string text = "time [s],ropes.R1 [N]\n";
+  for (int i = 0; i < 100; ++i) {
+    const int k = i == 40 ? 41 : i == 41 ? 40 : i;
+    text += std::to_string(k) + ',' + std::to_string(10 * k) + '\n';
+    if (i == 70) text += "70,-5\n,7\n";
+  }
+  const auto records = read(text);
+  const TimeSeries& series = records.at(0).channels.at(0).series;
+  ASSERT_EQ(series.size(), 100u);
+  for (std::size_t i = 0; i < series.size(); ++i) EXPECT_EQ(series.values[i], 10 * series.time[i]);
+  EXPECT_THAT(records[0].remarks,
+              ElementsAre(HasSubstr("1 of the 102 rows of record.csv had no time"),
+                          HasSubstr("1 of the 102 rows of record.csv came later"),
+                          HasSubstr("1 of the 102 rows of record.csv had the time of an earlier")));
+  // A clock that was set back is another matter.
+  text = "time [s],ropes.R1 [N]\n";
+  for (int i = 0; i < 300; ++i) text += std::to_string(i < 200 ? i : i - 7) + ",1\n";
+  EXPECT_THAT(refusal_of(text), HasSubstr("time has to rise"));
+}
+
 TEST_F(MeasuredRecords, MayHaveTheTimeOfAClock) {
   std::string cells = "time;ropes.R1 [kN]\n";
   for (int i = 0; i < 9; ++i)

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "pipeline/measurement/time_series.h"
+
+namespace blocklift::pipeline {
+
+/// What may have gone wrong with a cell or its line.
+enum class Fault {
+  spike,     ///< up to three samples stand off from their neighbours
+  drop_out,  ///< more of them, entered and left by leaps: zeros, most often
+  stuck,     ///< one value again and again
+  restart    ///< all on one side of a jump, as of a cell that has another zero since
+};
+
+/// Samples [begin, end) of a series.
+struct FaultySamples {
+  Fault fault = Fault::spike;
+  std::size_t begin = 0;
+  std::size_t end = 0;  ///< `begin` itself of a jump whose sides have not been chosen between
+  double leap = 0;      ///< how far they stand off, or how far the jump is, in the series' unit
+};
+
+/// What of a series may be faults, by itself alone: leaps ten times as far as 19 of 20 steps
+/// between samples and as a twentieth of the largest load (of other quantities: half of their
+/// range); eight or more equal samples where hardly any two others are equal, or with a leap
+/// beside them. Spikes stand off from the median of seven samples (Hampel 1974).
+std::vector<FaultySamples> find_suspects(const TimeSeries& series, bool is_tension);
+
+/// Those suspects that the computed quantity does not share: it does not move so about them, or
+/// moves on where the measured one stands still. Of jumps the longest stretch between two stays,
+/// and the others are faults as a whole: which zero is right nobody has measured.
+/// @param measured by the clock of the lift. @param computed not empty.
+std::vector<FaultySamples> find_faults(const TimeSeries& measured, const TimeSeries& computed,
+                                       bool is_tension);
+
+/// All of the suspects as if they were faults.
+std::vector<FaultySamples> suspects_as_faults(std::vector<FaultySamples> suspects,
+                                              std::size_t size);
+
+/// A series without some of its samples, between which nothing is known then.
+TimeSeries without(const TimeSeries& series, const std::vector<FaultySamples>& faults);
+
+/// How many samples that leaves out; those of two faults count once.
+std::size_t count_left_out(const std::vector<FaultySamples>& faults, std::size_t size);
+
+/// "2 spikes, the farthest of +48 kN at 20.0 s; it leaps away and back from 30.0 s to 34.9 s".
+/// @param unit SI, of the series.
+std::string faults_in_words(const std::vector<FaultySamples>& faults, const TimeSeries& series,
+                            const std::string& unit);
+
+}  // namespace blocklift::pipeline
