@@ -110,7 +110,7 @@ double WindField::calc_mean_speed(double z) const {
 }
 
 double WindField::calc_gust(double time) const {
-  double sum = 0.0;
+  double sum = definition_.gust ? definition_.gust->evaluate(time) : 0.0;
   for (std::size_t i = 0; i < amplitude_.size(); ++i) {
     sum += amplitude_[i] * std::cos(omega_[i] * time + phase_[i]);
   }
@@ -126,6 +126,7 @@ double WindField::gust_deviation() const {
 WindField WindField::mean() const {
   Definition steady = definition_;
   steady.gusts = GustSpectrum::none;
+  steady.gust.reset();
   return WindField(steady);
 }
 

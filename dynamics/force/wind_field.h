@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "dynamics/force/wind_gust.h"
 #include "dynamics/spatial/pose.h"
 
 namespace blocklift::dynamics {
@@ -40,6 +42,7 @@ double calc_gust_density(GustSpectrum spectrum, double frequency, double U10, do
 /// The gusts are a sum of cosines along the mean wind, one at a random place in each of
 /// `components` steps of ln f with the energy of the step and a random phase (RandomSource; draws:
 /// place, phase). One gust acts everywhere at once: loads of large structures are on the safe side.
+/// A single gust over time (WindGust) may come besides.
 class WindField {
  public:
   struct Definition {
@@ -55,6 +58,7 @@ class WindField {
     double highest_frequency = 0.5;          ///< Hz
     int components = 60;
     std::uint64_t seed = 1;
+    std::optional<WindGust> gust = {};  ///< a single one
   };
 
   /// @throws ModelError if a number is negative or not finite, the frequencies do not ascend from
@@ -65,7 +69,7 @@ class WindField {
   double air_density() const { return definition_.air_density; }
   /// Mean speed at a height, m/s. Below 1 m, where no law holds, that of 1 m.
   double calc_mean_speed(double z) const;
-  /// What the gust adds, m/s.
+  /// What gusts and the single one add, m/s.
   double calc_gust(double time) const;
   Vector3 calc_velocity(double time, double z) const {
     return (calc_mean_speed(z) + calc_gust(time)) * direction_W_;

@@ -72,8 +72,7 @@ class LiftBuilder {
     };
     const std::optional<dynamics::HeldHeading> held_heading = find_held_heading(
         case_, ropes_, hoists_, rope_definitions_, {body_of_.at("load"), load_pose().R});
-    const bool gusts = case_.wind && case_.wind->gusts != dynamics::GustSpectrum::none;
-    const bool moves = gusts || marine_.has_waves();
+    const bool moves = (case_.wind && case_.wind->is_gusty()) || marine_.has_waves();
     return {system(false),
             body_of_.at("load"),
             std::move(bodies_),
@@ -493,6 +492,7 @@ class LiftBuilder {
       if (!steered.course) builder.add_steering(steered.steering.drive, std::move(steering));
     }
     for (const FaultInCase& fault : case_.faults) add_fault(fault, schedule, builder);
+    if (case_.wind) builder.add_breakpoints(case_.wind->breakpoints());
     return builder.build(schedule.duration);
   }
 

@@ -83,8 +83,7 @@ class MechanismAssembler {
       return dynamics::LiftSystem(
           {mechanism, ropes_, {}, make_elements(mechanism, at_rest), operation, q_, v_, water});
     };
-    const bool gusts = file_.wind && file_.wind->gusts != dynamics::GustSpectrum::none;
-    const bool moves = gusts || marine_.has_waves();
+    const bool moves = (file_.wind && file_.wind->is_gusty()) || marine_.has_waves();
     return {system(false),
             std::move(carried_by),
             moves ? std::optional(system(true)) : std::nullopt,
@@ -257,6 +256,7 @@ class MechanismAssembler {
     add_schedule(schedule_, builder);
     add_steerings(builder);
     builder.add_breakpoints(breakpoints_);
+    if (file_.wind) builder.add_breakpoints(file_.wind->breakpoints());
     return builder.build(file_.simulate.duration.value);
   }
 

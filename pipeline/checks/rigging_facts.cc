@@ -207,6 +207,7 @@ ComputedFactors RiggingFacts::of_hook(std::size_t hoist, Index sample) const {
     computed.centre_box =
         std::max(computed.centre_box.value_or(1), (tension[tackle] - block) / at_rest);
   computed.two_hooks = two_hooks(lift_.model.hoists[hoist].name, sample);
+  computed.bears_all = bears_all(lift_.model.hoists[hoist].name);
   return computed;
 }
 
@@ -230,7 +231,30 @@ ComputedFactors RiggingFacts::of_crane(std::size_t crane, Index sample) const {
     for (const LiftHoist& hoist : hoists)
       if (hoist.crane == crane && !computed.two_hooks)
         computed.two_hooks = two_hooks(hoist.name, sample);
+  computed.bears_all = bears_all(case_.cranes[crane].name.value);
   return computed;
+}
+
+bool RiggingFacts::bears_all(const std::string& hook_or_crane) const {
+  using Kind = ResolvedPoint::Kind;
+  const auto hangs = [](const ResolvedPoint& point) {
+    return point.kind == Kind::load || point.kind == Kind::spreader;
+  };
+  const auto is_of_it = [&](const ResolvedPoint& point) {
+    if (point.kind != Kind::hook) return false;
+    const std::string hook = point.body_name(case_.cranes);
+    return hook == hook_or_crane || crane_of(hook) == hook_or_crane;
+  };
+  bool holds = false;
+  for (const RopeInCase& rope : case_.ropes) {
+    const auto& path = rope.path;
+    if (rope.edges.empty() && std::none_of(path.begin(), path.end(), hangs)) continue;
+    if (!std::all_of(path.begin(), path.end(),
+                     [&](const auto& point) { return hangs(point) || is_of_it(point); }))
+      return false;
+    holds = holds || std::any_of(path.begin(), path.end(), is_of_it);
+  }
+  return holds;
 }
 
 bool RiggingFacts::shares_the_load(std::size_t crane) const {

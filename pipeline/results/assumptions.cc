@@ -83,6 +83,24 @@ std::string names_of_turning(const LiftCase& lift_case) {
   return names;
 }
 
+std::string wind_sentence(const WindInCase& wind) {
+  const bool gusts = wind.gusts != dynamics::GustSpectrum::none;
+  std::string text = fmt::format(
+      "{} wind of {:g} m/s towards {:.0f} degrees from +x to +y, {}",
+      wind.is_gusty() ? "Mean" : "Constant", wind.speed, wind.towards * 180 / std::numbers::pi,
+      gusts ? "with gusts that act everywhere at once" : "without gusts");
+  if (wind.gust) {
+    const dynamics::WindGust gust = wind.gust->make_gust();
+    text += fmt::format(
+        "{} a single gust from {:g} to {:g} s, of {:.3g} to {:.3g} m/s with the mean, everywhere "
+        "at "
+        "once",
+        gusts ? ", and" : " but", gust.start(), gust.breakpoints().back(),
+        wind.speed + gust.lowest(), wind.speed + gust.highest());
+  }
+  return text + ".";
+}
+
 void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& list) {
   const std::string turning = names_of_turning(lift_case);
   list.push_back(
@@ -165,11 +183,7 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
               "its mass: while it stands on pads, the stress is that of the ropes' pull alone.");
   }
   if (lift_case.wind) {
-    const bool gusts = lift_case.wind->gusts != dynamics::GustSpectrum::none;
-    list.push_back(fmt::format("{} wind of {:g} m/s towards {:.0f} degrees from +x to +y, {}.",
-                               gusts ? "Mean" : "Constant", lift_case.wind->speed,
-                               lift_case.wind->towards * 180 / std::numbers::pi,
-                               gusts ? "with gusts that act everywhere at once" : "without gusts"));
+    list.push_back(wind_sentence(*lift_case.wind));
   } else {
     list.push_back("No wind.");
   }

@@ -107,6 +107,14 @@ void LoadFactors::add_contingency(ChainBuilder& chain) const {
 }
 
 std::optional<LoadFactors::Factor> LoadFactors::centre(const ComputedFactors& computed) const {
+  // It is a factor on shares of the weight. What bears all of it has no share that the centre could
+  // move, and 0027/ND makes its static hook load of design weight and rigging without it.
+  if (computed.bears_all && (standard_.centre_box || rules().centre_of_mass))
+    return Factor{"centre of mass",
+                  {},
+                  {},
+                  standard_.centre_box ? "standard.centre_box" : rules().centre_of_mass->clause,
+                  "it bears all of the load, wherever the centre lies: it does not apply"};
   if (standard_.centre_box && computed.centre_box) {
     const Vector3& box = *standard_.centre_box;
     return Factor{

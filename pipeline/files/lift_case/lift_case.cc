@@ -145,19 +145,6 @@ std::string ResolvedPoint::body_name(const std::vector<CraneInCase>& cranes) con
   return {};
 }
 
-std::shared_ptr<const dynamics::WindField> WindInCase::make_field(bool at_rest) const {
-  dynamics::WindField::Definition definition;
-  definition.speed = speed;
-  definition.heading = towards;
-  definition.air_density = air_density;
-  definition.profile = profile;
-  definition.gusts = gusts;
-  definition.gust_height = gust_height;
-  definition.seed = static_cast<std::uint64_t>(seed);
-  const dynamics::WindField field(definition);
-  return std::make_shared<const dynamics::WindField>(at_rest ? field.mean() : field);
-}
-
 Vector3 LoadTable::direction_at(const std::string& lug) const {
   if (const Vector3* one = std::get_if<Vector3>(&direction)) return *one;
   const auto* each = find_by_name(std::get<std::vector<Named<Vector3>>>(direction), lug);

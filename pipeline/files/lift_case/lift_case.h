@@ -11,12 +11,12 @@
 #include <variant>
 #include <vector>
 
-#include "dynamics/force/wind_field.h"
 #include "dynamics/simulation/steering.h"
 #include "pipeline/files/crane/crane_model.h"
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/files/lift_case/marine_parts.h"
 #include "pipeline/files/lift_case/standard_in_case.h"
+#include "pipeline/files/lift_case/wind_in_case.h"
 #include "pipeline/files/rigging/spreader.h"
 #include "pipeline/files/structure/block_model.h"
 #include "pipeline/files/structure/hot_spot_format.h"
@@ -135,20 +135,6 @@ struct RopeInCase {
     return !path.empty() && path.back().kind == ResolvedPoint::Kind::spreader &&
            path.back().part == spreader && !is_basket();
   }
-};
-
-/// Wind, steady or with gusts.
-struct WindInCase {
-  double speed = 0;    ///< at a height of 10 m, m/s
-  double towards = 0;  ///< direction of travel from +x towards +y, rad
-  double air_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m^3
-  dynamics::WindProfile profile = dynamics::WindProfile::uniform;
-  dynamics::GustSpectrum gusts = dynamics::GustSpectrum::none;
-  double gust_height = 10;  ///< at which the spectrum is taken, m
-  int seed = 1;
-
-  /// @param at_rest the mean alone: for static equilibrium.
-  std::shared_ptr<const dynamics::WindField> make_field(bool at_rest) const;
 };
 
 /// A figure that a law from outside sees: one of height, plumb, tension and share.
@@ -439,9 +425,6 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
 /// A stage of an operation; shared with mechanism files.
 /// @param may_wait may it end by a condition? Of a lift case it may.
 Format<StageInCase> stage_format(bool may_wait);
-
-/// Constant wind; shared with mechanism files.
-Format<WindInCase> wind_format();
 
 /// The format of a case file, without the look-up of models.
 Format<LiftCase> lift_case_format();

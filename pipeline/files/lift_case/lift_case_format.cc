@@ -290,37 +290,6 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
   return table.format();
 }
 
-Format<WindInCase> wind_format() {
-  using dynamics::GustSpectrum;
-  using dynamics::WindProfile;
-  Table<WindInCase> table("wind", "Wind on the wind areas of bodies: steady, or with gusts.");
-  table
-      .required("speed", &WindInCase::speed, quantity(Dimension::speed, Range::not_negative()),
-                "mean of the air, 10 m above z = 0 where it grows with the height")
-      .required("towards", &WindInCase::towards, quantity(Dimension::angle),
-                "where it blows to, from +x towards +y")
-      .by_default("air_density", &WindInCase::air_density,
-                  quantity(Dimension::density, Range::positive()), "1.25 kg/m^3", "of the air")
-      .by_default("profile", &WindInCase::profile,
-                  choice<WindProfile>({{"uniform", WindProfile::uniform},
-                                       {"power", WindProfile::power},
-                                       {"npd", WindProfile::npd}}),
-                  "uniform",
-                  "over the height: the same, to the power of 0.12, or by the NPD (ISO 19901-1)")
-      .by_default("gusts", &WindInCase::gusts,
-                  choice<GustSpectrum>({{"none", GustSpectrum::none},
-                                        {"npd", GustSpectrum::npd},
-                                        {"api", GustSpectrum::api},
-                                        {"davenport", GustSpectrum::davenport}}),
-                  "none", "spectrum of the gusts; static equilibrium is that of the mean wind")
-      .by_default("gust_height", &WindInCase::gust_height,
-                  quantity(Dimension::length, Range::positive()), "10 m",
-                  "at which the spectrum is taken")
-      .by_default("seed", &WindInCase::seed, integer(Range::not_negative()), "1",
-                  "of the gusts' random phases");
-  return table.format();
-}
-
 Format<DocumentInCase> document_format() {
   Table<DocumentInCase> table("document", "What the report says of itself as a document.");
   table.optional("project", &DocumentInCase::project, text(), "for which the lift is assessed")

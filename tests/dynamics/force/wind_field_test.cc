@@ -67,6 +67,55 @@ TEST(WindField, GustsAreReproducibleAndMeasureTheirDeviation) {
   EXPECT_EQ(wind.mean().calc_gust(17.3), 0);
 }
 
+// The formulas by hand. The operating gust turns at cos(pi x)^2 = 11/20, where sin(3 pi x) is
+// 1.2 sqrt(0.45) and 1 - cos(2 pi x) 0.9, and in the middle, where they are -1 and 2.
+TEST(WindGust, ShapesByHand) {
+  using Shape = WindGust::Shape;
+  const WindGust cosine(Shape::one_minus_cosine, 6, 20, 8);
+  EXPECT_EQ(cosine.evaluate(19), 0);
+  EXPECT_NEAR(cosine.evaluate(20 + 8.0 / 6), 6 * 0.25, 1e-12);
+  EXPECT_NEAR(cosine.evaluate(24), 6, 1e-12);
+  EXPECT_NEAR(cosine.evaluate(26), 3, 1e-12);
+  EXPECT_EQ(cosine.evaluate(28.5), 0);
+  const WindGust rise(Shape::coherent_rise, 15, 0, 10);
+  EXPECT_NEAR(rise.evaluate(10.0 / 3), 15 * 0.25, 1e-12);
+  EXPECT_EQ(rise.evaluate(100), 15);
+  const WindGust operating(Shape::operating, 10, 5, 10.5);
+  EXPECT_NEAR(operating.highest(), 7.4, 1e-12);
+  EXPECT_NEAR(operating.evaluate(5 + 5.25), 7.4, 1e-12);
+  EXPECT_NEAR(operating.lowest(), -3.7 * 1.2 * std::sqrt(0.45) * 0.9, 1e-12);
+  for (double time = 0; time < 20; time += 0.01) {
+    EXPECT_GE(operating.evaluate(time), operating.lowest() - 1e-12);
+    EXPECT_LE(operating.evaluate(time), operating.highest() + 1e-12);
+  }
+}
+
+TEST(WindGust, TableIsStraightBetweenItsPoints) {
+  const WindGust gust({10, 11, 30}, {0, 6, 2});
+  EXPECT_EQ(gust.evaluate(0), 0);
+  EXPECT_NEAR(gust.evaluate(10.5), 3, 1e-12);
+  EXPECT_NEAR(gust.evaluate(20.5), 4, 1e-12);
+  EXPECT_EQ(gust.evaluate(31), 2);
+  EXPECT_EQ(gust.highest(), 6);
+  EXPECT_THAT(
+      [] {
+        WindGust({1, 1}, {0, 1});
+      },
+      ThrowsMessage<ModelError>(HasSubstr("must ascend")));
+  EXPECT_THAT([] { WindGust({1}, {1}); }, ThrowsMessage<ModelError>(HasSubstr("two points")));
+  EXPECT_THAT([] { WindGust(WindGust::Shape::operating, 5, 1, 0); },
+              ThrowsMessage<ModelError>(HasSubstr("the duration 0")));
+}
+
+// It adds to the mean at every height, and the wind at rest has none of it.
+TEST(WindField, TakesASingleGust) {
+  WindField::Definition d = {.speed = 8, .heading = 0, .profile = WindProfile::power};
+  d.gust.emplace(WindGust::Shape::one_minus_cosine, 6, 20, 8);
+  const WindField wind(d);
+  EXPECT_NEAR(wind.calc_velocity(24, 40).x(), 8 * std::pow(4, 0.12) + 6, 1e-12);
+  EXPECT_NEAR(wind.calc_velocity(10, 40).x(), wind.mean().calc_velocity(24, 40).x(), 1e-12);
+}
+
 TEST(WindField, RefusesWhatCannotBe) {
   EXPECT_THAT([] { WindField({.speed = -1, .heading = 0}); },
               ThrowsMessage<ModelError>(HasSubstr("the wind has the speed -1")));

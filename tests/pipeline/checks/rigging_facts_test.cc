@@ -130,6 +130,8 @@ TEST(RiggingFacts, CentreBoxOfAHookLeavesItsBlockOut) {
   EXPECT_NEAR(rigging.of_crane(0, 0).centre_box.value(), 1, 1e-6);
   EXPECT_TRUE(rigging.of_hook(0, 0).two_hooks);
   EXPECT_FALSE(rigging.of_crane(0, 0).two_hooks);
+  EXPECT_TRUE(rigging.of_crane(0, 0).bears_all);
+  EXPECT_FALSE(rigging.of_hook(0, 0).bears_all);
 }
 
 // Second method: the equilibrium of a lift whose centre of mass is where the box has its corner.
@@ -154,6 +156,7 @@ TEST(RiggingFacts, CentreBoxBelowASpreaderIsThatOfAShiftedLoad) {
     EXPECT_LT(std::abs(whole), 4e-3) << name;
     EXPECT_LT(std::abs(half), 0.3 * std::abs(whole) + 1e-6) << name;
   }
+  EXPECT_TRUE(RiggingFacts(lift_case, straight, {}, {}).of_hook(0, 0).bears_all);
 }
 
 // The same with a sling that is shorter than meant: of all sets of signs the largest.

@@ -95,6 +95,21 @@ TEST(StandardAssessment, HoldsASpreaderAsALiftPoint) {
   EXPECT_NEAR(spreader.simulated_utilisation(), 0.904475, 1e-9);
 }
 
+// 1,000 kN below the block x 1.10 (weight B) + 20 kN of rigging = 1,120 kN, which is the static hook
+// load of 0027/ND; x 1.05 (DAF of 112 t ashore), and the block of 30 kN with it. A centre of mass
+// elsewhere brings the one hook nothing, where it brings each of two 1.10 times its share.
+TEST(StandardAssessment, WhatBearsAllTakesNoFactorOnTheCentre) {
+  LiftFacts facts = two_slings();
+  const auto load_of_hook = [&] {
+    return chain_of(assess_standard(by_nd_0027(), facts), "hook C1.main").standard;
+  };
+  const double shared = load_of_hook();
+  facts.hooks[0].computed.bears_all = true;
+  const double alone = load_of_hook();
+  EXPECT_NEAR(alone, (1000e3 * 1.10 + 20e3 + 30e3) * 1.05, 1e-6);
+  EXPECT_NEAR(shared - alone, 1000e3 * 1.10 * 0.10 * 1.05, 1e-6);
+}
+
 TEST(StandardAssessment, EveryColumnIsTheProductOfItsSteps) {
   const StandardAssessment result = assess_standard(by_nd_0027(), two_slings());
   for (const Chain& chain : result.chains) {
