@@ -496,8 +496,10 @@ class Doctor {
         add(kind, Severity::note, beam.label, vertex(beam.vertices[0]));
     say(kind,
         "the shear stress of {} beams is an estimate, for their sections are known by figures "
-        "alone; it is on the safe side of solid and of closed sections, but that of a force along "
-        "the web of an I needs its shear area",
+        "alone: where recovery points tell height and width, that of a web between two flanges as "
+        "wide as the points reach, else, by the torsion constant, that of an open I-beam, and no "
+        "less than that of a pipe; thin webs of a box without such points have more, for which its "
+        "shear areas are due",
         count(kind));
   }
 
