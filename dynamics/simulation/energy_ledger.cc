@@ -59,7 +59,7 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
   rates.dissipated_power += elements.dissipated_power;
   // The memory gives and takes: what the bodies lose to it is in the waves, or comes back.
   if (system.water()) {
-    rates.outside_power += w.water_force.dot(w.water_velocity);
+    rates.outside_power += w.water_force.dot(w.level_velocity);
     if (system.water()->varies())
       rates.dissipated_power += system.water()->calc_entry_loss(w.water_shares, w.water_velocity);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dynamics/force/loop_derivatives.h"
+#include "dynamics/marine/loads/level_axes.h"
 
 namespace blocklift::dynamics {
 
@@ -77,6 +78,7 @@ void calc_tangent_matrices(const LiftSystem& system, double t, LiftWorkspace& w,
     tangent.added->add_mass(system.mechanism(), w.kinematics, system.water()->inertia(),
                             inverse.mass);
     for (const int k : free) tangent.frame_jacobian.col(column++) = tangent.added->jacobian.col(k);
+    turn_to_level_axes(system.water()->frames(), w.kinematics, tangent.frame_jacobian);
     column = 0;
   }
   for (const int k : free) {

@@ -24,7 +24,8 @@ struct TangentMatrices {
   Loads loads;                                 ///< with the forces of the loops
   std::optional<AddedInertiaWorkspace> added;  ///< where water moves with floating bodies
   DraughtShares water_shares;                  ///< of the draughts of a body that is lowered
-  Eigen::MatrixXd frame_jacobian;              ///< of RadiatedWater's frames, 6N x nv_free: u = J v
+  /// Of RadiatedWater's frames in their level axes, 6N x nv_free: u = J v, which memory knows.
+  Eigen::MatrixXd frame_jacobian;
 };
 
 /// Tangent matrices at the instant that calc_right_hand_side has just left in the workspace; its v,

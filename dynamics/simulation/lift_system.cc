@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/loads/level_axes.h"
 
 namespace blocklift::dynamics {
 
@@ -151,7 +152,8 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
   F_Bo_W_of_hulls.assign(std::get<std::vector<HullForce>>(system.elements()).size(),
                          ForceVector::zero());
   memory = memory_rate = Eigen::VectorXd::Zero(system.memory_count());
-  water_velocity = water_force = entry_force = Eigen::VectorXd::Zero(added ? added->size() : 0);
+  water_velocity = level_velocity = water_force = entry_force =
+      Eigen::VectorXd::Zero(added ? added->size() : 0);
   for (const SupportPad& pad : system.supports()) standing_places.push_back(pad.definition().p_WG);
   for (std::size_t i = 0; i < feeds.size(); ++i) {
     feeds[i].unstretched_length = system.ropes()[i].definition().unstretched_length;
@@ -239,7 +241,7 @@ namespace {
 // and as it is taken up by a body that enters it.
 void add_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
   calc_water_forces(water, t, w);
-  add_frame_forces(water.frames(), w.kinematics, w.water_force, w.loads.F_Bo_W);
+  add_level_forces(water.frames(), w.kinematics, w.water_force, w.loads.F_Bo_W);
   if (!water.varies()) return;
   w.entry_force.setZero();
   water.add_entry_force(w.water_shares, w.water_velocity, w.entry_force);
@@ -315,6 +317,8 @@ void calc_hull_forces(const LiftSystem& system, double t, LiftWorkspace& w) {
 
 void calc_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
   water.inertia().calc_velocity(w.kinematics, w.water_velocity);
+  w.level_velocity = w.water_velocity;
+  turn_to_level_axes(water.frames(), w.kinematics, w.level_velocity);
   w.water_shares = water.find_shares(w.kinematics);
   water.calc_force(w.water_shares, w.memory, w.water_force);
   w.marched.add_to(t, w.water_force);
@@ -362,7 +366,7 @@ void calc_right_hand_side(const LiftSystem& system, double t, ConstVectorRef y,
   get_state(system, w.rates, w.vdot, ydot);
   const RadiatedWater* water = system.water();
   if (!water) return;
-  water->calc_rate(w.water_shares, w.memory, w.water_velocity, w.memory_rate);
+  water->calc_rate(w.water_shares, w.memory, w.level_velocity, w.memory_rate);
   ydot.segment(system.nq_free() + system.nv_free(), w.memory.size()) = w.memory_rate;
 }
 

@@ -150,7 +150,8 @@ struct LiftWorkspace {
   std::optional<ConstrainedDynamicsWorkspace> tied;
   Eigen::VectorXd memory;                       ///< x: states of the radiated water
   Eigen::VectorXd memory_rate;                  ///< dx/dt
-  Eigen::VectorXd water_velocity, water_force;  ///< of RadiatedWater's frames, 6N each
+  Eigen::VectorXd water_velocity;               ///< of RadiatedWater's frames in their own axes, 6N
+  Eigen::VectorXd level_velocity, water_force;  ///< in their level axes, of the memory, 6N each
   DraughtShares water_shares;                   ///< of the draughts of a body that is lowered
   Eigen::VectorXd entry_force;                  ///< on the frames, of water that it takes up, 6N
   MarchedForce marched;                         ///< of a surface that is marched beside

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/loads/level_axes.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -41,10 +42,11 @@ MarchedSurface::MarchedSurface(DirectRadiation& radiation, double step, const Li
 }
 
 Eigen::VectorXd MarchedSurface::velocity_of(LiftWorkspace& w) const {
-  water_.inertia().calc_velocity(w.kinematics, w.water_velocity);
-  Eigen::VectorXd velocity(w.water_velocity.size());
+  water_.inertia().calc_velocity(w.kinematics, w.level_velocity);
+  turn_to_level_axes(water_.frames(), w.kinematics, w.level_velocity);
+  Eigen::VectorXd velocity(w.level_velocity.size());
   for (Eigen::Index mode = 0; mode < velocity.size(); ++mode) {
-    velocity[mode] = w.water_velocity[place_of_mode(mode)];
+    velocity[mode] = w.level_velocity[place_of_mode(mode)];
   }
   return velocity;
 }

@@ -268,9 +268,9 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
   if (!system.water()) return;
   list.push_back(fmt::format(
       "Radiation and diffraction of the vessels, with their interaction: linear, by the Rankine "
-      "panel method about their upright rest in still water, carried along as they move; their "
-      "distance counts as unchanged. Natural periods hold the added mass of infinite frequency "
-      "alone. {}",
+      "panel method about their upright rest in still water, carried along as they move, along "
+      "axes that turn with their headings alone; their distance counts as unchanged. Natural "
+      "periods hold the added mass of infinite frequency alone. {}",
       marched.radiation
           ? fmt::format(
                 "The water's surface, {} panels in all, is marched beside them by {:.3g} s.",

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/loads/level_axes.h"
 #include "dynamics/marine/loads/radiated_water.h"
 #include "dynamics/marine/loads/whole_turn.h"
 
@@ -95,7 +96,7 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
   if (waves_.empty()) return ForceVector::zero();
   const BodyFrame& frame = definition_.frame;
   const Pose X_WH = state.kinematics.X_WB[frame.body] * frame.X_BH;
-  const double yaw = std::atan2(X_WH.R(1, 0), X_WH.R(0, 0));
+  const double yaw = find_heading(X_WH.R);
   const std::size_t count = headings_.size(), states = state_count();
   DraughtShares shares;
   if (states > 1) {
@@ -120,7 +121,8 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
     }
   }
   force *= definition_.sea->waves.ramp().factor(state.time);
-  return {X_WH.R * force.head<3>(), X_WH.R * force.tail<3>()};
+  const Matrix3 R_WL = level_axes(X_WH.R);
+  return {R_WL * force.head<3>(), R_WL * force.tail<3>()};
 }
 
 void DiffractionForce::add_forces(const MotionState& state, Loads& loads) const {
@@ -138,8 +140,10 @@ void DiffractionForce::add_derivatives(const MotionState& state,
                      state.kinematics.X_WB[body].R * definition_.frame.X_BH.p);
   const ForceVector F = calc_force(state);
   derivatives.add_held_force(0, F.force);
+  // The axes stay level: they turn with the yaw alone.
+  const Vector3 up = Vector3::UnitZ();
   Eigen::Matrix<double, 6, 6> by_turn = Eigen::Matrix<double, 6, 6>::Zero();
-  by_turn.leftCols<3>() << -skew(F.moment), -skew(F.force);
+  by_turn.col(2) << up.cross(F.moment), up.cross(F.force);
   derivatives.add_wrench_block(0, 0, by_turn, Eigen::Matrix<double, 6, 6>::Zero());
 }
 

@@ -15,9 +15,12 @@ namespace blocklift::dynamics {
 ///
 ///   F = Re sum_c X(w_c, theta_c - psi) a_c exp(i (w_c t - phase_c - k_c.(p_WR - p_0)))
 ///
-/// in the axes of the frame H (RadiatedWater) about its origin R, psi being the yaw of H and p_0
-/// the reference point of the database, both level: a vessel that drifts or turns meets the wave
-/// elsewhere and under another heading. X is linear between the database's frequencies and
+/// in the level axes of the frame H (RadiatedWater, level_axes.h) about its origin R, psi being the
+/// heading of H and p_0 the reference point of the database, both level: a vessel that drifts or
+/// turns meets the wave elsewhere and under another heading, and the force does not roll and pitch
+/// with it. R's swaying in time with a wave is in the phase, too. What that leaves in the mean is
+/// along the wave's way, k/w times the power that its force along the water feeds in, and in the
+/// limit of long waves due (Rainey 1989). X is linear between the database's frequencies and
 /// headings, its phase taken at R. With `with_froude_krylov` the force of the incident wave comes
 /// from the database as well, on the mean wetted surface; else it is left to HullForce. The waves'
 /// ramp acts on it. While a body is lowered X is interpolated between its draughts

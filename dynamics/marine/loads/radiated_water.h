@@ -15,15 +15,21 @@ namespace blocklift::dynamics {
 ///
 ///   F = -A_inf du/dt - int K(tau) u(t - tau) d tau,
 ///
-/// u being the spatial velocities of the frames H in their own axes (AddedInertia). H coincides,
-/// when its body lies as the database has it, with the reference point and the axes of the
-/// database's world, and moves with the body: what the database holds for small motions about a
-/// rest is so carried along by a vessel that is towed or turned. Bodies of one database influence
-/// each other as if their distance had not changed.
+/// u being the spatial velocities of frames H. H coincides, when its body lies as the database has
+/// it, with the reference point and the axes of the database's world, and moves with the body: what
+/// the database holds for small motions about a rest is so carried along by a vessel that is towed
+/// or turned. Bodies of one database influence each other as if their distance had not changed.
 ///
-/// A_inf acts implicitly, on the left-hand side; the memory is a linear system of states x with
-/// F = -C x and x' = A x + B u (MemoryStateSpace), its states scaled so that each is of the order
-/// of the velocity that drives it. It needs no history and takes any step.
+/// A_inf acts implicitly, on the left-hand side, in H's own axes (AddedInertia): the force is the
+/// rate of a momentum, in the world R_WH l, and has no mean in any motion that repeats itself. The
+/// memory knows velocities and forces in the level axes of H (level_axes.h), which do not roll and
+/// pitch: turned with the body its force of heave would have a mean along the water. Both being in
+/// the same axes, it is as passive as K is; its force along the water has no mean where the heading
+/// is kept and motion repeats itself, for no vessel is braked in steady motion (int K d tau = 0).
+///
+/// The memory is a linear system of states x with F = -C x and x' = A x + B u (MemoryStateSpace),
+/// its states scaled so that each is of the order of the velocity that drives it. It needs no
+/// history and takes any step.
 ///
 /// **A body that is lowered** has a database for each of several draughts, the first dry; at its
 /// draught d the weights w_k(d) of DraughtInterpolation hold. Added mass is A(d) = sum w_k A_k, and
@@ -83,10 +89,10 @@ class RadiatedWater {
   /// Energy that goes into spray and water left behind, W. Does not allocate.
   double calc_entry_loss(const DraughtShares& shares, ConstVectorRef u) const;
 
-  /// x' from x and u. Does not allocate.
+  /// x' from x and u, in level axes. Does not allocate.
   void calc_rate(const DraughtShares& shares, ConstVectorRef x, ConstVectorRef u,
                  VectorRef rate) const;
-  /// Memory force on the frames (moment; force; 6N) from x. Does not allocate.
+  /// Memory force on the frames in their level axes (moment; force; 6N) from x. Does not allocate.
   void calc_force(const DraughtShares& shares, ConstVectorRef x, VectorRef force) const;
   /// States of one draught's memory; one section, whatever the draught, where nothing varies.
   struct Section {

@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/loads/level_axes.h"
 #include "dynamics/marine/loads/whole_turn.h"
 
 namespace blocklift::dynamics {
@@ -24,15 +25,6 @@ void require_drift(const SlowDrift::Definition& d) {
   if (d.database->mean_drift.empty() || d.database->headings.empty()) {
     throw ModelError(start + ": the database holds no mean drift");
   }
-}
-
-/// Level axes that turn with the yaw of a frame.
-Matrix3 level_axes(const Matrix3& R_WH) {
-  const double size = std::hypot(R_WH(0, 0), R_WH(1, 0));
-  const double c = size > 0.0 ? R_WH(0, 0) / size : 1.0, s = size > 0.0 ? R_WH(1, 0) / size : 0.0;
-  Matrix3 R;
-  R << c, -s, 0.0, s, c, 0.0, 0.0, 0.0, 1.0;
-  return R;
 }
 
 }  // namespace
@@ -71,7 +63,7 @@ ForceVector SlowDrift::calc_force(const MotionState& state) const {
   if (waves_.empty()) return ForceVector::zero();
   const BodyFrame& frame = definition_.frame;
   const Pose X_WH = state.kinematics.X_WB[frame.body] * frame.X_BH;
-  const double yaw_angle = std::atan2(X_WH.R(1, 0), X_WH.R(0, 0));
+  const double yaw_angle = find_heading(X_WH.R);
   std::array<Complex, 3> pushing{}, pulling{};
   for (const Wave& wave : waves_) {
     const PlaceInTurn place = find_place(headings_, wave.heading - yaw_angle);
