@@ -10,6 +10,7 @@
 #include "pipeline/part/part_assessment.h"
 #include "pipeline/part/part_padeye.h"
 #include "structure/error.h"
+#include "structure/mesh/files/cad_unit.h"
 #include "structure/mesh/files/part_reader.h"
 #include "structure/system/linear_solver.h"
 
@@ -46,7 +47,7 @@ class ModelMaker {
  private:
   structure::PartMesh read_mesh() {
     structure::PartReading reading;
-    reading.length_unit = file_.mesh.length_unit.value_or(1);
+    reading.length_unit = file_.mesh.length_unit.value_or(0);
     reading.element_order = file_.mesh.element_order;
     reading.element_size = file_.mesh.element_size.value_or(0);
     reading.refinements = file_.mesh.refinements;
@@ -84,6 +85,8 @@ class ModelMaker {
   // written in millimetres (or in metres and read as millimetres).
   void doubt_size() {
     if (file_.mesh.length_unit || file_.mesh.padeye) return;
+    const std::string path = file_.mesh_path().string();
+    if (structure::is_cad_file(path) && structure::declared_length(path) > 0) return;
     const Vector3 size =
         model_.mesh.nodes.rowwise().maxCoeff() - model_.mesh.nodes.rowwise().minCoeff();
     const double largest = size.maxCoeff();

@@ -74,8 +74,9 @@ Format<PartMeshInFile> mesh_format() {
       .optional("padeye", &PartMeshInFile::padeye, located(padeye_part_format()),
                 "in the place of a file; a refinement doubles its divisions")
       .optional("length_unit", &PartMeshInFile::length_unit, choice<double>(units),
-                "of the file's coordinates; m if left out, and then doubted where the part comes "
-                "out too large or too small")
+                "of the file's coordinates; a STEP or IGES file states its own, which this must be "
+                "where it is given; of other files m if left out, and then doubted where the part "
+                "comes out too large or too small")
       .by_default("element_order", &PartMeshInFile::element_order, integer(Range::between(1, 2)),
                   "2",
                   "that linear elements are raised to; linear ones are far too stiff in bending")

@@ -36,7 +36,8 @@ struct PartPointInFile {
 struct PartMeshInFile {
   std::optional<Located<std::string>> file;
   std::optional<Located<PadeyePart>> padeye;
-  std::optional<double> length_unit;  ///< of the file's coordinates, m; absent: m, and doubted
+  /// Of the file's coordinates, m; absent: that which a CAD file declares, else m, and doubted.
+  std::optional<double> length_unit;
   int element_order = 2;
   std::optional<double> element_size;  ///< m
   int refinements = 0;                 ///< halvings of all elements

@@ -16,6 +16,7 @@
 #include "structure/error.h"
 #include "structure/letter_case.h"
 #include "structure/mesh/files/abaqus_model.h"
+#include "structure/mesh/files/cad_unit.h"
 #include "structure/mesh/files/geometry_script.h"
 #include "structure/mesh/files/gmsh_session.h"
 #include "structure/mesh/files/msh_check.h"
@@ -169,8 +170,7 @@ Opened open_and_mesh(const std::string& path, const PartReading& reading) {
   Opened opened;
   gmsh::option::setNumber("Mesh.SaveAll", 1);
   gmsh::option::setNumber("Mesh.SecondOrderIncomplete", 1);
-  // Geometries come with the unit of the file, never converted.
-  gmsh::option::setString("Geometry.OCCTargetUnit", "");
+  gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
   const auto megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
   allow_processor_time(reading.seconds_to_open + seconds_to_open_a_megabyte * megabytes);
   open_file(path, opened.points);
@@ -206,10 +206,23 @@ Opened open_and_mesh(const std::string& path, const PartReading& reading) {
   return opened;
 }
 
+// OpenCASCADE turns what a file declares into millimetres; what it does not declare stays.
+double unit_of_coordinates(const std::string& path, double said) {
+  const double declared = is_cad_file(path) ? declared_length(path) : 0;
+  if (!(declared > 0)) return said > 0 ? said : 1;
+  if (said > 0 && std::abs(declared - said) > 1e-6 * said)
+    throw ModelError(
+        fmt::format("the file says that its lengths are in units of {:.4g} m, and length_unit that "
+                    "they are in units of {:.4g} m",
+                    declared, said));
+  return 1e-3;
+}
+
 // In this process.
-PartMesh read_here(const std::string& path, const PartReading& reading) {
+PartMesh read_here(const std::string& path, PartReading reading) {
   const GmshSession session;
   try {
+    reading.length_unit = unit_of_coordinates(path, reading.length_unit);
     const Opened opened = open_and_mesh(path, reading);
     PartMesh mesh =
         PartCollector(reading.length_unit).collect(opened.points, reading.faces, reading.points);

@@ -32,7 +32,8 @@ struct SizeField {
 
 /// How a file becomes a mesh.
 struct PartReading {
-  double length_unit = 1;  ///< m, of the file's coordinates
+  /// Of the file's coordinates, m; 0: that which a STEP or IGES file declares, 1 of other files.
+  double length_unit = 0;
   /// Polynomial order that the elements are raised to, 1 or 2; elements of a higher order stay.
   int element_order = 2;
   double element_size = 0;  ///< largest edge where the file is a geometry, m; 0: as the file says
@@ -55,7 +56,8 @@ struct PartReading {
 /// none; besides them each geometric entity is a group of its own: "volume 1", "surface 4", "curve
 /// 2", "point 7". All of it is done in a child process: damaged files crash the libraries that read
 /// them, or keep them busy for ever.
-/// @throws ModelError if the file cannot be read or meshed, asks for so many elements that their
+/// @throws ModelError if the file declares another unit of length than the one that is said, cannot
+///   be read or meshed, asks for so many elements that their
 ///   stiffness would exceed the memory (before they are made), or holds no solid elements, or kinds
 ///   other than hexahedra, tetrahedra and wedges (pyramids among them), or if the child process
 ///   dies; the message names the file.

@@ -4,15 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "structure/mesh/files/cad_unit.h"
 #include "structure/mesh/files/surfaces/fragments.h"
 
 namespace blocklift::structure {
-
-/// Is a file geometry that OpenCASCADE reads, by its ending: .step, .stp, .iges, .igs, .brep?
-bool is_cad_file(const std::string& path);
-
-/// Unit of length that a STEP or IGES file declares, m; 0: none, as in BREP files.
-double declared_length(const std::string& path);
 
 /// What a geometry has for a block.
 struct CadSurfaces {

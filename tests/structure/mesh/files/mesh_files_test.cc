@@ -1,13 +1,17 @@
 // Meshes of other programs: Abaqus' input, STEP, Nastran.
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gmsh.h>
 #include <gtest/gtest.h>
@@ -320,6 +324,48 @@ TEST_F(MeshFiles, StepIsMeshedWithQuadraticTetrahedra) {
   reading.element_size = 2e-3;
   reading.refinements = 6;
   EXPECT_THROW(read_part_mesh(path("box.step"), reading), ModelError);
+}
+
+// OpenCASCADE turns what a STEP file declares into millimetres: a box of 20 x 3 x 2 units is as large
+// as its file says, and whoever says another unit is told.
+TEST_F(MeshFiles, StepHasTheUnitThatItDeclares) {
+  write_box(path("box.step"), false);
+  std::ifstream stream(path("box.step"));
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string millimetre = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );";
+  ASSERT_NE(text.find(millimetre), std::string::npos);
+  const std::string metre = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT($,.METRE.) );",
+                    inch =
+                        "( CONVERSION_BASED_UNIT('INCH',#9001) LENGTH_UNIT() NAMED_UNIT(#9003) "
+                        ");\n#9001 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#9002);\n"
+                        "#9002 = " +
+                        millimetre + "\n#9003 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);";
+  for (const auto& [declaration, unit] :
+       {std::pair{millimetre, 1e-3}, {metre, 1.0}, {inch, 0.0254}}) {
+    std::string declared = text;
+    const std::string file = write(
+        "units.step", declared.replace(text.find(millimetre), millimetre.size(), declaration));
+    PartReading reading;
+    reading.element_size = 2 * unit;
+    for (const double said : {0.0, unit}) {
+      reading.length_unit = said;
+      const PartMesh mesh = read_part_mesh(file, reading);
+      EXPECT_LT(mesh.solids.size(), 500u) << unit;
+      EXPECT_NEAR(find_part_mass(model_of(mesh)).volume, 120 * std::pow(unit, 3),
+                  1e-9 * std::pow(unit, 3))
+          << unit;
+    }
+    reading.length_unit = 0.01;
+    try {
+      read_part_mesh(file, reading);
+      ADD_FAILURE() << unit;
+    } catch (const ModelError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(fmt::format(
+                                    "its lengths are in units of {:.4g} m, and length_unit that "
+                                    "they are in units of 0.01 m",
+                                    unit)));
+    }
+  }
 }
 
 TEST_F(MeshFiles, NastranIsRead) {

@@ -458,6 +458,23 @@ TEST_F(Surfaces, UnitsThatFilesDeclare) {
                                     "CONVERSION_BASED_UNIT('INCH',#2) "
                                     "SI_UNIT(.MILLI.,.METRE.)")),
             0.0254);
+  // Inches whose file measures volumes in cubic metres; the yard by its measure alone.
+  const std::string units =
+      "#7 = ( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT($,.METRE.) );\n"
+      "#8=DERIVED_UNIT_ELEMENT(#7,3.);\n#31 = ( GEOMETRIC_REPRESENTATION_CONTEXT(3)\n"
+      "GLOBAL_UNIT_ASSIGNED_CONTEXT((#30,#28)) REPRESENTATION_CONTEXT('','') );\n"
+      "#30=(NAMED_UNIT(*) PLANE_ANGLE_UNIT() SI_UNIT($,.RADIAN.));\n";
+  EXPECT_EQ(declared_length(written("d.stp", units + "#28=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT("
+                                                     ".MILLI.,.METRE.));")),
+            1e-3);
+  EXPECT_EQ(declared_length(written("e.stp", units + "#28 =(CONVERSION_BASED_UNIT('INCH',#29)"
+                                                     "LENGTH_UNIT());")),
+            0.0254);
+  EXPECT_DOUBLE_EQ(
+      declared_length(written(
+          "f.stp", units + "#28=(CONVERSION_BASED_UNIT('YARD',#29)LENGTH_UNIT()NAMED_UNIT(#9));\n"
+                           "#29=LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(0.9144),#7);")),
+      0.9144);
   const std::string global = ",,4HA,;B,6Hb.iges,1Hc,1Hd,32,308,15,308,15,,1.,6,1HM,1,0.01;";
   EXPECT_EQ(declared_length(
                 written("c.igs", global + std::string(72 - global.size(), ' ') + "G0000001\n")),
