@@ -24,6 +24,7 @@
 #include "pipeline/simulation/mechanism_results.h"
 #include "pipeline/simulation/mechanism_run.h"
 #include "pipeline/study/study_blocks.h"
+#include "pipeline/study/study_lock.h"
 #include "pipeline/study/study_run.h"
 #include "pipeline/version.h"
 
@@ -106,6 +107,7 @@ py::list sweep(const std::string& path, const std::string& folder, const std::st
     require_writable(folder);
     const auto watch = [](double fraction) { see_to_signals("reading members", fraction, ""); };
     Eigen::MatrixXd design = plan_members(study, watch);
+    const StudyLock until_it_ends(folder, StudyLock::Use::whole);
     const MemberStore store(folder, identity_of_study(study));
     const StudyCrew crew = {
         .compute_missing =
