@@ -18,8 +18,8 @@
 #include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/progress_line.h"
 #include "pipeline/comparison/expected_figures.h"
+#include "pipeline/declaration/asked_changes.h"
 #include "pipeline/declaration/diagnostics.h"
-#include "pipeline/declaration/key_change.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/content_hash.h"
@@ -275,17 +275,6 @@ void print_results(const Assessment& assessment) {
   if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));
 }
 
-/// @throws InputError with all that is no change.
-std::vector<KeyChange> read_changes(const std::vector<std::string>& texts) {
-  Diagnostics diagnostics;
-  const Mark mark{std::make_shared<const std::string>("--set"), 0, 0};
-  std::vector<KeyChange> changes;
-  for (const std::string& text : texts)
-    if (auto change = parse_key_change(text, mark, diagnostics)) changes.push_back(*change);
-  if (diagnostics.has_errors()) throw InputError(diagnostics);
-  return changes;
-}
-
 std::vector<RunTrait> traits_of_run(const LiftCase& lift_case) {
   return {{"input", hash_of_input(lift_case)},
           {"program", hash_of_files({"/proc/self/exe"})},
@@ -307,7 +296,7 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
                 const std::optional<std::string>& expect, const std::vector<std::string>& set) {
   std::vector<ExpectedFigure> expected;
   if (expect) expected = read_expected_figures(*expect);
-  LiftCase lift_case = read_lift_case(path, read_changes(set));
+  LiftCase lift_case = read_lift_case(path, read_asked_changes(set));
   const std::filesystem::path folder =
       output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {

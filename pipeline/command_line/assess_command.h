@@ -10,7 +10,7 @@ namespace blocklift::pipeline {
 /// @param output folder of the results; none: `results/<name of the case>` in the working folder.
 /// @param decks write the governing load cases as decks for other solvers, too.
 /// @param expect file of figures that the lift is held to; none: it is held to its checks alone.
-/// @param set keys that are to have other values, as parse_key_change takes them.
+/// @param set keys that are to have other values, as read_asked_changes takes them.
 /// @returns the exit code: 0 the lift passes, 3 it fails a check or an expected figure is off, 2
 ///   the output is no folder. What else goes wrong is thrown: InputError for the input, anything
 ///   else for the run.

@@ -47,6 +47,14 @@ void add_allow_outside(CLI::App& command) {
                             "of Gmsh may do anything");
 }
 
+void add_set(CLI::App& command, std::vector<std::string>& changes) {
+  command
+      .add_option("--set", changes,
+                  "give a key of the case or of its models another value, key=value or "
+                  "model:key=value; may be repeated")
+      ->allow_extra_args(false);
+}
+
 void add_assess(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "assess", "Run a lift case: dynamics, loads on the block, stress, checks, report");
@@ -64,11 +72,7 @@ void add_assess(CLI::App& app, int& code) {
                       "file of figures that the lift is held to (\"expect\" writes one); exit code "
                       "3 if one is off");
   auto set = std::make_shared<std::vector<std::string>>();
-  command
-      ->add_option("--set", *set,
-                   "give a key of the case or of its models another value, key=value or "
-                   "model:key=value; may be repeated")
-      ->allow_extra_args(false);
+  add_set(*command, *set);
   add_limits(*command);
   add_allow_outside(*command);
   command->callback([path, output, decks, expect, set, &code] {
@@ -282,6 +286,7 @@ void add_simulate(CLI::App& app, int& code) {
   command->add_option("-o,--output", options->output,
                       "folder of the results (results/<name> if not given)");
   command->add_flag("--csv", options->csv, "write a CSV file beside the HDF5 one");
+  add_set(*command, options->set);
   add_limits(*command);
   add_allow_outside(*command);
   command->callback([options, &code] { code = simulate_file(*options); });
@@ -297,8 +302,11 @@ void add_validate(CLI::App& app, int& code) {
   command->add_option("--pictures", *pictures,
                       "folder for a page of each block's mesh, with pictures of what was found in "
                       "it");
+  auto set = std::make_shared<std::vector<std::string>>();
+  add_set(*command, *set);
   add_allow_outside(*command);
-  command->callback([files, pictures, &code] { code = validate_files(*files, *pictures); });
+  command->callback(
+      [files, pictures, set, &code] { code = validate_files(*files, *pictures, *set); });
 }
 
 void add_schema(CLI::App& app) {

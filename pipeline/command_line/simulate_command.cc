@@ -11,6 +11,7 @@
 #include "pipeline/build/keel_clearance.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/declaration/asked_changes.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case/sea_band.h"
@@ -82,6 +83,7 @@ void print_mechanism(const MechanismFile& file, const MechanismRun& run) {
 
 int simulate_mechanism(const SimulateOptions& options) {
   ModelLibrary library = ModelLibrary::of_installation();
+  library.set_changes(read_asked_changes(options.set));
   Diagnostics diagnostics;
   const auto file = read_mechanism(options.path, library, diagnostics);
   if (!file) throw InputError(diagnostics);
@@ -129,7 +131,7 @@ void print_lift(const LiftSimulation& simulation) {
 }
 
 int simulate_lift_case(const SimulateOptions& options) {
-  LiftCase lift_case = read_lift_case(options.path);
+  LiftCase lift_case = read_lift_case(options.path, read_asked_changes(options.set));
   require_motion(lift_case);
   const fs::path folder = result_folder(options, lift_case.name);
   std::unique_ptr<ProgressBar> bar;
@@ -161,6 +163,7 @@ int simulate_lift_case(const SimulateOptions& options) {
 
 int simulate_file(const SimulateOptions& options) {
   const FileKind kind = kind_of_file(options.path);
+  if (kind == FileKind::robot) refuse_asked_changes(options.path, options.set);
   if (kind == FileKind::mechanism || kind == FileKind::robot) return simulate_mechanism(options);
   // The reader of cases says what a study is.
   if (kind == FileKind::lift_case || kind == FileKind::study) return simulate_lift_case(options);

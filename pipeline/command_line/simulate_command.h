@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blocklift::pipeline {
 
@@ -10,6 +11,7 @@ struct SimulateOptions {
   std::string path;  ///< mechanism file, robot description, lift case, or a folder of one
   std::optional<std::string> output;  ///< folder; results/<name> if none
   bool csv = false;                   ///< a CSV file beside the HDF5 one
+  std::vector<std::string> set = {};  ///< keys with other values, as read_asked_changes takes them
 };
 
 /// `blocklift simulate FILE`: the motion of a mechanism or lift case into results.h5.

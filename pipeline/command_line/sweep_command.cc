@@ -22,6 +22,7 @@
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/study/members.h"
 #include "pipeline/study/study_design.h"
+#include "pipeline/study/study_lock.h"
 #include "pipeline/study/study_results.h"
 #include "pipeline/study/study_run.h"
 #include "pipeline/terminal/progress_bar.h"
@@ -234,6 +235,7 @@ StudyCrew crew_of(const SweepOptions& options, const fs::path& folder, int most)
 /// A search, its page and the report of its best member.
 int search(const SweepOptions& options, const fs::path& folder, StudyFile study,
            Eigen::MatrixXd sample) {
+  const StudyLock until_it_ends(folder, StudyLock::Use::whole);
   const MemberStore store(folder, identity_of_study(study));
   const int most = study.members.value();
   const StudyResults results =
@@ -319,6 +321,8 @@ int sweep_alone_or_first(const SweepOptions& options) {
     return search(options, folder, std::move(study), std::move(design));
   const auto count = static_cast<int>(design.rows());
   if (options.slurm) return run_as_jobs(options, folder, study, count);
+  const StudyLock until_it_ends(folder,
+                                options.part ? StudyLock::Use::part : StudyLock::Use::whole);
   const MemberStore store(folder, identity_of_study(study), part);
   take_over_parts(options, store);
   if (options.part) {

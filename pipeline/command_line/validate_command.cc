@@ -14,6 +14,7 @@
 #include "pipeline/build/build_mechanism.h"
 #include "pipeline/build/stiffener_plates.h"
 #include "pipeline/command_line/exit_code.h"
+#include "pipeline/declaration/asked_changes.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/lift_case/lift_case.h"
@@ -200,13 +201,18 @@ void draw(const BlockModel& block, const fs::path& file, const fs::path& folder)
 }  // namespace
 
 int validate_files(const std::vector<std::string>& files,
-                   const std::optional<std::string>& pictures) {
+                   const std::optional<std::string>& pictures,
+                   const std::vector<std::string>& set) {
+  const std::vector<KeyChange> changes = read_asked_changes(set);
   Diagnostics all;
   std::set<std::string> said;
   for (const std::string& file : files) {
     // Each by itself: what is wrong with one, or with a model of it, must not hush up another.
     Diagnostics own;
     ModelLibrary library = ModelLibrary::of_installation();
+    const FileKind kind = kind_of_file(input_file(file));
+    if (kind != FileKind::lift_case && kind != FileKind::mechanism) refuse_asked_changes(file, set);
+    library.set_changes(changes);
     std::shared_ptr<const BlockModel> block;
     const auto summary = validate(file, library, own, block);
     if (summary && !is_quiet())

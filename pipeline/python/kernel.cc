@@ -13,6 +13,7 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/declaration/asked_changes.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/library/model_library.h"
@@ -23,6 +24,7 @@
 #include "pipeline/simulation/mechanism_results.h"
 #include "pipeline/simulation/mechanism_run.h"
 #include "pipeline/study/study_blocks.h"
+#include "pipeline/study/study_lock.h"
 #include "pipeline/study/study_run.h"
 #include "pipeline/version.h"
 
@@ -31,9 +33,16 @@ namespace {
 
 namespace py = pybind11;
 
+std::vector<std::string> texts_of(const py::list& list) {
+  std::vector<std::string> texts;
+  for (const py::handle& text : list) texts.push_back(text.cast<std::string>());
+  return texts;
+}
+
 /// Reads a case whose drives the laws steer.
-LiftCase read_steered_case(const std::string& path, const OwnLaws& laws) {
-  LiftCase lift_case = read_lift_case(path);
+LiftCase read_steered_case(const std::string& path, const std::vector<std::string>& set,
+                           const OwnLaws& laws) {
+  LiftCase lift_case = read_lift_case(path, read_asked_changes(set));
   lift_case.laws = laws;
   Diagnostics diagnostics;
   check_laws(lift_case.laws, lift_case.operation, lift_case.file, diagnostics);
@@ -41,8 +50,10 @@ LiftCase read_steered_case(const std::string& path, const OwnLaws& laws) {
   return lift_case;
 }
 
-void simulate_mechanism(const std::string& path, const std::string& folder, const OwnLaws& laws) {
+void simulate_mechanism(const std::string& path, const std::string& folder,
+                        const std::vector<std::string>& set, const OwnLaws& laws) {
   ModelLibrary library = ModelLibrary::of_installation();
+  library.set_changes(read_asked_changes(set));
   Diagnostics diagnostics;
   std::optional<MechanismFile> file = read_mechanism(path, library, diagnostics);
   if (file) check_laws(laws, file->operation, file->file, diagnostics);
@@ -55,16 +66,16 @@ void simulate_mechanism(const std::string& path, const std::string& folder, cons
   write_mechanism_results(*file, run, folder, false);
 }
 
-/// @param program beside which models are sought.
+/// @param program beside which models are sought. @param set keys with other values.
 void simulate(const std::string& path, const std::string& folder, const std::string& program,
-              const py::dict& laws) {
-  run_beside_python([&, laws = laws_of(laws)] {
+              const py::dict& laws, const py::list& set) {
+  run_beside_python([&, laws = laws_of(laws), set = texts_of(set)] {
     take_models_of(program);
     if (kind_of_file(path) == FileKind::mechanism) {
-      simulate_mechanism(path, folder, laws);
+      simulate_mechanism(path, folder, set, laws);
       return;
     }
-    LiftCase lift_case = read_steered_case(path, laws);
+    LiftCase lift_case = read_steered_case(path, set, laws);
     require_motion(lift_case);
     require_writable(folder);
     require_no_verdict(folder);
@@ -74,10 +85,10 @@ void simulate(const std::string& path, const std::string& folder, const std::str
 
 // What the laws do is not known: nothing is kept of a run that was stopped.
 void assess_case(const std::string& path, const std::string& folder, const std::string& program,
-                 const py::dict& laws, bool decks) {
-  run_beside_python([&, laws = laws_of(laws)] {
+                 const py::dict& laws, bool decks, const py::list& set) {
+  run_beside_python([&, laws = laws_of(laws), set = texts_of(set)] {
     take_models_of(program);
-    LiftCase lift_case = read_steered_case(path, laws);
+    LiftCase lift_case = read_steered_case(path, set, laws);
     require_writable(folder);
     const Assessment assessment = assess(std::move(lift_case), see_to_signals);
     write_results(assessment, folder,
@@ -96,6 +107,7 @@ py::list sweep(const std::string& path, const std::string& folder, const std::st
     require_writable(folder);
     const auto watch = [](double fraction) { see_to_signals("reading members", fraction, ""); };
     Eigen::MatrixXd design = plan_members(study, watch);
+    const StudyLock until_it_ends(folder, StudyLock::Use::whole);
     const MemberStore store(folder, identity_of_study(study));
     const StudyCrew crew = {
         .compute_missing =
@@ -151,9 +163,9 @@ PYBIND11_MODULE(_kernel, module) {
   pybind11::register_local_exception_translator(translate);
   module.attr("version") = std::string(program_version);
   module.def("simulate", &simulate, arg("case"), arg("folder"), arg("program"), arg("laws"),
-             "Simulates a case and writes its results into a folder.");
+             arg("set"), "Simulates a case and writes its results into a folder.");
   module.def("assess", &assess_case, arg("case"), arg("folder"), arg("program"), arg("laws"),
-             arg("decks"), "Assesses a case and writes its results into a folder.");
+             arg("decks"), arg("set"), "Assesses a case and writes its results into a folder.");
   module.def(
       "sweep", &sweep, arg("study"), arg("folder"), arg("program"), arg("laws"),
       "Runs a study, a member after another, and writes its results into a folder; gives what is "

@@ -213,7 +213,8 @@ std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibr
   const std::size_t errors_before = diagnostics.error_count();
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? path / "mechanism.yaml" : path;
-  const std::optional<Document> document = load_document(file, diagnostics);
+  library.begin_case();
+  const std::optional<Document> document = library.read_case(file, diagnostics);
   if (!document) return std::nullopt;
   MechanismFile mechanism;
   mechanism.file = file;
@@ -234,6 +235,7 @@ std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibr
     check_curve_without_friction(rope, diagnostics);
   }
   load_marine_models(mechanism, file.parent_path(), library, diagnostics);
+  library.complain_about_unused_changes(diagnostics);
   add_vessels(mechanism, diagnostics);
   check_mechanism_file(mechanism, reading);
   check_afloat(mechanism, diagnostics);

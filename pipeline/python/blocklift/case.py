@@ -37,7 +37,8 @@ class Case:
     """A case, or a mechanism, as its file says it, to be changed in memory.
 
     `data` is the file's content, nested dictionaries and lists whose quantities are texts with
-    their unit ("10 m"). The file itself stays as it is until :meth:`save`.
+    their unit ("10 m"). The file itself stays as it is until :meth:`save`. `model_values` has what
+    keys of its models, "block:mass", were set to; the models' files stay as they are.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -57,6 +58,7 @@ class Case:
             raise InputError([Complaint(str(self.file), None, None, "the file has no keys")])
         self.data: dict[str, Any] = data
         self._begun_with = _text_of(self.data)
+        self.model_values: dict[str, str] = {}
 
     @property
     def name(self) -> str:
@@ -64,10 +66,16 @@ class Case:
         return str(self.data.get("case") or self.data.get("mechanism") or self.file.parent.name)
 
     def get(self, key: str) -> Any:
-        """The value of a key: "ropes.R1.length", "operation[2].moves[0].speed".
+        """The value of a key: "ropes.R1.length", "operation[2].moves[0].speed". Of a model's key,
+        "block:mass", what it was set to.
 
-        Raises KeyError, with near names, if a part of it is not there.
+        Raises KeyError, with near names, if a part of it is not there; of a model's key that was
+        not set.
         """
+        if ":" in key:
+            if key not in self.model_values:
+                raise KeyError(f"{key}: this key of a model was not set; its value is in its file")
+            return self.model_values[key]
         value: Any = self.data
         for part in _parts(key):
             value = _step(value, part, key)
@@ -77,9 +85,18 @@ class Case:
         """Changes a value, or adds a key to a part that is there. Quantities are texts with their
         unit: `case.set("ropes.R1.length", "10.05 m")`. Numbers may be NumPy's.
 
+        Before a colon stands the crane, block, rope or standard that a key belongs to, as the case
+        calls it, as in a study: `case.set("blocks/hull-860t:mass", "870 t")`. Such a key must be
+        in the model's file and have one value; the program says so when the case is read.
+
         Raises KeyError, with near names, if a part before the last is not there, or if the key is
-        none.
+        none; TypeError if a model's key is given more than one value.
         """
+        if ":" in key:
+            text = _scalar_text(key, value)
+            _change_of(key, text)
+            self.model_values[key] = text
+            return
         *way, last = _parts(key)
         place: Any = self.data
         for part in way:
@@ -99,7 +116,13 @@ class Case:
         return describe("mechanism" if "mechanism" in self.data else "lift case", key)
 
     def save(self, path: str | os.PathLike[str] | None = None) -> Path:
-        """Writes the file, in place or under another name. Models are looked for beside it."""
+        """Writes the file, in place or under another name. Models are looked for beside it.
+
+        Raises ValueError if keys of models were set: they are in other files.
+        """
+        if self.model_values:
+            raise ValueError(f"{', '.join(self.model_values)}: keys of models are not in the file "
+                             "of the case; change their files, or clear model_values")
         target = Path(path) if path is not None else self.file
         target.parent.mkdir(parents=True, exist_ok=True)
         beside = target.with_name(f".{target.name}.part")
@@ -110,7 +133,7 @@ class Case:
     def validate(self) -> None:
         """Reads the case with all that it names. Raises InputError with every mistake."""
         with self._on_disk() as file:
-            self._run(["validate", file], file)
+            self._run(["validate", file, *self._asked()], file)
 
     def assess(self, output: str | os.PathLike[str] | None = None, *, decks: bool = False,
                laws: Mapping[str, kernel.LawOrClass] | None = None) -> Result:
@@ -127,11 +150,11 @@ class Case:
         folder = Path(output) if output is not None else Path("results") / self.name
         with self._on_disk() as file:
             if laws is None:
-                self._run(["assess", file, "--output", folder, *(["--decks"] if decks else [])],
-                          file)
+                self._run(["assess", file, "--output", folder, *self._asked(),
+                           *(["--decks"] if decks else [])], file)
             else:
                 with self._naming_own_file(file):
-                    kernel.assess(file, folder, laws, decks)
+                    kernel.assess(file, folder, laws, decks, self._changes())
         return Result(folder)
 
     def simulate(self, output: str | os.PathLike[str] | None = None, *, files: bool = True,
@@ -166,10 +189,17 @@ class Case:
     def _simulate_into(self, folder: Path, laws: Mapping[str, kernel.LawOrClass] | None) -> None:
         with self._on_disk() as file:
             if laws is None:
-                self._run(["simulate", file, "--output", folder], file)
+                self._run(["simulate", file, "--output", folder, *self._asked()], file)
                 return
             with self._naming_own_file(file):
-                kernel.simulate(file, folder, laws)
+                kernel.simulate(file, folder, laws, self._changes())
+
+    def _changes(self) -> list[str]:
+        """The values of models' keys, as `--set` takes them."""
+        return [_change_of(key, value) for key, value in self.model_values.items()]
+
+    def _asked(self) -> list[str]:
+        return [word for change in self._changes() for word in ("--set", change)]
 
     def _run(self, arguments: list[str | os.PathLike[str]], file: Path) -> str:
         with self._naming_own_file(file):
@@ -247,6 +277,23 @@ def _plain(value: Any) -> Any:
             if plain is not value[place]:
                 value[place] = plain
     return value
+
+
+def _change_of(key: str, value: str) -> str:
+    """A change of a model's key as the command line has it, where lists count from 1."""
+    model, _, own = key.partition(":")
+    way = "".join(f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in _parts(own))
+    if not model or not way.startswith("."):
+        raise KeyError(f'"{key}" is no key of a model: "block:mass" is, the model as the case calls '
+                       "it before the colon")
+    return f"{model}:{way[1:]}={value}"
+
+
+def _scalar_text(key: str, value: Any) -> str:
+    plain = _plain(value)
+    if not isinstance(plain, (str, int, float)):
+        raise TypeError(f"{key}: a key of a model takes one value, and not {plain!r}")
+    return str(plain).lower() if isinstance(plain, bool) else str(plain)
 
 
 def _parts(key: str) -> list[str | int]:

@@ -27,19 +27,25 @@ _NAME = "blocklift._kernel"
 _loading = threading.Lock()
 
 
-def simulate(case: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
+def simulate(case: Path, folder: Path, laws: Mapping[str, LawOrClass],
+             changes: list[str]) -> None:
     """Simulates a case file in this process and writes its results into a folder.
+
+    changes: keys that have other values than in their files, "block:mass=9 t".
 
     One lift runs in a process at a time: other threads that begin one wait. Raises ImportError if
     the module is not built, InputError, RunError, also where a law begins a lift itself, TypeError
     if a law cannot be called or gives no number, and whatever a law raises. So do the others.
     """
-    load().simulate(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws))
+    load().simulate(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws),
+                    changes)
 
 
-def assess(case: Path, folder: Path, laws: Mapping[str, LawOrClass], decks: bool) -> None:
+def assess(case: Path, folder: Path, laws: Mapping[str, LawOrClass], decks: bool,
+           changes: list[str]) -> None:
     """Assesses a case file in this process and writes its results into a folder."""
-    load().assess(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws), decks)
+    load().assess(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws), decks,
+                  changes)
 
 
 def sweep(study: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:

@@ -30,6 +30,24 @@ using ::testing::StartsWith;
 
 const std::string samples = BLOCKLIFT_MECHANISMS;
 
+// A crank of half the length: the slider goes between rod and crank, and rod less crank.
+TEST(SimulateCommand, SetsKeysOfAMechanism) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_blocklift("simulate " + samples + "/slider-crank --set 'parameters.crank=0.1 m' -o out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const ResultsReader results("out/results.h5");
+  const Array<double> slider = results.read("/outputs/slider");
+  EXPECT_NEAR(slider(0), 0.6, 1e-8);
+  EXPECT_NEAR(slider(100), 0.4, 1e-8);  // half a turn, at 0.5 s
+  const Outcome missing =
+      run_blocklift("simulate " + samples + "/slider-crank --set 'parameters.cank=0.1 m' -o no");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err,
+              StartsWith("--set parameters.cank=0.1 m: error: there is no parameters.cank"));
+  EXPECT_FALSE(fs::exists("no"));
+}
+
 TEST(SimulateCommand, WritesTheSliderCrankAsItsClosedFormHasIt) {
   const TemporaryFolder folder;
   const Outcome outcome = run_blocklift("simulate " + samples + "/slider-crank --csv -o out");

@@ -1,5 +1,9 @@
 // `blocklift sweep` as a user meets it: run as a process.
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -519,6 +523,22 @@ TEST_F(SweepCommand, RefusesAFolderOfAnotherStudy) {
   const Outcome other = run("sweep study.yaml -o out");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("members of another study"));
+}
+
+// Another run is one that holds the lock of the folder. Parts bear each other.
+TEST_F(SweepCommand, RefusesAFolderInWhichAnotherRunIsAtWork) {
+  ASSERT_EQ(run("sweep study.yaml --part 1/12 -o out -q").exit_code, 0);
+  const int lock = ::open("out/members/lock", O_RDWR | O_CLOEXEC);
+  ASSERT_GE(lock, 0);
+  ASSERT_EQ(::flock(lock, LOCK_SH), 0);
+  EXPECT_EQ(run("sweep study.yaml --part 2/12 -o out -q").exit_code, 0);
+  const Outcome whole = run("sweep study.yaml -o out -q");
+  EXPECT_EQ(whole.exit_code, 2);
+  EXPECT_THAT(whole.err, HasSubstr("out: error: another run of a study is at work in this folder"));
+  ASSERT_EQ(::flock(lock, LOCK_EX), 0);
+  EXPECT_EQ(run("sweep study.yaml --part 3/12 -o out -q").exit_code, 2);
+  ::close(lock);
+  EXPECT_EQ(run("sweep study.yaml --part 3/12 -o out -q").exit_code, 0);
 }
 
 }  // namespace

@@ -78,6 +78,19 @@ TEST(ValidateCommand, WeighsALoadTable) {
   EXPECT_NE(down.err.find("they press the block down at its lugs"), std::string::npos) << down.err;
 }
 
+TEST(ValidateCommand, SetsKeysOfACaseAndItsModels) {
+  const TemporaryFolder folder;
+  SampleLift().write(folder);
+  const Outcome negative = run_blocklift("validate . --set 'plate:mass=-1 t'");
+  EXPECT_EQ(negative.exit_code, 2);
+  EXPECT_NE(negative.err.find("mass \"-1 t\" must be"), std::string::npos) << negative.err;
+  const Outcome of_model = run_blocklift("validate plate.yaml --set 'mass=1 t'");
+  EXPECT_EQ(of_model.exit_code, 2);
+  EXPECT_NE(of_model.err.find("--set mass=1 t: error: no key of plate.yaml is set"),
+            std::string::npos)
+      << of_model.err;
+}
+
 TEST(ValidateCommand, WarnsOfDoubtfulValues) {
   const TemporaryFolder folder;
   SampleLift lift;

@@ -89,6 +89,45 @@ class CaseTest(InATemporaryFolder):
         self.assertEqual(blocklift.Case(case.save("lift/other.yaml")).get(
             "checks.rope_safety_factor"), 5)
 
+    def test_keys_of_models_are_set_as_in_their_files(self):
+        block = Path("lift/block.yaml").read_text(encoding="utf-8")
+        case = blocklift.Case("lift")
+        case.set("block:mass", "9 t")
+        case.set("block:plates.sides.at[1]", "3.0 m")  # lists count from 0, as in all of Python
+        case.set("gantry:hoists.left.hook_block.mass", "400 kg")
+        self.assertEqual(case.get("block:mass"), "9 t")
+        case.validate()
+        by_key = case.simulate("by-key").history("static").tension
+        self.assertEqual(Path("lift/block.yaml").read_text(encoding="utf-8"), block)
+        for file, old, new in (("block.yaml", "mass: 8 t", "mass: 9 t"),
+                               ("gantry/crane.yaml", "mass: 300 kg, wind", "mass: 400 kg, wind")):
+            path = Path("lift") / file
+            path.write_text(path.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+        by_file = blocklift.Case("lift").simulate("by-file").history("static").tension
+        np.testing.assert_array_equal(by_key, by_file)
+
+    def test_keys_of_models_that_cannot_be_set(self):
+        case = blocklift.Case("lift")
+        for key in (":mass", "block:", "block:[0]", "block:plates..sides"):
+            with self.assertRaisesRegex(KeyError, "is no key"):
+                case.set(key, "9 t")
+        with self.assertRaisesRegex(TypeError, "takes one value"):
+            case.set("block:centre_of_mass", ["2 m", "1.5 m", "1 m"])
+        with self.assertRaisesRegex(KeyError, "was not set"):
+            case.get("block:mass")
+        for key, hint in (("block:mas", 'did you mean "mass"'), ("blok:mass", "block"),
+                          ("block:plates.sides.at[2]", "has 2 items")):
+            case.model_values.clear()
+            case.set(key, "9 t")
+            with self.assertRaises(blocklift.InputError) as caught:
+                case.validate()
+            complaint = caught.exception.complaints[0]
+            self.assertTrue(complaint.file.startswith("--set "), complaint)
+            self.assertIn(hint, " ".join(complaint.hints))
+        with self.assertRaisesRegex(ValueError, "not in the file of the case"):
+            case.save("lift/other.yaml")
+        self.assertFalse(Path("lift/other.yaml").exists())
+
     def test_a_file_without_keys(self):
         for text in ("", "- a\n- b\n", "word\n"):
             Path("lift/case.yaml").write_text(text, encoding="utf-8")

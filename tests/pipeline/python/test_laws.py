@@ -43,6 +43,16 @@ class LawTest(InATemporaryFolder):
             np.testing.assert_allclose(ours[name], theirs[name], rtol=1e-9, atol=1e-6,
                                        err_msg=str(name))
 
+    def test_keys_of_models_are_set_in_this_process_too(self):
+        case = blocklift.Case("lift")
+        case.set("block:mass", "9 t")
+        theirs = case.simulate("theirs").history("static").tension
+        ours = case.simulate("ours", laws={}).history("static").tension
+        np.testing.assert_allclose(ours, theirs, rtol=1e-9, atol=1e-6)
+        case.set("block:mas", "9 t")
+        with self.assertRaisesRegex(blocklift.InputError, "there is no mas to change"):
+            case.assess("assessed", laws={})
+
     def test_a_law_that_keeps_level_is_the_built_in_wish(self):
         built_in = self.follow({"level": "C1.right", "with": "C1.left", "reaction": "0.5 s",
                                 "correction": "4 s"}).simulate("built-in").history("dynamic")
