@@ -159,6 +159,19 @@ struct InnerEdge {
   std::array<std::size_t, 2> shells{};
 };
 
+/// Areas of the rectangles about pieces, m^2.
+struct AreasAbout {
+  double sum = 0, largest = 0;
+};
+
+/// Is a cut the better one? Of two whose rectangles are as large together that with the largest
+/// piece: a mirror image of the plate, whose corners come in another turn, is cut alike.
+bool is_better(const AreasAbout& areas, const AreasAbout& best) {
+  constexpr double rounding = 1e-6;
+  if (areas.sum < best.sum * (1 - rounding)) return true;
+  return areas.sum <= best.sum * (1 + rounding) && areas.largest > best.largest * (1 + rounding);
+}
+
 /// The shells of a field in its plane.
 class FlatField {
  public:
@@ -213,8 +226,8 @@ class FlatField {
     return result;
   }
 
-  /// Of the rectangles about the pieces of a cut, m^2.
-  double area_about(const PlateCut& cut) const {
+  /// Of the rectangles about the pieces of a cut.
+  AreasAbout areas_about(const PlateCut& cut) const {
     std::vector<std::vector<Vector2d>> points(static_cast<std::size_t>(cut.pieces));
     for (std::size_t i = 0; i < field_.shells.size(); ++i)
       for (const int vertex : mesh_.shells[field_.shells[i]].vertices) {
@@ -222,9 +235,13 @@ class FlatField {
         points[static_cast<std::size_t>(cut.piece_of_shell[i])].push_back(axes_.in_plane(
             moved == cut.straightened.end() ? known_.place(mesh_, vertex) : moved->second));
       }
-    double area = 0;
-    for (const auto& piece : points) area += rectangle_about(piece).area;
-    return area;
+    AreasAbout areas;
+    for (const auto& piece : points) {
+      const double area = rectangle_about(piece).area;
+      areas.sum += area;
+      areas.largest = std::max(areas.largest, area);
+    }
+    return areas;
   }
 
  private:
@@ -288,14 +305,14 @@ std::optional<PlateCut> find_plate_cut(const Mesh& mesh, const PlateField& field
   const PlateRectangle whole = flat.rectangle();
   if (enclosed > filled * whole.area) return std::nullopt;
   std::optional<PlateCut> best;
-  double least = worth_it * whole.area;
+  AreasAbout least{worth_it * whole.area, 1e300};
   const CutFinder finder(std::move(outlines));
   for (const CutRays& rays : finder.candidates()) {
     PlateCut cut = flat.cut(rays);
     if (cut.pieces < 2) continue;
-    const double area = flat.area_about(cut);
-    if (area >= least * (1 - 1e-6)) continue;
-    least = area;
+    const AreasAbout areas = flat.areas_about(cut);
+    if (!is_better(areas, least)) continue;
+    least = areas;
     best = std::move(cut);
   }
   if (best) best->whole_length = whole.longer;
