@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "structure/formulation/shell.h"
 #include "structure/practice/bar_chains.h"
 #include "structure/practice/buckling_fields.h"
+#include "structure/practice/irregular_panel.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/shell_stress.h"
 
@@ -91,6 +93,35 @@ double enclosed_area(const Mesh& mesh, const std::vector<FieldEdge>& outline, co
   return area;
 }
 
+/// The outline of a field that is no hole's; none if it has none.
+std::vector<FieldEdge> outer_outline(const Mesh& mesh, const PlateField& field,
+                                     const Panel& panel) {
+  const auto outer = std::max_element(
+      field.outlines.begin(), field.outlines.end(), [&](const auto& one, const auto& other) {
+        return enclosed_area(mesh, one, panel) < enclosed_area(mesh, other, panel);
+      });
+  return outer == field.outlines.end() ? std::vector<FieldEdge>() : *outer;
+}
+
+/// Gives a piece of a cut plate whose equivalent rectangle has less than nine tenths of the area of
+/// the rectangle about it, such as a strip round a bend, the former's size and axes.
+void straighten(const Mesh& mesh, const BucklingFields& fields, const PlateField& field,
+                Panel& panel) {
+  std::vector<Eigen::Vector2d> outline;
+  for (const FieldEdge& edge : outer_outline(mesh, field, panel))
+    for (const FieldEdge::Piece& piece : edge.pieces)
+      outline.push_back(in_plane(panel, fields.place(mesh, piece.from)));
+  const std::optional<EquivalentRectangle> rectangle = equivalent_rectangle(outline);
+  if (!rectangle) return;
+  constexpr double nearly_all = 0.9;
+  if (rectangle->length * rectangle->width > nearly_all * panel.size.a * panel.size.b) return;
+  const Vector3 along = rectangle->along[0] * panel.e_1 + rectangle->along[1] * panel.e_2;
+  panel.e_1 = along.normalized();
+  panel.e_2 = panel.normal.cross(panel.e_1);
+  panel.size.a = rectangle->length;
+  panel.size.b = rectangle->width;
+}
+
 /// Length of what faces a side of a panel's rectangle, m.
 struct Facing {
   double free = 0, held = 0;  ///< by another plate or a beam
@@ -105,12 +136,7 @@ using FacingSides = std::array<std::array<Facing, 2>, 2>;
 FacingSides find_facing(const Mesh& mesh, const PlateField& field, const std::set<EdgeKey>& beams,
                         const std::set<EdgeKey>& cuts, const Panel& panel) {
   FacingSides result;
-  const auto outer = std::max_element(
-      field.outlines.begin(), field.outlines.end(), [&](const auto& one, const auto& other) {
-        return enclosed_area(mesh, one, panel) < enclosed_area(mesh, other, panel);
-      });
-  if (outer == field.outlines.end()) return result;
-  for (const FieldEdge& edge : *outer)
+  for (const FieldEdge& edge : outer_outline(mesh, field, panel))
     for (const FieldEdge::Piece& piece : edge.pieces) {
       const EdgeKey key = std::minmax(piece.from, piece.to);
       const Eigen::Vector2d run =
@@ -335,6 +361,7 @@ void BlockPanels::describe(const Mesh& mesh) {
     panel.e_1 = axes.e_1;
     panel.e_2 = axes.e_2;
     measure(mesh, field, bounds_of(mesh, found, field, panel), panel);
+    if (one.whole_length > 0) straighten(mesh, found, field, panel);
     spans_.emplace_back(panel.size.a, panel.size.b);
     const FacingSides facing = find_facing(mesh, field, beams, found.cuts, panel);
     panel.free = find_free_edges(facing);

@@ -80,7 +80,8 @@ struct Panel {
   Vector3 e_2 = Vector3::Zero();       ///< along b, normal x e_1
   Vector3 centre_B = Vector3::Zero();  ///< of its material, m
   /// Of its bounding rectangle along e_1 and e_2; thickness of the thinnest plate of a tenth of it.
-  /// A cut towards another piece of its plate holds nothing: sides across one count longer.
+  /// A cut towards another piece of its plate holds nothing: sides across one count longer. Of a
+  /// piece whose equivalent_rectangle has less than nine tenths of that area, the latter.
   PanelSize size;
   /// Of a sector of curved plating, whose sides hold nothing: length along the side a (b) over
   /// which it buckles under compression along that side, m; 0: none is curved that way.

@@ -159,6 +159,28 @@ struct InnerEdge {
   std::array<std::size_t, 2> shells{};
 };
 
+/// Areas of the rectangles about pieces, m^2.
+struct AreasAbout {
+  double sum = 0, largest = 0;
+};
+
+AreasAbout areas_of(const std::vector<PlateRectangle>& rectangles) {
+  AreasAbout areas;
+  for (const PlateRectangle& rectangle : rectangles) {
+    areas.sum += rectangle.area;
+    areas.largest = std::max(areas.largest, rectangle.area);
+  }
+  return areas;
+}
+
+/// Is a cut the better one? Of two whose rectangles are as large together that with the largest
+/// piece: a mirror image of the plate, whose corners come in another turn, is cut alike.
+bool is_better(const AreasAbout& areas, const AreasAbout& best) {
+  constexpr double rounding = 1e-6;
+  if (areas.sum < best.sum * (1 - rounding)) return true;
+  return areas.sum <= best.sum * (1 + rounding) && areas.largest > best.largest * (1 + rounding);
+}
+
 /// The shells of a field in its plane.
 class FlatField {
  public:
@@ -288,15 +310,14 @@ std::optional<PlateCut> find_plate_cut(const Mesh& mesh, const PlateField& field
   const PlateRectangle whole = flat.rectangle();
   if (enclosed > filled * whole.area) return std::nullopt;
   std::optional<PlateCut> best;
-  double least = worth_it * whole.area;
+  AreasAbout least{worth_it * whole.area, 1e300};
   const CutFinder finder(std::move(outlines));
   for (const CutRays& rays : finder.candidates()) {
     PlateCut cut = flat.cut(rays);
     if (cut.pieces < 2) continue;
-    double area = 0;
-    for (const PlateRectangle& piece : flat.rectangles_about(cut)) area += piece.area;
-    if (area >= least * (1 - 1e-6)) continue;
-    least = area;
+    const AreasAbout areas = areas_of(flat.rectangles_about(cut));
+    if (!is_better(areas, least)) continue;
+    least = areas;
     best = std::move(cut);
   }
   if (best) best->whole_length = whole.longer;

@@ -21,7 +21,8 @@ struct PlateCut {
   double whole_length = 0;              ///< longer side of the rectangle about all of it, m
 };
 
-/// The cut after which the rectangles about the pieces are smallest together; none where the
+/// The cut after which the rectangles about the pieces are smallest together, of several such cuts
+/// that which leaves the largest piece; none where the
 /// outline fills 0.85 of the rectangle about it, where no corner is re-entrant, or where no cut
 /// makes them 7 % smaller.
 /// @param known vertices that former cuts moved.

@@ -22,11 +22,29 @@ void check_group(const MeshGroupModel& group, Reading& reading, const Mark& mark
                   reading.owner() + (group.thickness ? " has a thickness and also a section"
                                                      : " has neither a thickness nor a section"),
                   {"plates have a thickness, bars a section"});
-  if (group.is_of_bars())
+  if (group.towards && group.around)
+    reading.error(mark,
+                  reading.owner() + " stands \"towards\" a direction and also \"around\" an axis",
+                  {"straight bars stand towards a direction, frames of a tank or pipe around its "
+                   "axis"});
+  if (group.is_of_bars() && !group.around)
     check_direction(group.section.value, group.towards, reading, mark);
-  else if (group.towards)
-    reading.error(mark, reading.owner() + " has \"towards\", but no section",
+  else if (!group.is_of_bars() && (group.towards || group.around))
+    reading.error(mark,
+                  fmt::format("{} has \"{}\", but no section", reading.owner(),
+                              group.towards ? "towards" : "around"),
                   {"such as section: {flat_bar: [150 mm, 12 mm]}, towards: [0, 0, -1]"});
+}
+
+Format<FrameAxisModel> frame_axis_format() {
+  Table<FrameAxisModel> table("axis of frames",
+                              "The axis of a tank or pipe: each piece of a frame stands straight "
+                              "towards it.");
+  table.required("point", &FrameAxisModel::point, position_format(), "on the axis")
+      .required("along", &FrameAxisModel::along, direction_format(), "direction of the axis")
+      .optional("outside", &FrameAxisModel::outside, boolean(),
+                "the frames lie outside the shell and stand away from the axis");
+  return table.format();
 }
 
 class PropertyGiver {
@@ -118,8 +136,15 @@ class PropertyGiver {
   void give_section(const MeshGroupModel& group) {
     if (!group.section.value) return;
     try {
-      structure::give_profile(deck_.mesh, group.name.value, *group.section.value, group.towards,
-                              material_of(group));
+      const structure::Profile& profile = *group.section.value;
+      if (group.around)
+        structure::give_profile(
+            deck_.mesh, group.name.value, profile,
+            structure::FrameAxis{group.around->point, group.around->along, group.around->outside},
+            material_of(group));
+      else
+        structure::give_profile(deck_.mesh, group.name.value, profile, group.towards,
+                                material_of(group));
     } catch (const structure::ModelError& wrong) {
       diagnostics_.error(group.name.mark, wrong.what());
     }
@@ -146,6 +171,9 @@ Format<std::vector<MeshGroupModel>> mesh_groups_format() {
       .optional("towards", &MeshGroupModel::towards, direction_format(),
                 "direction in which the section stands, away from its plate; pipes and round bars "
                 "need none")
+      .optional("around", &MeshGroupModel::around, frame_axis_format(),
+                "in place of a direction, of ring frames and other bars that run round: the axis "
+                "towards which the section stands, or away from it")
       .optional("material", &MeshGroupModel::material, reference(),
                 "one of the block's materials; may be left out if there is one only")
       .rule(check_group);

@@ -13,12 +13,20 @@ namespace blocklift::pipeline {
 
 struct BlockModel;
 
+/// The axis of a tank or pipe about which frames run.
+struct FrameAxisModel {
+  Vector3 point = Vector3::Zero();   ///< m
+  Vector3 along = Vector3::UnitZ();  ///< a unit vector
+  bool outside = false;              ///< the section stands away from the axis
+};
+
 /// What the plates or bars of one group of a mesh are, where its file does not say it.
 struct MeshGroupModel {
   Located<std::string> name;
   std::optional<double> thickness;                     ///< of plates, m
   Located<std::optional<structure::Profile>> section;  ///< of bars
   std::optional<Vector3> towards;                      ///< the section stands, a unit vector
+  std::optional<FrameAxisModel> around;                ///< in place of a direction
   Located<std::string> material;                       ///< empty: the block's only one
 
   bool is_of_bars() const { return section.mark.line > 0; }

@@ -374,6 +374,31 @@ TEST(BlockPanels, AWebRoundACornerIsTwoStrips) {
   EXPECT_NEAR(wider, 0.6 + 0.5 * 0.6 * 0.6 / 4, 1e-9);
 }
 
+// Of a web along a side of 3 m and a floor of 4 m either strip may have the corner, with rectangles of
+// one size: it is the longer one, to port as to starboard.
+TEST(BlockPanels, AMirrorImageIsCutAlike) {
+  for (const bool is_mirrored : {false, true}) {
+    WebMesh web(0.2);
+    for (int i = 0; i < 20; ++i)
+      for (int j = 0; j < 15; ++j)
+        if ((is_mirrored ? 19 - i : i) < 3 || j < 3) web.add_square(i, j);
+    const BlockPanels panels = web.panels([&](const Vector3& middle) {
+      return middle.y() < 1e-9 || (is_mirrored ? 4 - middle.x() : middle.x()) < 1e-9;
+    });
+    const std::vector<int> strips = webs_of(panels);
+    ASSERT_EQ(strips.size(), 2U);
+    int with_corner = 0;
+    for (const int strip : strips) {
+      const Panel& panel = panels.panels()[static_cast<std::size_t>(strip)];
+      EXPECT_NEAR(panel.size.a, 4, 1e-9);  // that of the side ends at the cut
+      if (std::abs(panel.e_1.x()) < 0.5) continue;
+      ++with_corner;
+      EXPECT_NEAR(panel.size.b, 0.6 + 0.5 * 0.6 * 0.6 / 4, 1e-9);
+    }
+    EXPECT_EQ(with_corner, 1);
+  }
+}
+
 // Simply supported along all its edges under the same compression every way, a polygon buckles at
 // D lambda / t, lambda being that of its membrane: 9.63972 / a^2 for an L of three squares (Fox,
 // Henrici and Moler, 1967, Approximations and bounds for eigenvalues of elliptic operators). The

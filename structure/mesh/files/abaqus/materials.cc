@@ -239,6 +239,14 @@ void read_abaqus_materials(AbaqusModel& model) {
   }
 }
 
+void refuse_solids_alone(const AbaqusMaterial& material) {
+  if (material.is_for_solids_alone)
+    throw CardError{
+        fmt::format("material {} is given as solids have it (ANISOTROPIC); a plate "
+                    "takes LAMINA, ORTHOTROPIC or ENGINEERING CONSTANTS",
+                    material.isotropic.name)};
+}
+
 int abaqus_solid_material(AbaqusModel& model, const std::string& name) {
   const auto found = model.materials.find(name);
   if (found == model.materials.end() || !found->second.of_solids)

@@ -135,6 +135,9 @@ int abaqus_material(AbaqusModel& model, const std::string& name);
 /// The same for solids, which may depend on the direction.
 int abaqus_solid_material(AbaqusModel& model, const std::string& name);
 
+/// @throws CardError for a material of which plates have no stiffness.
+void refuse_solids_alone(const AbaqusMaterial& material);
+
 /// Makes solids of the elements that a section has, of a place in the mesh's materials and one of
 /// its regions.
 void add_abaqus_solids(AbaqusModel& model, const AbaqusScope& scope, const AbaqusBlock& section,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/files/abaqus/beam_shapes.h"
+#include "structure/mesh/files/abaqus/layers.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/abaqus/orientation.h"
 #include "structure/mesh/files/deck/plausibility.h"
@@ -114,8 +116,17 @@ class Sections {
     if (block.data.empty() && !block.has("NODAL THICKNESS"))
       throw CardError{"the thickness is missing"};
     ShellSection section;
+    std::optional<AbaqusLayers> layers;
     if (block.has("COMPOSITE")) {
-      read_layers(block, section);
+      layers.emplace(model_, *blocks.scope, block);
+      section.thickness = layers->thickness();
+      const std::optional<std::string> one = layers->only_material();
+      if (one && model_.materials.at(*one).is_isotropic)
+        section.material = abaqus_material(model_, *one);
+      else if (layers->have_axes())
+        return add_turned_layers(blocks, *layers);
+      else
+        laminate(layers->plies(), layers->obstacle(), block, section);
     } else {
       // Where each node has a thickness of its own, that of the section stands for none.
       section.thickness =
@@ -133,29 +144,71 @@ class Sections {
         section.material = abaqus_material(model_, name);
     }
     if (!(section.thickness > 0)) throw CardError{"the thickness must be positive"};
-    for (const AbaqusBlock* detail : blocks.details)
-      if (detail->name == "TRANSVERSE SHEAR STIFFNESS")
-        model_.guarded(*detail, [&] { read_shear_stiffness(*detail, section); });
-    section.offset = -offset_share(block) * section.thickness;
-    section.label = static_cast<long>(mesh_.shell_sections.size()) + 1;
-    const auto place = static_cast<int>(mesh_.shell_sections.size());
-    mesh_.shell_sections.push_back(section);
+    const int place = add_section(blocks, section);
     const int of_region = region(blocks, section.material);
     std::optional<AbaqusAxes> axes;
-    if (section.laminate >= 0) axes.emplace(*blocks.scope, block.value("ORIENTATION"));
+    if (mesh_.shell_sections[place].laminate >= 0)
+      axes.emplace(*blocks.scope, block.value("ORIENTATION"));
     for (const int e : elements(blocks)) {
       AbaqusDeckElement& element = model_.elements[e];
-      if (element.kind == AbaqusKind::nothing) continue;
-      if (element.kind != AbaqusKind::shell)
-        throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
-      if (element.shell >= 0)
-        throw CardError{fmt::format("element {} has two sections", element.label)};
+      if (!is_due(element)) continue;
       const std::vector<double> thicknesses =
           thicknesses_at_nodes(element, block, section.thickness);
       add_shell(element, section_by_nodes(thicknesses, place), of_region,
-                axes ? laminate_axis(*axes, element) : Vector3::Zero());
+                axes ? axes->along_plate(centre_of(element)) : Vector3::Zero());
       taper(mesh_.shells[element.shell], thicknesses);
     }
+  }
+
+  /// Shells of layers that have orientations of their own: a section for all that have the same
+  /// angles between these, which is the same for all where the orientations are straight.
+  void add_turned_layers(const SectionBlocks& blocks, const AbaqusLayers& layers) {
+    const AbaqusBlock& block = *blocks.block;
+    if (block.has("NODAL THICKNESS"))
+      throw CardError{"layers cannot have the thickness of their nodes"};
+    const AbaqusAxes axes(*blocks.scope, block.value("ORIENTATION"));
+    std::map<std::vector<double>, int> places;  // by the layers' angles
+    int of_region = -1;
+    for (const int e : elements(blocks)) {
+      AbaqusDeckElement& element = model_.elements[e];
+      if (!is_due(element)) continue;
+      const Vector3 axis_1 = axes.along_plate(centre_of(element));
+      const std::vector<Ply> plies = layers.at(centre_of(element), normal_of(element), axis_1);
+      std::vector<double> angles;
+      for (const Ply& ply : plies) angles.push_back(ply.angle);
+      const auto [found, is_new] = places.try_emplace(angles, -1);
+      if (is_new) {
+        ShellSection section;
+        section.thickness = layers.thickness();
+        laminate(plies, layers.obstacle(), block, section);
+        found->second = add_section(blocks, section);
+        if (of_region < 0) of_region = region(blocks, section.material);
+      }
+      const bool is_directional = mesh_.shell_sections[found->second].laminate >= 0;
+      add_shell(element, found->second, of_region, is_directional ? axis_1 : Vector3::Zero());
+    }
+  }
+
+  /// Place of a section with what follows it in the deck.
+  int add_section(const SectionBlocks& blocks, ShellSection section) {
+    for (const AbaqusBlock* detail : blocks.details)
+      if (detail->name == "TRANSVERSE SHEAR STIFFNESS")
+        model_.guarded(*detail, [&] { read_shear_stiffness(*detail, section); });
+    section.offset = -offset_share(*blocks.block) * section.thickness;
+    section.label = static_cast<long>(mesh_.shell_sections.size()) + 1;
+    mesh_.shell_sections.push_back(section);
+    return static_cast<int>(mesh_.shell_sections.size()) - 1;
+  }
+
+  /// Is an element of a section of shells one? Not if it is nothing here.
+  /// @throws CardError if it is another thing or has a section.
+  static bool is_due(const AbaqusDeckElement& element) {
+    if (element.kind == AbaqusKind::nothing) return false;
+    if (element.kind != AbaqusKind::shell)
+      throw CardError{fmt::format("element {} is a {}, no shell", element.label, element.type)};
+    if (element.shell >= 0)
+      throw CardError{fmt::format("element {} has two sections", element.label)};
+    return true;
   }
 
   // *NODAL THICKNESS / node or set, thickness
@@ -177,7 +230,7 @@ class Sections {
     if (!is_asked_for && (thickness_of_.empty() || is_of_others)) return {};
     std::vector<double> around;
     bool is_any = false;
-    const std::size_t corners = element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
+    const std::size_t corners = corners_of(element);
     for (std::size_t i = 0; i < corners; ++i) {
       const auto found = thickness_of_.find(element.nodes[i]);
       if (is_asked_for && found == thickness_of_.end())
@@ -230,44 +283,6 @@ class Sections {
     const auto share = to_real(offset);
     if (!share) throw CardError{fmt::format("OFFSET = {} is no number, SPOS or SNEG", offset)};
     return *share;
-  }
-
-  static void refuse_solids_alone(const AbaqusMaterial& material) {
-    if (material.is_for_solids_alone)
-      throw CardError{
-          fmt::format("material {} is given as solids have it (ANISOTROPIC); a plate "
-                      "takes LAMINA, ORTHOTROPIC or ENGINEERING CONSTANTS",
-                      material.isotropic.name)};
-  }
-
-  void read_layers(const AbaqusBlock& block, ShellSection& section) {
-    std::vector<Ply> plies;
-    std::vector<std::string> names;
-    std::string obstacle;  // to their expansion
-    for (const AbaqusLine& line : block.data) {
-      const Fields fields = line.fields();
-      if (fields.size() < 3) throw CardError{"a layer is thickness, points, material, angle"};
-      names.push_back(upper(fields[2]));
-      const auto found = model_.materials.find(names.back());
-      if (found == model_.materials.end())
-        throw CardError{fmt::format("material {} does not exist", fields[2])};
-      refuse_solids_alone(found->second);
-      Ply ply;
-      ply.material = found->second.ply;
-      if (obstacle.empty()) obstacle = found->second.obstacle;
-      ply.thickness = abaqus_real(fields, 0, "thickness") * model_.units.length;
-      ply.angle = abaqus_real(fields, 3, "angle", 0.0) * std::numbers::pi / 180;
-      if (!(ply.thickness > 0)) throw CardError{"the thickness of a layer must be positive"};
-      section.thickness += ply.thickness;
-      plies.push_back(ply);
-    }
-    const bool is_one = std::all_of(names.begin(), names.end(),
-                                    [&](const std::string& name) { return name == names.front(); });
-    if (is_one && model_.materials.at(names.front()).is_isotropic) {
-      section.material = abaqus_material(model_, names.front());
-      return;
-    }
-    laminate(plies, obstacle, block, section);
   }
 
   /// Gives a section the stiffness and expansion of layers, unless a plate of one material has just
@@ -329,13 +344,23 @@ class Sections {
     }
   }
 
-  /// Axis 1 of a plate's material by its section's orientation.
-  Vector3 laminate_axis(const AbaqusAxes& axes, const AbaqusDeckElement& element) const {
-    const std::size_t count = element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
+  static std::size_t corners_of(const AbaqusDeckElement& element) {
+    return element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
+  }
+
+  /// Middle of a plate's corners, in the deck's units.
+  Vector3 centre_of(const AbaqusDeckElement& element) const {
+    const std::size_t count = corners_of(element);
     Vector3 centre = Vector3::Zero();
     for (std::size_t i = 0; i < count; ++i)
       centre += model_.place(element.nodes[i]) / (static_cast<double>(count) * model_.units.length);
-    return axes.along_plate(centre);
+    return centre;
+  }
+
+  Vector3 normal_of(const AbaqusDeckElement& element) const {
+    const auto place = [&](std::size_t i) { return model_.place(element.nodes[i]); };
+    const std::size_t last = corners_of(element) - 1;
+    return (place(2) - place(0)).cross(place(last) - place(1)).normalized();
   }
 
   void add_shell(AbaqusDeckElement& element, int section, int of_region, const Vector3& axis_1) {
@@ -344,7 +369,7 @@ class Sections {
     shell.region = of_region;
     shell.label = element.label;
     shell.laminate_axis = axis_1;
-    const std::size_t count = element.nodes.size() == 3 || element.nodes.size() == 6 ? 3 : 4;
+    const std::size_t count = corners_of(element);
     std::vector<int> corners(element.nodes.begin(),
                              element.nodes.begin() + static_cast<long>(count));
     element.shell = static_cast<int>(mesh_.shells.size());

@@ -20,4 +20,16 @@ void give_thickness(Mesh& mesh, const std::string& group, double thickness, int 
 void give_profile(Mesh& mesh, const std::string& group, const Profile& profile,
                   const std::optional<Vector3>& towards, int material);
 
+/// Axis of a tank or pipe, about which frames run.
+struct FrameAxis {
+  Vector3 point = Vector3::Zero();   ///< on it, m
+  Vector3 along = Vector3::UnitZ();  ///< a unit vector
+  bool is_outside = false;           ///< the frames stand away from it
+};
+
+/// The same with a profile that stands, in the middle of each beam, straight towards an axis.
+/// @throws ModelError naming a beam whose middle lies on the axis, or that runs towards it.
+void give_profile(Mesh& mesh, const std::string& group, const Profile& profile,
+                  const FrameAxis& axis, int material);
+
 }  // namespace blocklift::structure

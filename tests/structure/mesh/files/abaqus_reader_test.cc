@@ -449,6 +449,46 @@ TEST(AbaqusReader, OrientationsOfPlates) {
                         "them is known"));
 }
 
+// A layer's orientation is an angle from the section's axis 1, the same as one given in degrees: by
+// the sum of turned stiffnesses (Jones 1999, equation 2.85, in stack()). Straight orientations make
+// one laminate of all plates, a cylinder's one for each direction.
+TEST(AbaqusReader, LayersWithOrientationsOfTheirOwn) {
+  const std::string plates =
+      "*NODE\n1,1.,0.,0.\n2,2.,0.,0.\n3,2.,1.,0.\n4,1.,1.,0.\n5,1.,3.,0.\n6,2.,3.,0.\n"
+      "*ELEMENT, TYPE=S4, ELSET=P\n1,1,2,3,4\n2,4,3,6,5\n"
+      "*MATERIAL, NAME=WOOD\n*ELASTIC, TYPE=LAMINA\n12e9,5e8,.3,7e8,7e8,6e7\n*DENSITY\n600.,\n"
+      "*ORIENTATION, NAME=BASE\n0.,1.,0., -1.,0.,0.\n"
+      "*ORIENTATION, NAME=SLANTED\n1.,0.,0., 0.,1.,0.\n3, 30.\n"
+      "*ORIENTATION, NAME=ROUND, SYSTEM=CYLINDRICAL\n0.,0.,0., 0.,0.,1.\n"
+      "*SHELL SECTION, ELSET=P, COMPOSITE, ORIENTATION=BASE\n";
+  const PlyMaterial wood = orthotropic_ply(12e9, 5e8, 0.3, 7e8, 7e8, 6e7, 600);
+  const auto expect_layers = [&](const Laminate& laminate, double degrees) {
+    const Laminate expected =
+        stack({{wood, 0.01, 0}, {wood, 0.02, degrees * std::numbers::pi / 180}});
+    // Angles are kept to 1e-4 rad.
+    expect_near(laminate.membrane, expected.membrane, 2e-4 * expected.membrane.norm());
+    expect_near(laminate.coupling, expected.coupling, 2e-4 * expected.membrane.norm() * 0.03);
+    expect_near(laminate.bending, expected.bending, 2e-4 * expected.bending.norm());
+  };
+  // BASE is along y, so that a layer at 30 degrees from x is 60 degrees back from it.
+  const Deck straight = abaqus(plates + ".01, 3, WOOD, base\n.02, 3, WOOD, SLANTED\n");
+  ASSERT_EQ(straight.mesh.laminates.size(), 1U);
+  expect_layers(straight.mesh.laminates[0], -60);
+  for (const Shell& shell : straight.mesh.shells)
+    expect_near(shell.laminate_axis.normalized(), Vector3::UnitY(), 1e-12);
+  // The plates' middles are at (1.5, 0.5) and (1.5, 2).
+  const Deck round = abaqus(plates + ".01, 3, WOOD\n.02, 3, WOOD, ROUND\n");
+  ASSERT_EQ(round.mesh.laminates.size(), 2U);
+  const auto back_from_y = [](double x, double y) {
+    return -std::atan2(x, y) * 180 / std::numbers::pi;
+  };
+  expect_layers(round.mesh.laminates[0], back_from_y(1.5, 0.5));
+  expect_layers(round.mesh.laminates[1], back_from_y(1.5, 2));
+  EXPECT_NEAR(mass_properties(round.mesh).mass, 3 * 0.03 * 600, 1e-9);
+  EXPECT_THAT(complaints_of_abaqus(plates + ".01, 3, WOOD, 0.\n.02, 3, WOOD, SLATED\n"),
+              HasSubstr("orientation SLATED does not exist"));
+}
+
 TEST(AbaqusReader, AsksWhatWasMeantByAKeywordThatThereIsNot) {
   EXPECT_THAT(complaints_of_abaqus(square_plate + "*Boundry\n1, 1\n"),
               HasSubstr("the keyword *BOUNDRY is not known here (did you mean *BOUNDARY?)"));

@@ -332,6 +332,28 @@ TEST(SolidDecks, WrittenAndReadAgainTheyAreTheSame) {
   expect_same_solids(second, read_abaqus(folder.path() / "again.inp", second.units));
 }
 
+// Two quadratic tetrahedra on either side of a face: both are to have the nodes in the middles of its
+// edges, which a mesher that makes each part quadratic by itself gives twice.
+TEST(SolidDecks, SaysWhichNodesTwoSolidsHaveInTheMiddleOfOneEdge) {
+  const auto deck = [](const std::string& middle) {
+    return "*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n5,0.,0.,-1.\n"
+           "12,.5,0.,0.\n13,0.,.5,0.\n14,0.,0.,.5\n15,0.,0.,-.5\n23,.5,.5,0.\n24,.5,0.,.5\n"
+           "25,.5,0.,-.5\n34,0.,.5,.5\n35,0.,.5,-.5\n99,.5,0.,0.\n"
+           "*ELEMENT, TYPE=C3D10, ELSET=S\n70,1,2,3,4,12,23,13,14,24,34\n"
+           "80,1,3,2,5,13,23," +
+           middle +
+           ",15,35,25\n*SOLID SECTION, ELSET=S, MATERIAL=STEEL\n"
+           "*MATERIAL, NAME=STEEL\n*ELASTIC\n206e9,.3\n*DENSITY\n7850.\n";
+  };
+  EXPECT_EQ(complaints_of_abaqus(deck("12")), "");
+  const std::string said = complaints_of_abaqus(deck("99"));
+  EXPECT_THAT(said, HasSubstr("deck.inp:19"));
+  EXPECT_THAT(said, HasSubstr("element 80 has node 99 in the middle of the edge from node 1 to 2, "
+                              "and element 70 ("));
+  EXPECT_THAT(said, HasSubstr("deck.inp:18) has node 12 there"));
+  EXPECT_THAT(said, HasSubstr("merge nodes that lie at one place, middles too"));
+}
+
 TEST(SolidDecks, SaysWhatIsWrong) {
   const std::string grids = nastran_solids.substr(0, nastran_solids.find("CHEXA"));
   const std::string material = "MAT1,7,206.+9,,.3,7850.\n";

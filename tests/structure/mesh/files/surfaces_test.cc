@@ -224,6 +224,55 @@ TEST_F(Surfaces, ABoxFromStepWeighsAsThatOfPlates) {
   for (const int part : connected_parts(deck.mesh)) EXPECT_LE(part, 0);
 }
 
+// Frames within and without a pipe of flat shells: each piece stands on its shell's face, along its
+// normal, where one direction for all would leave most of them lying aslant.
+TEST(FrameAxis, RingFramesStandTowardsTheAxisOrAwayFromIt) {
+  constexpr int count = 12;
+  const double radius = 2, thickness = 0.01, height = 0.15;
+  Mesh pipe;
+  pipe.materials = {plain_steel()};
+  pipe.shell_sections = {{thickness, 0, 0}};
+  pipe.groups = {{"shell", 0}, {"frame", 0}};
+  pipe.regions = {{"shell", 0, false}, {"frame", 1, false}};
+  const Vector3 foot(0.3, -0.2, 1);  // the axis is upright through it
+  for (int i = 0; i < count; ++i)
+    for (const double z : {0.0, 1.0}) {
+      const double angle = 2 * std::numbers::pi * i / count;
+      pipe.vertices.push_back(foot +
+                              Vector3(radius * std::cos(angle), radius * std::sin(angle), z));
+    }
+  for (int i = 0; i < count; ++i) {
+    const int a = 2 * i, b = 2 * ((i + 1) % count);
+    Shell shell;
+    shell.vertices = {a, b, a + 1, b + 1};
+    pipe.shells.push_back(shell);
+    Beam frame;
+    frame.vertices = {a + 1, b + 1};
+    frame.section = -1;
+    frame.region = 1;
+    pipe.beams.push_back(frame);
+  }
+  for (const double side : {-1.0, 1.0}) {
+    Mesh mesh = pipe;
+    give_profile(mesh, "frame", flat_bar(height, 0.012),
+                 FrameAxis{foot + Vector3(0, 0, 7), Vector3::UnitZ(), side > 0}, 0);
+    for (const Beam& beam : mesh.beams) {
+      const Vector3 middle =
+          (mesh.vertices[beam.vertices[0]] + mesh.vertices[beam.vertices[1]]) / 2 - foot;
+      const Vector3 radial = Vector3(middle.x(), middle.y(), 0).normalized();
+      EXPECT_LT((beam.axis_2 - side * radial).norm(), 1e-12);
+      for (const Vector3& offset : beam.offset)
+        EXPECT_LT((offset - side * (thickness / 2 + height / 2) * radial).norm(), 1e-12);
+    }
+    check_mesh(mesh);
+  }
+  Mesh mesh = pipe;
+  const Vector3 middle = (pipe.vertices[1] + pipe.vertices[3]) / 2;
+  EXPECT_THROW(give_profile(mesh, "frame", flat_bar(height, 0.012),
+                            FrameAxis{middle, Vector3::UnitZ(), false}, 0),
+               ModelError);
+}
+
 // A deck whose edge in its middle is a bar of its own group, 2 m long. Its lines lie along straight
 // edges of shells and are one beam each, in a mesh of second order, too.
 TEST_F(Surfaces, LinesOfAGroupWithASectionAreBars) {
