@@ -151,7 +151,7 @@ class Body {
               " of the {} elements about {} m, which hang on others by an edge or a point only",
               pieces_[p]->solids.size(), vector_text(centre_of(*pieces_[p])));
         else if (several)
-          text += fmt::format(" of the body about {} m, which no other part of the mesh touches",
+          text += fmt::format(" of the body about {} m, which shares no node with the rest",
                               vector_text(centre_));
         freedom.motions.push_back(text);
       }
@@ -209,6 +209,7 @@ RigidFreedom find_rigid_freedom(const PartModel& model, const std::vector<FixedU
     if (body_of_node[node] >= 0) bodies.at(body_of_node[node]).hold(node, unknown.unknown % 3);
   }
   RigidFreedom freedom;
+  freedom.bodies = static_cast<int>(bodies.size());
   for (const auto& entry : bodies) entry.second.find(bodies.size() > 1, freedom);
   return freedom;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -80,17 +81,24 @@ Eigen::MatrixX3d ElementShape::gradients(const Vector3& xi) const {
   return coefficients_ * slopes;
 }
 
-bool ElementShape::inside(const Vector3& xi, double slack) const {
-  if (corners_ == 8) return xi.cwiseAbs().maxCoeff() <= 1 + slack;
-  if (corners_ == 4) return xi.minCoeff() >= -slack && xi.sum() <= 1 + slack;
-  if (corners_ == 5)
-    return xi.z() >= -slack && xi.head<2>().cwiseAbs().maxCoeff() <= 1 - xi.z() + slack;
-  return xi.head<2>().minCoeff() >= -slack && xi.head<2>().sum() <= 1 + slack &&
-         std::abs(xi.z()) <= 1 + slack;
+Vector3 ElementShape::cut_off(const Vector3& xi) const {
+  if (corners_ == 8) return xi.cwiseMax(-1).cwiseMin(1);
+  if (corners_ == 4) return xi.cwiseMax(0) / std::max(1.0, xi.cwiseMax(0).sum());
+  Vector3 cut = xi;
+  if (corners_ == 5) {
+    cut.z() = std::clamp(xi.z(), 0.0, 1.0);
+    const double half = 1 - cut.z();
+    cut.head<2>() = xi.head<2>().cwiseMax(-half).cwiseMin(half);
+  } else {
+    cut.head<2>() = xi.head<2>().cwiseMax(0) / std::max(1.0, xi.head<2>().cwiseMax(0).sum());
+    cut.z() = std::clamp(xi.z(), -1.0, 1.0);
+  }
+  return cut;
 }
 
-bool ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place, double slack,
-                          Vector3& xi) const {
+double ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place,
+                            Vector3& xi) const {
+  constexpr double nowhere = std::numeric_limits<double>::infinity();
   xi = corners_ == 8   ? Vector3(0, 0, 0)
        : corners_ == 4 ? Vector3(0.25, 0.25, 0.25)
        : corners_ == 5 ? Vector3(0, 0, 0.25)
@@ -99,11 +107,12 @@ bool ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place, d
     const Vector3 miss = place - nodes * values(xi);
     const Eigen::Matrix3d jacobian = nodes * gradients(xi);
     const Vector3 change = algebra::solve_square(jacobian, miss);
-    if (!change.allFinite() || xi.norm() > 10) return false;
+    if (!change.allFinite() || xi.norm() > 10) return nowhere;
     xi += change;
     if (change.norm() < 1e-13) break;
   }
-  return inside(xi, slack);
+  xi = cut_off(xi);
+  return (place - nodes * values(xi)).norm();
 }
 
 }  // namespace blocklift::structure

@@ -24,12 +24,13 @@ class ElementShape {
   /// nodes x 3: d N_i / d xi_a.
   Eigen::MatrixX3d gradients(const Vector3& xi) const;
 
-  /// The local coordinates of a place within an element (Newton's method); false if it lies outside
-  /// by more than `slack` of the local coordinates.
-  bool locate(const Eigen::Matrix3Xd& nodes, const Vector3& place, double slack, Vector3& xi) const;
+  /// The local coordinates of a place within the element (Newton's method), or of the element's own
+  /// place beside it: those of the place, cut off at its sides.
+  /// @returns how far that is from the place, m: rounding alone inside; infinity if none is found.
+  double locate(const Eigen::Matrix3Xd& nodes, const Vector3& place, Vector3& xi) const;
 
  private:
-  bool inside(const Vector3& xi, double slack) const;
+  Vector3 cut_off(const Vector3& xi) const;
 
   int corners_;
   Eigen::Matrix4Xi exponents_;    ///< of x, y, z and 1 / (1 - z) in the monomials

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,13 +27,19 @@ namespace blocklift::structure {
 namespace {
 
 void require_supported(const PartModel& model, const std::vector<FixedUnknown>& fixed) {
-  const std::vector<std::string> motions = find_rigid_freedom(model, fixed).motions;
+  const RigidFreedom freedom = find_rigid_freedom(model, fixed);
+  const std::vector<std::string>& motions = freedom.motions;
   if (motions.empty()) return;
   constexpr std::size_t most_named = 12;
   std::string text = "the supports leave the part free to move:";
   for (std::size_t i = 0; i < std::min(motions.size(), most_named); ++i)
     text += "\n    " + motions[i];
   if (motions.size() > most_named) text += "\n    ...";
+  if (freedom.bodies > 1)
+    text +=
+        "\n    bodies that touch in a CAD file are joined where they are one body there, or cut "
+        "one "
+        "another into common faces, as BooleanFragments of Gmsh does";
   throw ModelError(text);
 }
 
@@ -207,6 +215,57 @@ PartDisplacement iterate(const PartModel& model, const PartUnknowns& unknowns,
   return solved;
 }
 
+/// A place in a solid.
+struct SolidPlace {
+  int solid = 0;
+  Eigen::VectorXd values;  ///< of the shape functions of its nodes there
+};
+
+/// How far the middles of an element's edges lie off their chords at most, m.
+double largest_sagitta(const ElementKind& kind, const Eigen::Matrix3Xd& places) {
+  double largest = 0;
+  for (int middle = kind.corners; middle < kind.nodes; ++middle)
+    for (int a = 0; a < kind.corners; ++a)
+      for (int b = 0; b < a; ++b) {
+        if (!kind.local.col(middle).isApprox((kind.local.col(a) + kind.local.col(b)) / 2)) continue;
+        const Vector3 chord_middle = (places.col(a) + places.col(b)) / 2;
+        largest = std::max(largest, (places.col(middle) - chord_middle).norm());
+      }
+  return largest;
+}
+
+/// The solid that holds a place, or the nearest one where it is on the true surface of a curved
+/// part, which meshes meet with their nodes alone: between them quadratic sides are off a circle by
+/// 0.04 of their sagitta where they span 90 degrees, and by less where less.
+std::optional<SolidPlace> place_in_solids(const PartMesh& mesh, const Vector3& point) {
+  constexpr double reach = 0.1;                         // of the sagitta
+  constexpr double rounding = 1e-6, box_slack = 0.1;    // of an element's length
+  std::map<int, std::unique_ptr<ElementShape>> shapes;  // by kind
+  std::optional<SolidPlace> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int solid = 0; solid < static_cast<int>(mesh.solids.size()); ++solid) {
+    const int element = mesh.solids[solid];
+    const Eigen::Matrix3Xd places = mesh.places(element);
+    // Curved sides may stand out of the box of the nodes a little.
+    const Vector3 lower = places.rowwise().minCoeff(), upper = places.rowwise().maxCoeff();
+    const double length = (upper - lower).maxCoeff();
+    const Vector3 slack = Vector3::Constant(box_slack * length);
+    if ((point - lower + slack).minCoeff() < 0 || (upper + slack - point).minCoeff() < 0) continue;
+    auto& shape = shapes[mesh.elements[element].kind];
+    if (!shape) shape = std::make_unique<ElementShape>(mesh.kind(element));
+    Vector3 xi;
+    const double distance = shape->locate(places, point, xi);
+    if (distance >= least) continue;
+    if (distance > rounding * length &&
+        distance > reach * largest_sagitta(mesh.kind(element), places))
+      continue;
+    least = distance;
+    nearest = {solid, shape->values(xi)};
+    if (distance <= rounding * length) break;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement) {
@@ -272,30 +331,18 @@ PartSolution solve_part(const PartModel& model, const SolverChoice& choice) {
 PartProbe probe_part(const PartModel& model, const PartSolution& solution, const Vector3& point) {
   PartProbe probe;
   probe.point = point;
-  std::map<int, std::unique_ptr<ElementShape>> shapes;  // by kind
-  for (int solid = 0; solid < static_cast<int>(model.mesh.solids.size()); ++solid) {
-    const int element = model.mesh.solids[solid];
-    const Eigen::Matrix3Xd places = model.mesh.places(element);
-    // Curved sides may stand out of the box of the nodes a little.
-    const Vector3 lower = places.rowwise().minCoeff(), upper = places.rowwise().maxCoeff();
-    const Vector3 slack = Vector3::Constant(0.1 * (upper - lower).maxCoeff());
-    if ((point - lower + slack).minCoeff() < 0 || (upper + slack - point).minCoeff() < 0) continue;
-    auto& shape = shapes[model.mesh.elements[element].kind];
-    if (!shape) shape = std::make_unique<ElementShape>(model.mesh.kind(element));
-    Vector3 xi;
-    if (!shape->locate(places, point, 1e-6, xi)) continue;
-    const Eigen::VectorXd values = shape->values(xi);
-    probe.inside = true;
-    const auto nodes = static_cast<int>(values.size());
-    const PartStress& stress = solution.stress;
-    probe.stress = at_nodes_of(solid, nodes, stress, stress.averaged) * values;
-    probe.von_mises_error =
-        von_mises(at_nodes_of(solid, nodes, stress, solution.recovered) * values - probe.stress);
-    for (int i = 0; i < values.size(); ++i)
-      probe.displacement +=
-          values[i] * solution.displacement.segment<3>(3 * model.mesh.node(element, i));
-    break;
-  }
+  const std::optional<SolidPlace> place = place_in_solids(model.mesh, point);
+  if (!place) return probe;
+  probe.inside = true;
+  const auto nodes = static_cast<int>(place->values.size());
+  const PartStress& stress = solution.stress;
+  probe.stress = at_nodes_of(place->solid, nodes, stress, stress.averaged) * place->values;
+  probe.von_mises_error = von_mises(
+      at_nodes_of(place->solid, nodes, stress, solution.recovered) * place->values - probe.stress);
+  const int element = model.mesh.solids[place->solid];
+  for (int i = 0; i < nodes; ++i)
+    probe.displacement +=
+        place->values[i] * solution.displacement.segment<3>(3 * model.mesh.node(element, i));
   return probe;
 }
 

@@ -84,7 +84,7 @@ struct PartSolution {
 /// Displacement and stress at a place.
 struct PartProbe {
   Vector3 point = Vector3::Zero();  ///< m
-  bool inside = false;              ///< false: it lies in no solid; the rest says nothing then
+  bool inside = false;              ///< false: it lies at no solid; the rest says nothing then
   Vector3 displacement = Vector3::Zero();
   Eigen::Matrix<double, 6, 1> stress = Eigen::Matrix<double, 6, 1>::Zero();  ///< averaged, Pa
   /// Von Mises stress of the difference between averaged and recovered stress, Pa.
@@ -99,8 +99,10 @@ PartSolution solve_part(const PartModel& model, const SolverChoice& choice = {})
 /// Stresses at the nodes from the displacement, averaged over the solids of one material.
 PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& displacement);
 
-/// Displacement and averaged stress at a place, interpolated in the solid that holds it (to 1e-6 of
-/// its size).
+/// Displacement and averaged stress at a place, interpolated in the solid that holds it. A place on
+/// the true surface of a curved part may lie outside of all solids, for these meet it with their
+/// nodes alone: then at the nearest place of a solid, if that is no farther off than a tenth of its
+/// curved sides' sagitta.
 PartProbe probe_part(const PartModel& model, const PartSolution& solution, const Vector3& point);
 
 }  // namespace blocklift::structure
