@@ -14,6 +14,7 @@ namespace {
 
 /// Shares of the duration at which a gust is looked at: ends, extremes, and places between.
 std::vector<double> shares_of(WindGust::Shape shape) {
+  using std::numbers::pi;
   switch (shape) {
     case WindGust::Shape::one_minus_cosine:
     case WindGust::Shape::coherent_rise:
@@ -59,6 +60,7 @@ WindGust::WindGust(std::vector<double> times, std::vector<double> speeds)
 }
 
 double WindGust::evaluate(double time) const {
+  using std::numbers::pi;
   if (!speeds_.empty()) {
     if (time <= times_.front()) return speeds_.front();
     if (time >= times_.back()) return speeds_.back();

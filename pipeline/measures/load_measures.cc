@@ -234,14 +234,15 @@ LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift) {
        .extreme = Extreme::smallest,
        .meaning =
            "least moment against tilting over weight and tilt, of the equilibrium: height of "
-           "an equal pendulum's pin above its centre of mass; below zero the load tips over; "
-           "while slings bear nine tenths of the weight and no pad bears any"},
+           "an equal pendulum's pin above its centre of mass; below zero the load tips over, at "
+           "-1000 m it slides with nothing that holds it; while slings bear nine tenths of the "
+           "weight and no pad bears any"},
       [&](const dynamics::History& history, Eigen::Index sample) {
         const double* after =
             std::upper_bound(times.data(), times.data() + times.size(), history.time[sample]);
         const Eigen::Index at = std::max<Eigen::Index>(after - times.data() - 1, 0);
         if (borne[at] < 0.9 * weight || pads_bear(at)) return nothing;
-        return lift.righting_height[at];
+        return std::max(lift.righting_height[at], least_righting_height);
       });
 }
 

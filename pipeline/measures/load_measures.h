@@ -14,6 +14,11 @@ void add_load_measures(const LiftCase& lift_case, const LiftRun& lift,
 /// Turn of the load about the plumb away from where it hangs at the start, rad.
 LiftMeasure turn_of_load(const LiftRun& lift);
 
+/// Where a load may slide with nothing that holds it, and tilts as it does, its righting height has
+/// no bound below: the stiffness that stands for none would make it millions of metres. This counts
+/// as all that is less, m.
+inline constexpr double least_righting_height = -1000;
+
 /// The load's dynamics::calc_righting_height, while slings bear nine tenths of its weight: of the
 /// equilibrium at each instant; in motion that of the last sample at rest.
 LiftMeasure righting_height(const LiftCase& lift_case, const LiftRun& lift);

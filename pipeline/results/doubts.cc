@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -46,9 +47,13 @@ class Doubts {
   explicit Doubts(const LiftCase& lift_case) : case_(lift_case) {
     if (lift_case.load.vessel || lift_case.load.model)
       load_box_ = box_of(box_around(lift_case.load));
+    if (lift_case.load.model && lift_case.load.model->mass)
+      mass_ = lift_case.load.model->mass->value;
   }
 
   void doubt_run(const LiftRun& lift) {
+    mass_ = lift.model.system.mechanism().body(lift.model.load).inertia.mass;
+    doubt_gust(lift);
     doubt_place(lift);
     doubt_ground(lift);
     doubt_ropes(lift);
@@ -68,6 +73,7 @@ class Doubts {
     doubt_sea();
     doubt_water();
     doubt_wind();
+    doubt_bearing();
     doubt_materials();
     doubt_masses();
     doubt_frames();
@@ -142,12 +148,31 @@ class Doubts {
     constexpr double neutral = 1e-3;  // m
     const LiftMeasure measure = righting_height(case_, lift);
     const MeasurePeak peak = find_peak(lift.static_history.time, measure.at_rest, measure.extreme);
-    if (peak.value < -neutral)
+    if (!(peak.value < -neutral)) return;
+    const std::string slack = slack_ropes(lift, peak.time);
+    const std::string which = slack.empty() ? slack : " Slack there: " + slack + ".";
+    if (peak.value <= least_righting_height)
+      doubt(
+          "Nothing holds the load in the equilibrium of {:g} s: a small push would slide it along "
+          "its slings or edges, and it would tilt and go on.{} Histories at rest are not those of "
+          "a lift there.",
+          peak.time, which);
+    else
       doubt(
           "The equilibrium of {:g} s tips over: the load hangs as if its pin were {:.3g} m below "
-          "its "
-          "centre of mass. Histories at rest are not those of a lift there.",
-          peak.time, -peak.value);
+          "its centre of mass.{} Histories at rest are not those of a lift there.",
+          peak.time, -peak.value, which);
+  }
+
+  /// Names of ropes without tension at rest at a time (s).
+  static std::string slack_ropes(const LiftRun& lift, double time) {
+    const auto& times = lift.static_history.time;
+    const Eigen::Index at = std::lower_bound(times.begin(), times.end(), time) - times.begin();
+    std::string names;
+    for (const LiftRope& rope : lift.model.ropes)
+      if (at < times.size() && !(lift.static_history.ropes[rope.rope].tension[at] > 0))
+        names += (names.empty() ? "" : ", ") + rope.name;
+    return names;
   }
 
   /// What goes wrong on purpose stands beside what may be wrong.
@@ -326,8 +351,25 @@ class Doubts {
       list_.push_back(std::move(keels));
   }
 
+  /// A gust that comes after the lift is not felt.
+  void doubt_gust(const LiftRun& lift) {
+    if (!case_.wind || !case_.wind->gust) return;
+    const double start = case_.wind->gust->make_gust().start();
+    const dynamics::History& history = lift.dynamic_history();
+    const double end = history.time[history.sample_count() - 1];
+    if (start >= end)
+      doubt("The gust begins at {:g} s, and the lift ends at {:g} s: it feels none of it.", start,
+            end);
+  }
+
   void doubt_wind() {
+    constexpr double most = 28.5;  // m/s: ISO 4302, cranes that work on in high winds
     const BlockModel* block = case_.load.model.get();
+    if (case_.wind && case_.wind->speed > most)
+      doubt(
+          "The wind blows with {:.4g} m/s; cranes work in up to 14 to 28.5 m/s (ISO 4302), and a "
+          "hurricane begins at 33 m/s.",
+          case_.wind->speed);
     if (case_.wind && case_.wind->speed > 0 && (!block || block->wind_areas.empty()))
       doubt("Wind blows, and the load has no wind_areas: it feels none of it.");
     if (!block || !load_box_) return;
@@ -342,6 +384,72 @@ class Doubts {
             "directions together.",
             area.area, faces);
     }
+  }
+
+  /// Of a load that stands, floats or hangs on a fixed point as well, slings and hooks may bear a
+  /// part.
+  bool hangs_on_hooks_alone() const {
+    using Kind = ResolvedPoint::Kind;
+    if (!case_.supports.empty() || case_.ground_contact || case_.load.vessel) return false;
+    const auto hangs = [](const ResolvedPoint& point) {
+      return point.kind == Kind::load || point.kind == Kind::spreader;
+    };
+    for (const RopeInCase& rope : case_.ropes) {
+      if (rope.edges.empty() && std::none_of(rope.path.begin(), rope.path.end(), hangs)) continue;
+      for (const ResolvedPoint& point : rope.path)
+        if (!hangs(point) && point.kind != Kind::hook) return false;
+    }
+    return true;
+  }
+
+  /// Breaking loads of all ropes that end at the load, or at hooks, together, N: that of a rope
+  /// counts for each of its parts there.
+  double strength_at(ResolvedPoint::Kind kind) const {
+    double together = 0;
+    for (const RopeInCase& rope : case_.ropes) {
+      double parts = 0;
+      for (std::size_t i = 0; i < rope.path.size(); ++i)
+        if (rope.path[i].kind == kind) parts += i == 0 || i + 1 == rope.path.size() ? 1 : 2;
+      if (kind == ResolvedPoint::Kind::load && rope.is_basket()) parts = 2;
+      together += parts * rope.rope.breaking_load;
+    }
+    return together;
+  }
+
+  /// What hooks that hold something may carry together, by hoists and cranes, N.
+  double capacity_of_hooks() const {
+    std::vector<std::map<std::string, double>> hooks(case_.cranes.size());
+    for (const RopeInCase& rope : case_.ropes)
+      for (const ResolvedPoint& point : rope.path)
+        if (point.kind == ResolvedPoint::Kind::hook)
+          if (const auto* hoist = case_.cranes[point.crane].model->find_hoist(point.part))
+            hooks[point.crane][point.part] = hoist->capacity;
+    double all = 0;
+    for (std::size_t i = 0; i < hooks.size(); ++i) {
+      double of_crane = 0;
+      for (const auto& [name, capacity] : hooks[i]) of_crane += capacity;
+      all += std::min(of_crane, case_.cranes[i].model->capacity.value_or(of_crane));
+    }
+    return all;
+  }
+
+  /// Slings and hooks of another lift than this one.
+  void doubt_bearing() {
+    using Kind = ResolvedPoint::Kind;
+    constexpr double least = 2, usual = 5;  // times the weight: no rule of slings is below 2.28
+    if (!mass_ || case_.ropes.empty() || !hangs_on_hooks_alone()) return;
+    const double weight = *mass_ * case_.gravity;
+    const double slings = std::min(strength_at(Kind::load), strength_at(Kind::hook));
+    if (slings < least * weight)
+      doubt(
+          "The load weighs {:.0f} kN, and its slings break under {:.4g} kN together; usually they "
+          "do under {:g} times its weight.",
+          weight / 1e3, slings / 1e3, usual);
+    const double hooks = capacity_of_hooks();
+    constexpr double rounding = 1.01;  // gravity of the case, and that of a tonne as a force
+    if (rounding * hooks < weight)
+      doubt("The load weighs {:.0f} kN, and the hooks that hold it may carry {:.4g} kN together.",
+            weight / 1e3, hooks / 1e3);
   }
 
   void doubt_materials() {
@@ -458,6 +566,7 @@ class Doubts {
 
   const LiftCase& case_;
   std::optional<Box> load_box_;
+  std::optional<double> mass_;  ///< of the load, kg; none: it takes a mesh to know
   std::vector<std::string> list_;
 };
 

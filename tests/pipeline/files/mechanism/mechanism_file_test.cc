@@ -302,6 +302,50 @@ simulate: {duration: 2 s}
   EXPECT_NEAR(result.history.drives[1].velocity[0], 1.5, 1e-12);
 }
 
+// In still air until a step of 10 m/s comes: m v' = k (u - v)^2 has v = u - u / (1 + k u t / m), with
+// k = 1.25 / 2 kg/m^3 x 1.2 x 2 m2 = 1.5 kg/m. The step takes 1 ms and has the impulse of a third of
+// it; what that leaves is of the second order, u (k u 1 ms / m)^2 = 2.5e-6 m/s.
+TEST(MechanismFile, AStepOfTheWindDrivesByItsFormula) {
+  std::string complaints;
+  const auto file = read(R"(mechanism: gust
+bodies:
+  sail: {mass: 30 kg, radii_of_gyration: [1 m, 1 m, 1 m], wind_areas: [{area: 2 m^2}]}
+joints:
+  guide: {kind: prismatic, child: sail, axis: [1, 0, 0]}
+wind: {speed: 0 m/s, towards: 0 deg, gust: {table: [[20 s, 0 m/s], [20.001 s, 10 m/s]]}}
+simulate: {duration: 24 s}
+)",
+                         complaints);
+  ASSERT_TRUE(file) << complaints;
+  const BuiltMechanism built = build_mechanism(*file);
+  const auto result =
+      dynamics::integrate(built.system, built.system.q_start(), built.system.v_start(),
+                          {.relative_tolerance = 1e-9, .sample_interval = 1.0});
+  EXPECT_NEAR(result.v_end[0], 10 - 10 / (1 + 1.5 * 10 * (4 - 0.002 / 3) / 30), 5e-5);
+  EXPECT_TRUE(built.calm);  // at rest there is no gust
+}
+
+TEST(MechanismFile, ComplainsAboutGusts) {
+  const auto said = [](const std::string& gust) {
+    return complaints_about("towards: 0 deg}", "towards: 0 deg, gust: " + gust + "}");
+  };
+  EXPECT_EQ(said("{magnitude: 6 m/s, start: 0.2 s, duration: 0.5 s}"), "");
+  EXPECT_THAT(said("{magnitude: 6 m/s}"),
+              HasSubstr("the gust says neither its table nor all of its shape"));
+  EXPECT_THAT(said("{magnitude: 6 m/s, table: [[0 s, 0 m/s], [1 s, 6 m/s]]}"),
+              HasSubstr("the gust is given twice, by its table and by its magnitude"));
+  EXPECT_THAT(said("{table: [[1 s, 0 m/s], [1 s, 6 m/s]]}"),
+              HasSubstr("row 2 of the gust is for 1 s, after 1 s: times must ascend"));
+  EXPECT_THAT(said("{table: [[1 s, 0 m/s], [6 m/s, 2 s]]}"),
+              HasSubstr("row 2 of the gust is no time with a speed"));
+  EXPECT_THAT(said("{table: [[1 s, 0 m/s], [2 s, -6 m/s]]}"),
+              HasSubstr("the gust takes 6 m/s from a wind of 4 m/s, which would blow back then"));
+  // It falls by 0.268 of its magnitude.
+  EXPECT_THAT(
+      said("{shape: operating, magnitude: 20 m/s, start: 0 s, duration: 10.5 s}"),
+      HasSubstr("the gust takes 5.361 m/s from a wind of 4 m/s, which would blow back then"));
+}
+
 TEST(MechanismFile, FreeAndSphericalJointsTakeAnglesOrQuaternions) {
   const auto start_of = [](const std::string& position) {
     std::string complaints;
