@@ -198,7 +198,7 @@ class CapytaineFile {
     const std::size_t bodies = database_.body_names.size();
     const std::vector<double>& values = from.array.values;
     const std::vector<std::size_t>& shape = from.array.shape;
-    const bool fits = shape.size() == 2 ? shape[0] + shape[1] == 3 + bodies : bodies == 1;
+    const bool fits = shape.size() != 2 || shape[0] + shape[1] == 3 + bodies;
     if (values.size() != 3 * bodies || !fits) {
       fail(fmt::format("\"{}\" has {} numbers; three for each of {} bodies are due", name,
                        values.size(), bodies));

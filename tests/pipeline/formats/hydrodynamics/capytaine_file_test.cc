@@ -156,9 +156,9 @@ std::string classic_sample() {
 
 /// A body that heaves and surges at the frequencies infinity, 3, 2 and 1 rad/s: added mass of heave
 /// 10 + w, of surge by heave 1, damping of heave w, forces (1 + 2i) w in heave and 5 in surge.
-void write_sample_of_capytaine(const std::string& path) {
+void write_sample_of_capytaine(const std::string& path,
+                               const std::vector<std::string>& motions = {"Heave", "Surge"}) {
   const std::vector<double> omega = {std::numeric_limits<double>::infinity(), 3.0, 2.0, 1.0};
-  const std::vector<std::string> motions = {"Heave", "Surge"};
   std::vector<double> mass, damping, diffraction;
   for (const double w : omega) {
     const bool infinite = std::isinf(w);
@@ -277,14 +277,17 @@ TEST(Capytaine, ReadsNamesOfCharacters) {
   EXPECT_EQ(database.added_mass[1](0, 2), 1.0);
 }
 
-/// Writes a number into a file of HDF5 that has it, or has it not.
-void set_number(const std::string& path, const char* name, std::initializer_list<double> values) {
+/// Writes a number, a row, or several rows into a file of HDF5 that has them, or has them not.
+void set_number(const std::string& path, const char* name, std::initializer_list<double> values,
+                hsize_t rows = 1) {
   using hdf5::Handle;
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
   if (H5Lexists(file.get(), name, H5P_DEFAULT) > 0) H5Ldelete(file.get(), name, H5P_DEFAULT);
-  const hsize_t extent = values.size();
-  const Handle space(
-      values.size() == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, nullptr), H5Sclose);
+  const hsize_t row = values.size(), table[] = {rows, values.size() / rows};
+  const Handle space(values.size() == 1 ? H5Screate(H5S_SCALAR)
+                     : rows == 1        ? H5Screate_simple(1, &row, nullptr)
+                                        : H5Screate_simple(2, table, nullptr),
+                     H5Sclose);
   const Handle set(H5Dcreate2(file.get(), name, H5T_NATIVE_DOUBLE, space.get(), H5P_DEFAULT,
                               H5P_DEFAULT, H5P_DEFAULT),
                    H5Dclose);
@@ -296,27 +299,36 @@ void set_number(const std::string& path, const char* name, std::initializer_list
 TEST(Capytaine, IsToldWhatItsRotationsAreAbout) {
   const test::TemporaryFolder folder;
   write_sample_of_capytaine("body.nc");
+  const WamitBody there = {Vector3(1, 2, -3), 0.0};
   EXPECT_FALSE(tells_rotation_centres("body.nc"));
   EXPECT_EQ(read_capytaine("body.nc").reference_points[0], Vector3(0, 0, 0));
-  EXPECT_EQ(read_capytaine("body.nc", {{{1, 2, -3}}}).reference_points[0], Vector3(1, 2, -3));
+  EXPECT_EQ(read_capytaine("body.nc", {there}).reference_points[0], Vector3(1, 2, -3));
   EXPECT_THAT(refusal_of_capytaine([] {
                 read_capytaine("body.nc", {WamitBody{}, WamitBody{}});
               }),
               HasSubstr("holds 1 bodies, and 2 are placed"));
   EXPECT_THAT(refusal_of_capytaine([] {
-                read_capytaine("body.nc", {{{0, 0, 0}, 0.5}});
+                read_capytaine("body.nc", {WamitBody{Vector3::Zero(), 0.5}});
               }),
               HasSubstr("along the world's axes"));
   set_number("body.nc", "center_of_mass", {0, 0, -2});
   EXPECT_TRUE(tells_rotation_centres("body.nc"));
   EXPECT_EQ(read_capytaine("body.nc").reference_points[0], Vector3(0, 0, -2));
-  EXPECT_THAT(refusal_of_capytaine([] {
-                read_capytaine("body.nc", {{{1, 2, -3}}});
-              }),
+  EXPECT_THAT(refusal_of_capytaine([] { read_capytaine("body.nc", {WamitBody{}}); }),
               HasSubstr("tells itself what its rotations are about"));
   set_number("body.nc", "center_of_mass", {0, 0});
   EXPECT_THAT(refusal_of_capytaine([] { read_capytaine("body.nc"); }),
               HasSubstr("three for each of 1 bodies are due"));
+}
+
+// Rows are bodies or axes, whichever the shape of two bodies tells.
+TEST(Capytaine, ReadsPointsAlongEitherDimension) {
+  const test::TemporaryFolder folder;
+  write_sample_of_capytaine("pair.nc", {"a__Heave", "b__Heave"});
+  set_number("pair.nc", "center_of_mass", {1, 2, 3, 4, 5, 6}, 2);
+  EXPECT_EQ(read_capytaine("pair.nc").centres_of_mass[1], Vector3(4, 5, 6));
+  set_number("pair.nc", "center_of_mass", {1, 4, 2, 5, 3, 6}, 3);
+  EXPECT_EQ(read_capytaine("pair.nc").centres_of_mass[1], Vector3(4, 5, 6));
 }
 
 // The forces of a vessel under way are those at the frequency of encounter (capytaine's
