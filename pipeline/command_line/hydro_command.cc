@@ -252,6 +252,21 @@ std::string lack_of_waves(const std::string& origin) {
       "holds no force of waves{}; what names the database can float in calm water alone", where);
 }
 
+bool has_rotations(const dynamics::HydrodynamicDatabase& database) {
+  if (database.added_mass.empty()) return false;
+  const Eigen::VectorXd diagonal = database.added_mass.front().diagonal();
+  for (Eigen::Index mode = 0; mode < diagonal.size(); ++mode)
+    if (mode % dynamics::modes_per_body >= 3 && diagonal[mode] != 0.0) return true;
+  return false;
+}
+
+/// Capytaine's datasets do not hold the point that moments and rotations are about, which its users
+/// mostly lay into the centre of mass.
+bool lacks_rotation_centres(const HydroOptions& options, const HydrodynamicFile& file) {
+  return file.origin.ends_with("(Capytaine)") && options.bodies_at.empty() &&
+         has_rotations(file.series.databases.front()) && !tells_rotation_centres(*options.import);
+}
+
 /// What another program's file lacks, or has in other units. The latter is said by the table where
 /// that is printed.
 void say_doubts_about_import(const HydroOptions& options, const HydrodynamicFile& file) {
@@ -261,6 +276,11 @@ void say_doubts_about_import(const HydroOptions& options, const HydrodynamicFile
   if (lacks_volumes(database) && file.origin.ends_with("(BEMIO)")) {
     say("bodies displace nothing (disp_vol 0): cb and cg are not taken for centres of buoyancy and "
         "mass, and weight acts where the vessel has it");
+  }
+  if (lacks_rotation_centres(options, file)) {
+    say("does not tell what its rotations and moments are about (rotation_center or "
+        "center_of_mass); the world's origin is taken; if they are about another point, as the "
+        "centre of mass, give it of each body by --body-at=x,y,z");
   }
   if (database.headings.empty()) say(lack_of_waves(file.origin));
   if (!options.export_format && !is_quiet()) return;

@@ -163,8 +163,9 @@ void add_hydro(CLI::App& app, int& code) {
   command
       ->add_option(
           "--body-at", options->bodies_at,
-          "where the axes of a body of WAMIT's files lie (XBODY): x,y[,z[,heading]], m and "
-          "degrees; of each body in their order, if there are several")
+          "where the axes of a body of WAMIT's files lie (XBODY), or what the rotations of a body "
+          "of Capytaine's are about: x,y[,z[,heading]], m and degrees; of each body in their "
+          "order, if there are several")
       ->allow_extra_args(false);
   command->add_option("--water-density", options->water_density, "for WAMIT's files, kg/m3")
       ->check(CLI::PositiveNumber);

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -24,10 +26,16 @@ using Variable = NetcdfVariable;
 
 class CapytaineFile {
  public:
-  explicit CapytaineFile(const std::filesystem::path& path) : path_(path), file_(path) {}
+  explicit CapytaineFile(const std::filesystem::path& path, const std::vector<WamitBody>& told = {})
+      : path_(path), file_(path), told_(told) {}
+
+  bool tells_rotation_centres() const {
+    return file_.has("rotation_center") || file_.has("center_of_mass");
+  }
 
   HydrodynamicDatabase read() {
     database_.water = {scalar("rho"), scalar("g"), scalar("water_depth")};
+    require_rest();
     read_frequencies();
     read_modes();
     read_bodies();
@@ -87,11 +95,35 @@ class CapytaineFile {
     return array.values[0];
   }
 
+  /// Under way the waves are met at another frequency, and the forces are other ones.
+  void require_rest() const {
+    if (!file_.has("forward_speed")) return;
+    for (const double speed : file_.read("forward_speed").array.values) {
+      if (speed != 0.0)
+        fail(fmt::format("\"forward_speed\" is {:.6g} m/s; a body without speed is due", speed));
+    }
+  }
+
+  /// Angular frequencies; of a file that leaves them out they follow from what it has instead.
+  Variable angular_frequencies() const {
+    constexpr double two_pi = 2.0 * std::numbers::pi;
+    if (file_.has("omega")) return variable("omega");
+    for (const char* const name : {"period", "freq"}) {
+      if (!file_.has(name)) continue;
+      Variable result = variable(name);
+      const bool period = name == std::string_view("period");
+      for (double& value : result.array.values) value = period ? two_pi / value : two_pi * value;
+      return result;
+    }
+    fail("holds neither \"omega\" nor \"period\" nor \"freq\"");
+  }
+
   void read_frequencies() {
-    const Variable omega = variable("omega");
-    if (omega.dimensions.size() > 1) fail("\"omega\" has several dimensions");
+    const Variable omega = angular_frequencies();
+    if (omega.dimensions.size() > 1) fail("the frequencies have several dimensions");
     if (!omega.dimensions.empty()) frequency_dimension_ = omega.dimensions[0];
     place_count_ = omega.array.values.size();
+    omega_ = omega.array.values;
     for (std::size_t k = 0; k < place_count_; ++k) {
       const double w = omega.array.values[k];
       if (std::isinf(w)) {
@@ -146,24 +178,54 @@ class CapytaineFile {
       const std::vector<double> volumes = file_.read(name).array.values;
       if (volumes.size() == bodies) database_.displaced_volumes = volumes;
     }
-    const auto points = [&](const char* name) {
-      std::vector<Vector3> result;
-      if (!file_.has(name)) return result;
-      const std::vector<double> values = file_.read(name).array.values;
-      if (values.size() != 3 * bodies) return result;
-      for (std::size_t b = 0; b < bodies; ++b) {
-        result.emplace_back(values[3 * b], values[3 * b + 1], values[3 * b + 2]);
-      }
-      return result;
-    };
     database_.centres_of_mass = points("center_of_mass");
     database_.centres_of_buoyancy = points("center_of_buoyancy");
     database_.reference_points = points("rotation_center");
     if (database_.reference_points.empty()) {
       database_.reference_points = database_.centres_of_mass;
     }
+    if (!told_.empty()) take_told_points();
     if (database_.reference_points.empty()) {
       database_.reference_points.assign(bodies, Vector3::Zero());
+    }
+  }
+
+  /// A point of each body, bodies along the first dimension or along the second; none without.
+  std::vector<Vector3> points(const std::string& name) const {
+    std::vector<Vector3> result;
+    if (!file_.has(name)) return result;
+    const Variable from = file_.read(name);
+    const std::size_t bodies = database_.body_names.size();
+    const std::vector<double>& values = from.array.values;
+    const std::vector<std::size_t>& shape = from.array.shape;
+    const bool fits = shape.size() != 2 || shape[0] + shape[1] == 3 + bodies;
+    if (values.size() != 3 * bodies || !fits) {
+      fail(fmt::format("\"{}\" has {} numbers; three for each of {} bodies are due", name,
+                       values.size(), bodies));
+    }
+    const bool across = shape.size() == 2 && bodies > 1 && shape[0] == 3 &&
+                        (bodies != 3 || (from.dimensions.size() == 2 &&
+                                         from.dimensions[1].find("body") != std::string::npos));
+    for (std::size_t b = 0; b < bodies; ++b) {
+      const auto at = [&](std::size_t axis) {
+        return values[across ? axis * bodies + b : 3 * b + axis];
+      };
+      result.emplace_back(at(0), at(1), at(2));
+    }
+    return result;
+  }
+
+  void take_told_points() {
+    if (tells_rotation_centres())
+      fail("tells itself what its rotations are about; leave --body-at out");
+    if (told_.size() != database_.body_names.size()) {
+      fail(fmt::format("holds {} bodies, and {} are placed by --body-at",
+                       database_.body_names.size(), told_.size()));
+    }
+    for (const WamitBody& body : told_) {
+      if (body.heading != 0.0)
+        fail("Capytaine's modes are along the world's axes; leave the heading of --body-at out");
+      database_.reference_points.push_back(body.p_W);
     }
   }
 
@@ -175,8 +237,10 @@ class CapytaineFile {
     const auto copy = [&](const Variable& from, std::size_t place, MatrixXd& to) {
       for (std::size_t r = 0; r < radiating_.size(); ++r) {
         for (std::size_t i = 0; i < influenced_.size(); ++i) {
-          to(influenced_[i], radiating_[r]) =
+          const double value =
               from.at({{frequency_dimension_, place}, {"radiating_dof", r}, {"influenced_dof", i}});
+          if (std::isnan(value)) refuse_gap(place, r, i);
+          to(influenced_[i], radiating_[r]) = value;
         }
       }
     };
@@ -188,6 +252,16 @@ class CapytaineFile {
     const auto modes = database_.mode_count();
     database_.infinite_added_mass = MatrixXd::Zero(modes, modes);
     copy(mass, static_cast<std::size_t>(infinite_place_), database_.infinite_added_mass);
+  }
+
+  /// Datasets that are merged have no numbers where one of them lacks what the others have.
+  [[noreturn]] void refuse_gap(std::size_t place, std::size_t radiating,
+                               std::size_t influenced) const {
+    fail(
+        fmt::format("no number for the force on \"{}\" from \"{}\" at {:.6g} rad/s: not computed, "
+                    "or lost as datasets were merged",
+                    file_.read_texts("influenced_dof")[influenced],
+                    file_.read_texts("radiating_dof")[radiating], omega_[place]));
   }
 
   /// The dimension along which a force's real and imaginary part lie.
@@ -265,9 +339,11 @@ class CapytaineFile {
 
   std::filesystem::path path_;
   NetcdfFile file_;
+  std::vector<WamitBody> told_;  ///< where the bodies' axes lie, if the file need not tell it
   HydrodynamicDatabase database_;
   std::string frequency_dimension_ = "omega";
   std::size_t place_count_ = 0;
+  std::vector<double> omega_;        ///< at each place, rad/s
   std::vector<std::size_t> places_;  ///< of the frequencies in the file, ascending
   int infinite_place_ = -1;
   std::vector<Eigen::Index> radiating_, influenced_;  ///< mode of each degree of freedom
@@ -275,15 +351,24 @@ class CapytaineFile {
 
 }  // namespace
 
-HydrodynamicDatabase read_capytaine(const std::filesystem::path& path) {
-  if (const auto death = death_of_reading(path, [&] { CapytaineFile(path).read(); }))
+HydrodynamicDatabase read_capytaine(const std::filesystem::path& path,
+                                    const std::vector<WamitBody>& bodies) {
+  if (const auto death = death_of_reading(path, [&] { CapytaineFile(path, bodies).read(); }))
     throw HydrodynamicFileError(path.string() + ": is damaged: reading it " + *death);
   try {
-    return CapytaineFile(path).read();
+    return CapytaineFile(path, bodies).read();
   } catch (const ResultsError& error) {
     throw HydrodynamicFileError(error.what());
   } catch (const dynamics::ModelError& error) {
     throw HydrodynamicFileError(path.string() + ": " + error.what());
+  }
+}
+
+bool tells_rotation_centres(const std::filesystem::path& path) {
+  try {
+    return CapytaineFile(path).tells_rotation_centres();
+  } catch (const ResultsError& error) {
+    throw HydrodynamicFileError(error.what());
   }
 }
 
@@ -304,11 +389,11 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
     std::filesystem::path name = path;
     return imported("WAMIT", read_wamit(name.replace_extension(), scales));
   }
+  if (ending == ".nc") return imported("Capytaine", read_capytaine(path, scales.bodies));
   if (!scales.bodies.empty()) {
     throw HydrodynamicFileError(path.string() +
                                 ": tells itself where its bodies lie; --body-at is for WAMIT's");
   }
-  if (ending == ".nc") return imported("Capytaine", read_capytaine(path));
   if (ending == ".h5") {
     if (read_identity(path)) return read_hydrodynamic_file(path);
     return imported("BEMIO", read_bemio(path));

@@ -22,9 +22,10 @@ struct WamitBody {
 
 /// What files of WAMIT do not tell.
 struct WamitScales {
-  double length = 1.0;                 ///< L, WAMIT's ULEN, m
-  dynamics::Water water;               ///< density, gravity, depth
-  std::vector<WamitBody> bodies = {};  ///< in their order; empty: a single one at the origin
+  double length = 1.0;    ///< L, WAMIT's ULEN, m
+  dynamics::Water water;  ///< density, gravity, depth
+  /// In their order; empty: a single one at the origin. Also of files of Capytaine.
+  std::vector<WamitBody> bodies = {};
 };
 
 /// By the ending: .1, .2, .3, .hst WAMIT (all of the name); .nc Capytaine; .h5 BEMIO, or our own.
@@ -78,9 +79,15 @@ std::vector<dynamics::Vector3> wamit_points(const dynamics::HydrodynamicDatabase
 /// radiating_dof, influenced_dof), Froude_Krylov_force and diffraction_force or excitation_force
 /// (complex or reim, omega, wave_direction, influenced_dof), dimensions in whatever order the file
 /// names; degrees of freedom "Heave" or "body__Heave", as strings or as characters. SI, headings in
-/// rad. Its time factor is e^{-i w t}: forces are conjugated. Rotations about rotation_center, else
-/// center_of_mass, else the world's origin. Source: Capytaine documentation, "Conventions" and
-/// "Export outputs".
-dynamics::HydrodynamicDatabase read_capytaine(const std::filesystem::path& path);
+/// rad. Without omega, the frequencies follow from period or freq. Its time factor is e^{-i w t}:
+/// forces are conjugated. Rotations about rotation_center, else center_of_mass, else `bodies`, in
+/// the order in which the degrees of freedom name them and without heading, else the world's
+/// origin. Capytaine's own datasets hold neither centre. Bodies under way (forward_speed) are
+/// refused. Source: Capytaine documentation, "Conventions" and "Export outputs".
+dynamics::HydrodynamicDatabase read_capytaine(const std::filesystem::path& path,
+                                              const std::vector<WamitBody>& bodies = {});
+
+/// Does a file of Capytaine tell what its rotations are about?
+bool tells_rotation_centres(const std::filesystem::path& path);
 
 }  // namespace blocklift::pipeline
