@@ -21,7 +21,7 @@ std::vector<double> shares_of(WindGust::Shape shape) {
       return {0.0, 0.25, 0.5, 0.75, 1.0};
     case WindGust::Shape::operating: {
       // d/dx [sin 3a (1 - cos 2a)] = 0, a = pi x, is cos(a)^2 = 11/20, or a = pi/2.
-      const double dip = std::acos(std::sqrt(11.0 / 20.0)) / std::numbers::pi;
+      const double dip = std::acos(std::sqrt(11.0 / 20.0)) / pi;
       return {0.0, dip, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0 - dip, 1.0};
     }
   }
@@ -72,14 +72,13 @@ double WindGust::evaluate(double time) const {
   const double x = (time - times_.front()) / duration_;
   if (x <= 0.0) return 0.0;
   if (x >= 1.0) return shape_ == Shape::coherent_rise ? magnitude_ : 0.0;
-  const double turn = std::numbers::pi * x;
   switch (shape_) {
     case Shape::one_minus_cosine:
-      return 0.5 * magnitude_ * (1.0 - std::cos(2.0 * turn));
+      return 0.5 * magnitude_ * (1.0 - std::cos(2.0 * pi * x));
     case Shape::coherent_rise:
-      return 0.5 * magnitude_ * (1.0 - std::cos(turn));
+      return 0.5 * magnitude_ * (1.0 - std::cos(pi * x));
     case Shape::operating:
-      return -0.37 * magnitude_ * std::sin(3.0 * turn) * (1.0 - std::cos(2.0 * turn));
+      return -0.37 * magnitude_ * std::sin(3.0 * pi * x) * (1.0 - std::cos(2.0 * pi * x));
   }
   return 0.0;
 }

@@ -11,9 +11,14 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
+
+#include "pipeline/formats/unfinished_files.h"
 
 namespace blocklift::pipeline {
 namespace {
+
+constexpr const char* unfinished = ".part-";  // between a file's name and the writer's number
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, int code) {
   throw std::runtime_error(path.string() + ": " + what + ": " +
@@ -31,7 +36,7 @@ AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
     if (error) fail(folder, "cannot make the folder", error.value());
   }
   temporary_path_ =
-      folder / ("." + path_.filename().string() + ".part-" + std::to_string(::getpid()));
+      folder / ("." + path_.filename().string() + unfinished + std::to_string(::getpid()));
 }
 
 AtomicFile::~AtomicFile() {
@@ -60,6 +65,17 @@ void AtomicFile::write(std::string_view content) const {
   stream.write(content.data(), static_cast<std::streamsize>(content.size()));
   stream.close();
   if (!stream) fail(path_, "cannot write the file", errno == 0 ? EIO : errno);
+}
+
+void remove_unfinished_files(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && name.find(unfinished) != std::string::npos)
+      left.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : left) std::filesystem::remove(file, ignored);
 }
 
 void write_file(const std::filesystem::path& path, std::string_view content) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <openturns/OT.hxx>
@@ -26,13 +27,29 @@ double limit_of(const FigureBound& bound, const std::vector<Member>& members) {
                   unit_of(members, bound.figure.value));
 }
 
+/// By what the margins of a bound are counted: its limit or, where that is zero, the largest that
+/// its figure is in a sample. A force that may be no less than zero is not to be held to newtons.
+double size_of_bound(double limit, const std::string& figure, std::span<const Member> sample) {
+  if (limit != 0) return std::abs(limit);
+  double largest = 0;
+  for (const Member& member : sample)
+    if (const double value = member.figure(figure); std::isfinite(value))
+      largest = std::max(largest, std::abs(value));
+  return largest > 0 ? largest : 1;
+}
+
 /// The goal and the bounds of a study as numbers.
 class Problem {
  public:
-  /// @param members that tell the units of figures.
-  Problem(const StudyFile& study, const std::vector<Member>& members)
+  /// @param members that tell the units of figures and, those of the first sample, their size.
+  Problem(const StudyFile& study, const std::vector<Member>& members, int first_sample)
       : study_(study), sign_(study.maximise ? -1 : 1) {
-    for (const FigureBound& bound : study.subject_to) limits_.push_back(limit_of(bound, members));
+    for (const FigureBound& bound : study.subject_to) {
+      limits_.push_back(limit_of(bound, members));
+      sizes_.push_back(
+          size_of_bound(limits_.back(), bound.figure.value,
+                        std::span(members).first(static_cast<std::size_t>(first_sample))));
+    }
     const auto count = static_cast<Eigen::Index>(study.variables.size());
     lowest_.resize(count);
     range_.resize(count);
@@ -71,9 +88,7 @@ class Problem {
     return most > rounding ? most : 0;
   }
   /// By what a bound's margins are counted.
-  double size(std::size_t bound) const {
-    return std::abs(limits_[bound]) > 0 ? std::abs(limits_[bound]) : 1;
-  }
+  double size(std::size_t bound) const { return sizes_[bound]; }
   /// Is one member better than another: within its bounds, or nearer to them, then by its figure?
   bool is_better(const Member& one, const Member& other) const {
     const double a = excess(one), b = excess(other);
@@ -102,7 +117,7 @@ class Problem {
  private:
   const StudyFile& study_;
   double sign_;
-  std::vector<double> limits_;
+  std::vector<double> limits_, sizes_;
   Eigen::VectorXd lowest_, range_;
 };
 
@@ -244,7 +259,7 @@ void describe_best(const Problem& problem, const StudyFile& study, SearchResults
 
 SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& sample,
                              std::vector<Member> members, const EvaluateMember& evaluate) {
-  const Problem problem(study, members);
+  const Problem problem(study, members, static_cast<int>(members.size()));
   SearchResults results;
   results.figure = problem.figure();
   results.is_largest = problem.is_largest();
@@ -282,7 +297,7 @@ SearchResults search_members(const StudyFile& study, const Eigen::MatrixXd& samp
 }
 
 std::vector<double> best_so_far(const StudyFile& study, const SearchResults& results) {
-  const Problem problem(study, results.members);
+  const Problem problem(study, results.members, results.first_sample);
   std::vector<double> values;
   int best = 0;
   for (int m = 0; m < static_cast<int>(results.members.size()); ++m) {

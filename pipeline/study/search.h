@@ -19,8 +19,10 @@ using EvaluateMember = std::function<Member(const Eigen::VectorXd& values, int n
 struct BoundOfSearch {
   std::string figure;
   double limit = 0, value = 0;
-  bool is_least = false;     ///< the value may not be smaller
-  bool is_active = false;    ///< the value lies within a hundredth of the limit
+  bool is_least = false;  ///< the value may not be smaller
+  /// The value lies within a hundredth of the limit; where that is zero, of the largest that the
+  /// figure is in the first sample.
+  bool is_active = false;
   bool is_exceeded = false;  ///< the value lies beyond the limit, or is not a number
 };
 

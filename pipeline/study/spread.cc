@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <openturns/OT.hxx>
 
 #include "algebra/quantile.h"
+#include "pipeline/study/pareto_tail.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -30,15 +32,27 @@ class UnsteadyFit : public std::runtime_error {
   UnsteadyFit() : std::runtime_error("most samples of a law cannot be fitted again") {}
 };
 
+/// The law of a family that fits a sample.
+using FitOfLaw = std::function<OT::Distribution(const OT::Sample&)>;
+
+OT::Distribution gumbel_law(const OT::Sample& sample) { return OT::GumbelFactory().build(sample); }
+
+OT::Distribution pareto_law(const OT::Sample& excesses) {
+  std::vector<double> values;
+  for (OT::UnsignedInteger i = 0; i < excesses.getSize(); ++i) values.push_back(excesses(i, 0));
+  const ParetoTail tail = fit_pareto_tail(values);
+  return OT::GeneralizedPareto(tail.scale, tail.shape, 0);
+}
+
 /// The value below which the share of the law lies, with its interval over samples that are drawn
 /// from the law and fitted again. As many of these samples as differ more from their own fit than
 /// the given one are the p-value: a law that was fitted to a sample is nearer to it than the tables
 /// of Kolmogorov's statistic have it, which are for a law that is known (Lilliefors 1967). The
 /// library's own test of that kind would draw and fit samples once more.
 /// @throws UnsteadyFit, OT::Exception if there is no such law.
-ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
-               const OT::Sample& sample, double share) {
-  const OT::Distribution law = factory.build(sample);
+ExtremeFit fit(const std::string& name, const FitOfLaw& fit_law, const OT::Sample& sample,
+               double share) {
+  const OT::Distribution law = fit_law(sample);
   ExtremeFit result{name, share, law.computeQuantile(share)[0], 0, 0, 0};
   const double difference = OT::FittingTest::ComputeKolmogorovStatistics(sample, law);
   std::vector<double> again;
@@ -46,7 +60,7 @@ ExtremeFit fit(const std::string& name, const OT::DistributionFactory& factory,
   for (int b = 0; b < bootstrap_samples; ++b) {
     try {
       const OT::Sample drawn = law.getSample(sample.getSize());
-      const OT::Distribution refitted = factory.build(drawn);
+      const OT::Distribution refitted = fit_law(drawn);
       again.push_back(refitted.computeQuantile(share)[0]);
       farther += int{OT::FittingTest::ComputeKolmogorovStatistics(drawn, refitted) >= difference};
     } catch (const OT::Exception&) {
@@ -80,9 +94,11 @@ std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
       return;
     } catch (const OT::Exception&) {
       return;
+    } catch (const std::invalid_argument&) {
+      return;
     }
   };
-  try_to([&] { fits.push_back(fit("Gumbel", OT::GumbelFactory(), sample_of(values), share)); });
+  try_to([&] { fits.push_back(fit("Gumbel", gumbel_law, sample_of(values), share)); });
   constexpr double tail = 0.1;
   const auto first = static_cast<std::size_t>((1 - tail) * static_cast<double>(values.size()));
   if (values.size() - first < fewest_for_a_fit) return fits;
@@ -90,13 +106,15 @@ std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
   std::vector<double> excesses;
   for (std::size_t i = first; i < values.size(); ++i) excesses.push_back(values[i] - threshold);
   try_to([&] {
-    ExtremeFit above =
-        fit("generalised Pareto above the 90 % quantile", OT::GeneralizedParetoFactory(),
-            sample_of(excesses), 1 - (1 - share) / tail);
+    const double share_of_tail = 1 - (1 - share) / tail;
+    ExtremeFit above = fit("generalised Pareto above the 90 % quantile", pareto_law,
+                           sample_of(excesses), share_of_tail);
+    // The bootstrap's percentiles are far too narrow here.
+    const auto [low, high] = pareto_quantile_interval(excesses, share_of_tail);
     above.share = share;
     above.value += threshold;
-    above.low += threshold;
-    above.high += threshold;
+    above.low = low + threshold;
+    above.high = high + threshold;
     fits.push_back(std::move(above));
   });
   return fits;

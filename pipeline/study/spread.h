@@ -18,7 +18,9 @@ struct Quantile {
 struct ExtremeFit {
   std::string law;       ///< "Gumbel", "generalised Pareto above the 90 % quantile"
   double share = 0.999;  ///< of the figures on the better side of the value: below, mostly
-  double value = 0, low = 0, high = 0;  ///< with the interval of 95 % by the parametric bootstrap
+  /// With the interval of 95 %: of Gumbel's law by the parametric bootstrap, of Pareto's by its
+  /// profile likelihood (pareto_tail.h).
+  double value = 0, low = 0, high = 0;
   double p_value = 0;  ///< Kolmogorov and Smirnov's: below 0.05 the law does not fit
 };
 

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/formats/unfinished_files.h"
 
 namespace blocklift::pipeline {
 
@@ -20,7 +21,12 @@ StudyLock::StudyLock(const std::filesystem::path& folder, Use use) {
   constexpr mode_t of_all = 0666;  // less what the user's mask takes away
   file_ = ::open((members / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, of_all);
   const int kind = use == Use::whole ? LOCK_EX : LOCK_SH;
-  if (file_ < 0 || ::flock(file_, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  if (file_ < 0) return;
+  if (::flock(file_, kind | LOCK_NB) == 0) {
+    if (use == Use::whole) remove_unfinished_files(members);
+    return;
+  }
+  if (errno != EWOULDBLOCK) return;
   ::close(file_);
   Diagnostics diagnostics;
   diagnostics.error({std::make_shared<const std::string>(folder.string()), 0, 0},

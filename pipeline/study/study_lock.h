@@ -8,7 +8,7 @@ namespace blocklift::pipeline {
 /// would compute the same members, and each would clear away the pages that the other prepares. A
 /// lock on a file beside the members (flock), which the system lets go of with the process,
 /// whatever ends it. Parts of a study may be at work in one folder together: they write their
-/// members alone.
+/// members alone. Who is alone there clears away what runs that were killed left half-written.
 ///
 /// Where the file cannot be made, or its file system knows no locks, nobody is kept out.
 class StudyLock {

@@ -157,7 +157,8 @@ std::string extremes_table(const StudyResults& results) {
          "</table></div>\n<p class=\"note\">A law of extremes that was fitted to the members, and "
          "the "
          "value that so many lifts stay on the better side of by it; in brackets the interval of "
-         "95 % by the bootstrap. p: how often a sample of the law itself differs as much from its "
+         "95 %, by the bootstrap and of Pareto's law by its profile likelihood. p: how often a "
+         "sample of the law itself differs as much from its "
          "own fit. Where p is small the law does not hold. A law knows nothing of what bounds a "
          "figure, such as the weight of the load.</p>\n";
 }

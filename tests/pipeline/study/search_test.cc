@@ -91,6 +91,22 @@ TEST(Search, KeepsToABoundThatBinds) {
   }
 }
 
+// The same bound as a force that may be no less than zero, in newtons.
+TEST(Search, CountsABoundOfZeroByTheSizeOfItsFigure) {
+  StudyFile study = bowl_study(200);
+  study.subject_to = {at_least("slack", 0)};
+  const SearchResults found = search(study, [](const Eigen::VectorXd& values, int number) {
+    Member member = bowl(values, number);
+    member.figures.emplace_back("slack", 1e5 * (values[0] + values[1] - 0.5));
+    return member;
+  });
+  EXPECT_TRUE(found.is_feasible);
+  EXPECT_NEAR(found.value, 0.08, 2e-3);
+  EXPECT_TRUE(found.bounds.at(0).is_active);
+  EXPECT_FALSE(found.bounds.at(0).is_exceeded);
+  EXPECT_EQ(best_so_far(study, found).back(), found.value);
+}
+
 // The largest sum lies in the corner; what cannot be met is said with the member that comes
 // nearest.
 TEST(Search, EndsAtEdgesAndSaysWhatCannotBe) {
