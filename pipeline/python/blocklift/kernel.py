@@ -39,7 +39,8 @@ def simulate(case: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
 
 def assess(case: Path, folder: Path, laws: Mapping[str, LawOrClass], decks: bool) -> None:
     """Assesses a case file in this process and writes its results into a folder."""
-    load().assess(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws), decks)
+    load().assess(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws),
+                  decks)
 
 
 def sweep(study: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
