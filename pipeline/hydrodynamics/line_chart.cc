@@ -59,18 +59,20 @@ std::string axes(const LineChart& chart, const Scales& scales, const std::vector
   std::string svg;
   for (const double value : x) {
     const double at = scales.across(value);
-    svg += fmt::format(
-        R"(<line class="grid" x1="{0:.1f}" x2="{0:.1f}" y1="{1}" y2="{2}"/><text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.4g}</text>)",
-        at, top, height - bottom, height - bottom + 14, value);
+    svg += fmt::format(R"(<line class="grid" x1="{0:.1f}" x2="{0:.1f}" y1="{1}" y2="{2}"/>)"
+                       R"(<text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.4g}</text>)",
+                       at, top, height - bottom, height - bottom + 14, value);
   }
   for (const double value : y) {
     const double at = scales.down(value);
-    svg += fmt::format(
-        R"(<line class="grid" x1="{1}" x2="{2}" y1="{0:.1f}" y2="{0:.1f}"/><text x="{3}" y="{4:.1f}" text-anchor="end">{5:.4g}</text>)",
-        at, left, width - scales.right, left - 5, at + 4, value);
+    svg += fmt::format(R"(<line class="grid" x1="{1}" x2="{2}" y1="{0:.1f}" y2="{0:.1f}"/>)"
+                       R"(<text x="{3}" y="{4:.1f}" text-anchor="end">{5:.4g}</text>)",
+                       at, left, width - scales.right, left - 5, at + 4, value);
   }
   svg += fmt::format(
-      R"svg(<text class="title" x="{}" y="14">{}</text><text x="{}" y="{}" text-anchor="middle">{}</text><text transform="translate(11 {}) rotate(-90)" text-anchor="middle">{}</text>)svg",
+      R"svg(<text class="title" x="{}" y="14">{}</text>)svg"
+      R"svg(<text x="{}" y="{}" text-anchor="middle">{}</text>)svg"
+      R"svg(<text transform="translate(11 {}) rotate(-90)" text-anchor="middle">{}</text>)svg",
       left, escaped(chart.title), (left + width - scales.right) / 2, height - 8,
       escaped(chart.x_label), (top + height - bottom) / 2, escaped(chart.y_label));
   return svg;

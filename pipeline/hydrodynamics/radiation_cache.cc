@@ -1,10 +1,8 @@
 #include "pipeline/hydrodynamics/radiation_cache.h"
 
 #include <cctype>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <span>
 #include <system_error>
@@ -16,7 +14,6 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
-#include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/hull_hash.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "pipeline/formats/hydrodynamics/memory_file.h"
@@ -129,83 +126,41 @@ dynamics::HydrodynamicDatabase worst_of(std::span<const dynamics::HydrodynamicDa
   return worst;
 }
 
-/// Between which bodies waves are lost; none: between none.
-using LostCoupling = std::optional<dynamics::CouplingReach>;
+/// What is found of a problem whose bodies stay.
+struct FoundDatabase {
+  dynamics::HydrodynamicDatabase database;
+  WavesLost lost;
+};
 
-constexpr const char* title_of_coupling = "waves lost between bodies, 1";
-
-/// What a file of the cache says about it; none if it is not there or of no use for so many bodies.
-std::optional<LostCoupling> read_coupling(const fs::path& file, std::size_t bodies) {
-  std::ifstream stream(file);
-  std::string title, kind;
-  if (!std::getline(stream, title) || title != title_of_coupling || !(stream >> kind))
-    return std::nullopt;
-  if (kind == "none") return LostCoupling{};
-  dynamics::CouplingReach lost;
-  if (kind != "lost" || !(stream >> lost.first >> lost.second >> lost.gap >> lost.shortest))
-    return std::nullopt;
-  const auto is_body = [&](int body) {
-    return body >= 0 && static_cast<std::size_t>(body) < bodies;
-  };
-  const bool sound = is_body(lost.first) && is_body(lost.second) && lost.gap >= 0.0 &&
-                     lost.shortest > 0.0 && std::isfinite(lost.gap + lost.shortest);
-  if (!sound) return std::nullopt;
-  return lost;
+/// Do panels on the water couple bodies, so that these may lose waves?
+bool may_lose_waves(const RadiationProblem& problem) {
+  return !problem.given && problem.bodies.size() > 1 &&
+         problem.method != dynamics::PanelMethod::green_function;
 }
 
-void write_coupling(const fs::path& file, const LostCoupling& lost) {
-  try {
-    write_file(file, fmt::format("{}\n{}\n", title_of_coupling,
-                                 lost ? fmt::format("lost {} {} {:.17g} {:.17g}", lost->first,
-                                                    lost->second, lost->gap, lost->shortest)
-                                      : std::string("none")));
-  } catch (const std::runtime_error&) {
-    // What cannot be kept is found again.
-  }
+WavesLost find_waves_lost(const RadiationProblem& problem, const dynamics::PanelModel& model) {
+  if (!may_lose_waves(problem)) return {};
+  const double highest = problem.frequencies.back();
+  return find_lost_coupling(model, find_distant_groups(model, highest), highest);
 }
 
-/// Of bodies that stay. The surface is meshed for it, which a database from the cache spares:
-/// therefore it lies beside that.
-LostCoupling find_coupling(const RadiationProblem& problem) {
-  const fs::path folder = cache_folder();
-  const fs::path file = folder / (identity_of(problem) + ".coupling");
-  if (!folder.empty()) {
-    if (const auto known = read_coupling(file, problem.bodies.size())) return *known;
-  }
-  LostCoupling lost = compute_or_refuse(problem, [](const RadiationProblem& p) {
-    const dynamics::PanelModel model = make_panel_model(p);
-    const double highest = p.frequencies.back();
-    return find_lost_coupling(model, find_distant_groups(model, highest), highest);
-  });
-  if (!folder.empty()) write_coupling(file, lost);
-  return lost;
-}
-
-/// doubt_about_coupling of the bodies at their deepest draughts, where panels on the water couple
-/// them.
-std::string doubt_about_distances(const RadiationProblem& problem) {
-  if (problem.given || problem.bodies.size() < 2 ||
-      problem.method == dynamics::PanelMethod::green_function)
-    return {};
-  const int lowered = problem.lowered_body();
-  const RadiationProblem deepest =
-      lowered < 0 ? problem : at_draught(problem, problem.bodies[lowered].draughts.back());
-  const LostCoupling lost = find_coupling(deepest);
+/// doubt_about_coupling of the bodies at their deepest draughts.
+std::string doubt_about_distances(const RadiationProblem& problem, const WavesLost& lost) {
   if (!lost) return {};
   std::vector<std::string> names;
-  for (const RadiationProblem::Body& body : deepest.bodies) names.push_back(body.name);
-  return doubt_about_coupling(names, *lost, deepest.water, deepest.frequencies.back());
+  for (const RadiationProblem::Body& body : problem.bodies) names.push_back(body.name);
+  return doubt_about_coupling(names, *lost, problem.water, problem.frequencies.back());
 }
 
 /// Says what is doubted of the databases of a problem.
 /// @returns the doubts as sentences.
 std::vector<std::string> say_doubts(const RadiationProblem& problem,
                                     std::span<const dynamics::HydrodynamicDatabase> databases,
-                                    const Say& say) {
+                                    const WavesLost& lost, const Say& say) {
   const dynamics::HydrodynamicDatabase worst = worst_of(databases);
   std::vector<std::string> sentences;
   for (const std::string& doubt : {doubt_about_panels(worst), doubt_about_excitation(worst),
-                                   doubt_about_runs(worst), doubt_about_distances(problem)}) {
+                                   doubt_about_runs(worst), doubt_about_distances(problem, lost)}) {
     if (doubt.empty()) continue;
     say("warning: " + doubt);
     std::string sentence = doubt + ".";
@@ -237,12 +192,14 @@ auto take_or_make(const fs::path& file, const Read& read, const std::function<vo
   return made;
 }
 
-/// The database of an entry of the cache; none if there is none that is whole and of this version.
-std::optional<dynamics::HydrodynamicDatabase> read_entry(const fs::path& file,
-                                                         const std::string& identity) {
+/// An entry of the cache; none if there is none that is whole, of this version and of bodies that
+/// stay.
+std::optional<HydrodynamicFile> read_entry(const fs::path& file, const std::string& identity) {
   if (read_identity(file) != identity) return std::nullopt;
   try {
-    return read_hydrodynamic_database(file);
+    HydrodynamicFile entry = read_hydrodynamic_file(file);
+    if (entry.series.databases.size() > 1) return std::nullopt;
+    return entry;
   } catch (const HydrodynamicFileError&) {
     return std::nullopt;
   }
@@ -250,48 +207,71 @@ std::optional<dynamics::HydrodynamicDatabase> read_entry(const fs::path& file,
 
 /// Computes the database of bodies that stay.
 /// @param of_what the bodies, and their draught.
-dynamics::HydrodynamicDatabase compute_database(const RadiationProblem& problem,
-                                                const std::string& of_what, const Say& say,
-                                                const Tell& tell) {
+FoundDatabase compute_database(const RadiationProblem& problem, const std::string& of_what,
+                               const Say& say, const Tell& tell) {
   say("computing that of " + of_what);
   const auto progress = [&](double fraction, const char* what) {
     tell(fraction, of_what + ": " + what);
   };
-  return compute_or_refuse(problem, [&](const RadiationProblem& p) {
+  return compute_or_refuse(problem, [&](const RadiationProblem& p) -> FoundDatabase {
     const dynamics::PanelModel model = make_panel_model(p);
     if (p.method == dynamics::PanelMethod::green_function)
-      return compute_radiation(p, model, {}, progress);
+      return {compute_radiation(p, model, {}, progress), {}};
     const auto groups = find_distant_groups(model, p.frequencies.back());
     if (const std::string note = note_on_groups(model, groups); !note.empty()) say(note);
-    return compute_radiation(p, model, groups, progress);
+    return {compute_radiation(p, model, groups, progress), find_waves_lost(p, model)};
   });
 }
 
-/// The database of bodies that stay.
-dynamics::HydrodynamicDatabase find_database(const RadiationProblem& problem,
-                                             const std::string& where, const Say& say,
-                                             const Tell& tell) {
+/// What an entry of the cache says. One of an older program does not tell which waves are lost:
+/// that is found on the mesh, without the database, and put into it.
+FoundDatabase take_entry(const RadiationProblem& problem, HydrodynamicFile entry,
+                         const fs::path& file) {
+  if (!entry.waves_lost && may_lose_waves(problem)) {
+    entry.waves_lost = compute_or_refuse(
+        problem, [](const RadiationProblem& p) { return find_waves_lost(p, make_panel_model(p)); });
+    try {
+      write_hydrodynamic_file(file, entry);
+    } catch (const std::runtime_error&) {
+      // What cannot be kept is found again.
+    }
+  }
+  return {std::move(entry.series.databases.front()), entry.waves_lost.value_or(WavesLost{})};
+}
+
+/// What is found of bodies that stay.
+FoundDatabase find_database(const RadiationProblem& problem, const std::string& where,
+                            const Say& say, const Tell& tell) {
   const std::string of_what = names_of_bodies(problem) + where;
   const fs::path folder = cache_folder();
   if (folder.empty()) return compute_database(problem, of_what, say, tell);
   const std::string identity = identity_of(problem);
   const fs::path file = folder / (identity + ".h5");
-  const auto read = [&] {
-    auto known = read_entry(file, identity);
-    if (known) say("from " + file.string());
-    return known;
+  const auto read = [&]() -> std::optional<FoundDatabase> {
+    std::optional<HydrodynamicFile> entry = read_entry(file, identity);
+    if (!entry) return std::nullopt;
+    say("from " + file.string());
+    return take_entry(problem, std::move(*entry), file);
   };
   return take_or_make(
       file, read, [&] { say("waiting for another run that computes that of " + of_what); },
       [&] { return compute_database(problem, of_what, say, tell); },
-      [&](const dynamics::HydrodynamicDatabase& made) {
-        write_hydrodynamic_database(file, made, identity, "computed for a case with " + of_what);
+      [&](const FoundDatabase& made) {
+        HydrodynamicFile entry{
+            identity, "computed for a case with " + of_what, {0, {0.0}, {made.database}}};
+        if (may_lose_waves(problem)) entry.waves_lost = made.lost;
+        write_hydrodynamic_file(file, entry);
       });
 }
 
+/// What is found of a problem, for all draughts.
+struct FoundSeries {
+  dynamics::HydrodynamicSeries series;
+  WavesLost lost = {};  ///< of the bodies at their deepest
+};
+
 /// The databases of a problem with a body that is lowered.
-dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const Say& say,
-                                         const Tell& tell) {
+FoundSeries find_series(const RadiationProblem& problem, const Say& say, const Tell& tell) {
   const int body = problem.lowered_body();
   const RadiationProblem others = without_lowered(problem);
   const RadiationProblem::Body& lowered = problem.bodies[body];
@@ -303,20 +283,23 @@ dynamics::HydrodynamicSeries find_series(const RadiationProblem& problem, const 
   };
   std::optional<dynamics::HydrodynamicDatabase> alone;
   if (!others.bodies.empty()) {
-    alone = find_database(others, "", say, tell_of_all);
+    alone = find_database(others, "", say, tell_of_all).database;
     done += 1.0;
   }
   std::vector<double> draughts = {0.0};
   std::vector<dynamics::HydrodynamicDatabase> databases(1);
+  WavesLost lost;
   for (const double draught : lowered.draughts) {
     draughts.push_back(draught);
-    databases.push_back(find_database(
+    FoundDatabase found = find_database(
         at_draught(problem, draught),
-        fmt::format(", {} at a draught of {:.4g} m", lowered.name, draught), say, tell_of_all));
+        fmt::format(", {} at a draught of {:.4g} m", lowered.name, draught), say, tell_of_all);
+    databases.push_back(std::move(found.database));
+    lost = found.lost;
     done += 1.0;
   }
   databases[0] = with_dry_body(databases[1], body, alone ? &*alone : nullptr);
-  return dynamics::make_series(body, std::move(draughts), std::move(databases));
+  return {dynamics::make_series(body, std::move(draughts), std::move(databases)), lost};
 }
 
 }  // namespace
@@ -360,13 +343,18 @@ FoundRadiation find_radiation(const RadiationProblem& problem,
     if (progress) progress(fraction, what);
   };
   dynamics::HydrodynamicSeries series;
+  WavesLost lost;
   if (problem.given) {
     say("of the file that the case names");
     series = {0, {0.0}, {take_given_database(problem)}};
   } else if (problem.lowered_body() >= 0) {
-    series = find_series(problem, say, tell);
+    FoundSeries found = find_series(problem, say, tell);
+    series = std::move(found.series);
+    lost = found.lost;
   } else {
-    series = {0, {0.0}, {find_database(problem, "", say, tell)}};
+    FoundDatabase found = find_database(problem, "", say, tell);
+    series = {0, {0.0}, {std::move(found.database)}};
+    lost = found.lost;
   }
   if (problem.drifting) {
     dynamics::HydrodynamicDatabase& database = series.databases.front();
@@ -380,7 +368,7 @@ FoundRadiation find_radiation(const RadiationProblem& problem,
   const std::span<const dynamics::HydrodynamicDatabase> doubted =
       problem.given ? std::span(problem.given.get(), 1)
                     : std::span(std::as_const(series.databases));
-  std::vector<std::string> doubts = say_doubts(problem, doubted, say);
+  std::vector<std::string> doubts = say_doubts(problem, doubted, lost, say);
   series.memories = find_memories(series.databases, memory_fit_of_vessels(), say);
   return {std::make_shared<const dynamics::HydrodynamicSeries>(std::move(series)),
           std::move(doubts)};

@@ -19,8 +19,8 @@ double TimeSeries::at(double instant) const {
 namespace {
 
 /// Windows of two lists, in order; those that meet become one.
-std::vector<TimeWindow> joined(std::vector<TimeWindow> windows,
-                               const std::vector<TimeWindow>& others) {
+std::vector<TimeWindow> in_one_list(std::vector<TimeWindow> windows,
+                                    const std::vector<TimeWindow>& others) {
   windows.insert(windows.end(), others.begin(), others.end());
   std::sort(windows.begin(), windows.end(),
             [](const TimeWindow& a, const TimeWindow& b) { return a.from < b.from; });
@@ -47,7 +47,7 @@ std::vector<TimeWindow> gaps_of(const TimeSeries& series) {
   for (std::size_t i = 1; i < series.size(); ++i)
     if (series.time[i] - series.time[i - 1] > wide * usual)
       gaps.push_back({series.time[i - 1], series.time[i]});
-  return joined(std::move(gaps), series.left_out);
+  return in_one_list(std::move(gaps), series.left_out);
 }
 
 bool is_in_gap(const std::vector<TimeWindow>& gaps, double instant) {

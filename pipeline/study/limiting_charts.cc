@@ -112,9 +112,9 @@ std::string rose(const Compass& compass, const std::vector<double>& rings) {
   for (int angle = 0; angle < 360; angle += 45) {
     const auto end = compass.place(angle * degree, rings.back());
     const auto label = compass.place(angle * degree, rings.back() + 14 / compass.scale);
-    svg += fmt::format(
-        R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/><text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}°</text>)",
-        middle[0], middle[1], end[0], end[1], label[0], label[1] + 4, angle);
+    svg += fmt::format(R"(<line class="grid" x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}"/>)"
+                       R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle">{}°</text>)",
+                       middle[0], middle[1], end[0], end[1], label[0], label[1] + 4, angle);
   }
   return svg;
 }
@@ -136,7 +136,8 @@ std::string limits_of_period(const LimitingSeas& seas, std::size_t period, const
   }
   if (seas.go_round()) path += "Z";
   return fmt::format(
-      R"(<path d="{0}" stroke="{1}"/>{2}<text class="legend" x="{3}" y="{4}" text-anchor="end" fill="{1}">Tp {5:.4g} s</text>)",
+      R"(<path d="{0}" stroke="{1}"/>{2})"
+      R"(<text class="legend" x="{3}" y="{4}" text-anchor="end" fill="{1}">Tp {5:.4g} s</text>)",
       path, colour, dots, width_of_compass - 16, 44 + 12 * period, seas.periods[period]);
 }
 
@@ -172,7 +173,8 @@ std::string limiting_polar(const LimitingSeas& seas) {
   std::erase_if(rings, [](double ring) { return !(ring > 0); });
   const Compass compass{reach_of_compass / rings.back()};
   std::string svg = fmt::format(
-      R"(<svg viewBox="0 0 {} {}" role="img"><text class="title" x="8" y="14">Limiting significant height, m, by heading</text>)",
+      R"(<svg viewBox="0 0 {} {}" role="img">)"
+      R"(<text class="title" x="8" y="14">Limiting significant height, m, by heading</text>)",
       width_of_compass, height_of_compass);
   svg += rose(compass, rings);
   for (std::size_t p = 0; p < seas.periods.size(); ++p) svg += limits_of_period(seas, p, compass);

@@ -20,6 +20,7 @@ using Eigen::MatrixXd;
 
 constexpr const char* format_name = "blocklift hydrodynamic database";
 constexpr double format_version = 1;
+constexpr const char* waves_lost_group = "/waves_lost";
 
 std::string state_group(std::size_t index) { return "/states/" + std::to_string(index); }
 
@@ -131,6 +132,16 @@ void write_state(ResultsWriter& file, const std::string& group,
   write_drift(file, group, database);
 }
 
+void write_waves_lost(ResultsWriter& file, const WavesLost& lost) {
+  file.make_group(waves_lost_group);
+  file.write_attribute(waves_lost_group, "are", lost ? 1.0 : 0.0);
+  if (!lost) return;
+  file.write_attribute(waves_lost_group, "first", lost->first);
+  file.write_attribute(waves_lost_group, "second", lost->second);
+  file.write_attribute(waves_lost_group, "gap", lost->gap);
+  file.write_attribute(waves_lost_group, "shortest", lost->shortest);
+}
+
 void write_all(const std::filesystem::path& path, const HydrodynamicFile& contents) {
   const HydrodynamicDatabase& first = contents.series.databases.front();
   ResultsWriter file(path);
@@ -149,6 +160,7 @@ void write_all(const std::filesystem::path& path, const HydrodynamicFile& conten
   for (std::size_t k = 0; k < contents.series.databases.size(); ++k) {
     write_state(file, state_group(k), contents.series.databases[k], contents.series.draughts[k]);
   }
+  if (contents.waves_lost) write_waves_lost(file, *contents.waves_lost);
   file.finish();
 }
 
@@ -295,6 +307,27 @@ HydrodynamicDatabase read_state(const Source& source, const std::string& group,
   return database;
 }
 
+/// None where the file does not tell, or what it tells is of no use for so many bodies.
+std::optional<WavesLost> read_waves_lost(const ResultsReader& file, std::size_t bodies) {
+  if (!file.has(waves_lost_group)) return std::nullopt;
+  const auto number = [&](const char* name) {
+    return file.has_attribute(waves_lost_group, name)
+               ? file.read_number_attribute(waves_lost_group, name)
+               : dynamics::not_a_number;
+  };
+  if (number("are") == 0.0) return WavesLost{};
+  const double first = number("first"), second = number("second");
+  const auto is_body = [&](double body) {
+    return body >= 0.0 && body < static_cast<double>(bodies) && body == std::floor(body);
+  };
+  const double gap = number("gap"), shortest = number("shortest");
+  const bool is_sound = number("are") == 1.0 && is_body(first) && is_body(second) && gap >= 0.0 &&
+                        shortest > 0.0 && std::isfinite(gap + shortest);
+  if (!is_sound) return std::nullopt;
+  return WavesLost(
+      dynamics::CouplingReach{static_cast<int>(first), static_cast<int>(second), gap, shortest});
+}
+
 HydrodynamicFile read_all(const Source& source) {
   require_format(source);
   HydrodynamicFile result;
@@ -320,6 +353,7 @@ HydrodynamicFile read_all(const Source& source) {
   // water swings between hulls, damping may come out below zero.
   if (result.origin.starts_with(imported_from))
     std::for_each(databases.begin(), databases.end(), require_passive);
+  result.waves_lost = read_waves_lost(source.file(), common.body_names.size());
   result.series = make_series(static_cast<int>(lowered), std::move(draughts), std::move(databases));
   return result;
 }

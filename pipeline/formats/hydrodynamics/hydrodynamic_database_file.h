@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "dynamics/marine/panels/coupling_reach.h"
 #include "dynamics/marine/radiation/hydrodynamic_series.h"
 
 /// Hydrodynamic databases in HDF5, our own layout. Every dataset carries `units` and `description`;
@@ -15,6 +16,8 @@
 ///   /water                  density, gravity, depth (infinite: deep)
 ///   /bodies/names           [N]
 ///   /frequencies, /headings [F], [H]
+///   /waves_lost             where it was found out; attributes are (1: waves between bodies are
+///                           lost, 0: none), and of lost ones first, second, gap, shortest
 ///   /states/K               one for each draught, K = 0, 1 ...; attribute draught
 ///     reference_points      [N, 3], and where known centres_of_buoyancy, centres_of_mass
 ///     displaced_volumes     [N]
@@ -40,11 +43,16 @@ class HydrodynamicFileError : public std::runtime_error {
 /// How the origin begins of what another program computed.
 inline constexpr std::string_view imported_from = "imported from ";
 
+/// Between which bodies the panels on the water lose waves; none: between none.
+using WavesLost = std::optional<dynamics::CouplingReach>;
+
 /// What a file holds.
 struct HydrodynamicFile {
   std::string identity;  ///< ContentHash of all that it was computed from; empty: imported
   std::string origin;    ///< for people: which program made it, from what
   dynamics::HydrodynamicSeries series;
+  /// Of the mesh that it was computed on; not there where nobody asked.
+  std::optional<WavesLost> waves_lost = {};
 };
 
 /// Writes a file, whole or not at all.

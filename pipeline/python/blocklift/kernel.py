@@ -44,8 +44,8 @@ def simulate(case: Path, folder: Path, laws: Mapping[str, LawOrClass],
 def assess(case: Path, folder: Path, laws: Mapping[str, LawOrClass], decks: bool,
            changes: list[str]) -> None:
     """Assesses a case file in this process and writes its results into a folder."""
-    load().assess(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws), decks,
-                  changes)
+    load().assess(os.fspath(case), os.fspath(folder), os.fspath(executable()), _checked(laws),
+                  decks, changes)
 
 
 def sweep(study: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:

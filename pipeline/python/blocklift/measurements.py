@@ -80,7 +80,8 @@ def measured(result: Result | str | os.PathLike[str],
     """
     folder = result.folder if isinstance(result, Result) else result
     files = [records] if isinstance(records, (str, os.PathLike)) else list(records)
-    arguments: list[str | os.PathLike[str]] = ["measured", Path(folder), *map(Path, files), "--json"]
+    arguments: list[str | os.PathLike[str]] = ["measured", Path(folder), *map(Path, files),
+                                               "--json"]
     if shifts is not None:
         values = np.atleast_1d(np.asarray(shifts, dtype=float)).tolist()
         arguments.append("--shift=" + ",".join(repr(value) for value in values))

@@ -148,8 +148,8 @@ simulate: {duration: 0.1 s}
   EXPECT_NEAR(bar(0, 4), 1, 1e-15);  // and half-way along it
 }
 
-// A chain between level ends, L = 2 a sinh(X / 2 a) with a = 200 m: w a cosh(X / 2 a) at either. Asked
-// for or not, tensions of moorings and tuggers are among the results.
+// A chain between level ends, L = 2 a sinh(X / 2 a) with a = 200 m: w a cosh(X / 2 a) at either.
+// Asked for or not, tensions of moorings and tuggers are among the results.
 TEST(SimulateCommand, TellsTheTensionsOfMooringsAndTuggers) {
   const TemporaryFolder folder;
   const std::string lines = R"(mechanism: lines

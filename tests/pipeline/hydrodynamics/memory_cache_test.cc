@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <numbers>
 
@@ -13,6 +12,7 @@
 
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "pipeline/formats/hydrodynamics/convention_check.h"
+#include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -152,8 +152,8 @@ TEST(RadiationCache, DoubtsAreThoseOfTheFirstRun) {
   EXPECT_THAT(kept.doubts.front(), HasSubstr(fmt::format("changes by {:.0f} %", 100 * largest)));
 }
 
-// What the surface's mesh tells of the waves between bodies lies in the cache beside the database,
-// so that it is not meshed again.
+// What the surface's mesh tells of the waves between bodies lies in the database's own file, so
+// that it is not meshed again.
 TEST(RadiationCache, KeepsWhichWavesAreLost) {
   const OwnCache cache;
   RadiationProblem problem = lowered_box();
@@ -163,17 +163,33 @@ TEST(RadiationCache, KeepsWhichWavesAreLost) {
   problem.bodies.back().X_DB.p.y() = 4;
   problem.bodies.back().name = "other";
   const FoundRadiation computed = find_radiation(problem, {});
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(std::getenv("BLOCKLIFT_CACHE")))
-    if (entry.path().extension() == ".coupling") files.push_back(entry.path());
-  ASSERT_EQ(files.size(), 1U);
+  const fs::path file = fs::path(std::getenv("BLOCKLIFT_CACHE")) / (identity_of(problem) + ".h5");
+  HydrodynamicFile entry = read_hydrodynamic_file(file);
+  ASSERT_TRUE(entry.waves_lost);
+  const WavesLost found = *entry.waves_lost;
   EXPECT_EQ(find_radiation(problem, {}).doubts, computed.doubts);
-  std::ofstream(files[0]) << "waves lost between bodies, 1\nlost 0 1 4 77\n";
+  entry.waves_lost = WavesLost(dynamics::CouplingReach{0, 1, 4, 77});
+  write_hydrodynamic_file(file, entry);
   EXPECT_THAT(find_radiation(problem, {}).doubts,
               Contains(HasSubstr("ox and other lie 4 m apart: waves shorter than 77 m")));
-  // What is damaged is found again.
-  std::ofstream(files[0]) << "waves lost between bodies, 1\nlost 0 2 4 77\n";
-  EXPECT_EQ(find_radiation(problem, {}).doubts, computed.doubts);
+  // What is of no use, or what an older program did not write, is found again and put there; the
+  // database is not computed again.
+  const WavesLost of_no_body = dynamics::CouplingReach{0, 2, 4, 77};
+  for (const bool is_told : {false, true}) {
+    entry.waves_lost.reset();
+    if (is_told) entry.waves_lost.emplace(of_no_body);
+    write_hydrodynamic_file(file, entry);
+    std::vector<std::string> said;
+    EXPECT_EQ(
+        find_radiation(problem, [&](const std::string& what) { said.push_back(what); }).doubts,
+        computed.doubts);
+    EXPECT_THAT(said, Not(Contains(HasSubstr("computing"))));
+    const std::optional<WavesLost> again = read_hydrodynamic_file(file).waves_lost;
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->has_value(), found.has_value());
+  }
+  for (const auto& one : fs::directory_iterator(std::getenv("BLOCKLIFT_CACHE")))
+    EXPECT_NE(one.path().extension(), ".coupling");
 }
 
 /// What this program computes is of its own conventions, and what is spoilt is told.

@@ -479,8 +479,8 @@ Motion6 bent_upwards(const Vector3& x) {
   return motion;
 }
 
-// A pipe that bends is compressed on one side: the mean over a sector of 30 degrees about its lowest
-// line is sin(15 degrees) / (pi / 12) = 0.989 of the stress there, over one that ends at that line
+// A pipe that bends is compressed on one side: the mean over a sector of 30 degrees about its
+// lowest line is sin(15 degrees) / (pi / 12) = 0.989 of the stress there, over one that ends at that line
 // sin(75 degrees) times as much, 0.955; facets take 0.001 off. Round it a long pipe bears
 // 3 D / (R^2 t) (Timoshenko and Gere, 1961, chapter 7), however narrow its sectors.
 TEST(BlockPanels, APipeIsCutIntoSectors) {

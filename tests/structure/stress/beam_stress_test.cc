@@ -170,8 +170,8 @@ TEST(BeamStress, TwistedTaper) {
               1e-9 / torsion);
 }
 
-// By figures alone a section has fewer points where it does not resist torsion. Where a taper ends in
-// such a one, each place along it has its own number of them.
+// By figures alone a section has fewer points where it does not resist torsion. Where a taper ends
+// in such a one, each place along it has its own number of them.
 TEST(BeamStress, TaperWhoseTorsionConstantVanishes) {
   Mesh mesh = bar();
   mesh.beam_sections.push_back(mesh.beam_sections[0]);

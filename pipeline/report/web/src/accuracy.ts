@@ -68,16 +68,25 @@ export function methodSection(data: PageData): Section {
       (summary.assumptions ?? []).length > 0 && [h("h3", {}, "Assumptions"),
         h("ul", { class: "assumptions" }, summary.assumptions!.map((text) => h("li", {}, text)))],
       h("h3", {}, "Method"),
-      moved && h("p", {}, "Cranes, hook blocks and load are rigid bodies joined by driven joints and by ropes that pull but never push; "
-        + "rope and crane stiffness act in series. The equations of motion are set up recursively along the tree of bodies. The static "
-        + "curve is the equilibrium found at a row of instants of the operation; the dynamic curve integrates the equations in time with "
-        + "an implicit method of variable order and step that stops at stage changes and when a rope goes slack or tightens."),
-      structure && h("p", {}, "The rope forces act on the lugs, in the block's frame, together with the block's weight and inertia, so that "
-        + "forces and moments balance. The block is linear elastic: shells on the mid-planes of its plates, and beams; its supports only take "
-        + "away rigid motion and carry nothing. Displacements are relative to the rigid motion. The raw peak stress can lie at a sharp corner, "
-        + "where it grows with every refinement of the mesh; the checked stress is a mean over squares of 50 x 50 mm, which does not, and is the "
+      moved && h("p", {}, "Cranes, hook blocks and load are rigid bodies joined by driven joints "
+        + "and by ropes that pull but never push; "
+        + "rope and crane stiffness act in series. The equations of motion are set up recursively "
+        + "along the tree of bodies. The static "
+        + "curve is the equilibrium found at a row of instants of the operation; the dynamic "
+        + "curve integrates the equations in time with "
+        + "an implicit method of variable order and step that stops at stage changes and when a "
+        + "rope goes slack or tightens."),
+      structure && h("p", {}, "The rope forces act on the lugs, in the block's frame, together "
+        + "with the block's weight and inertia, so that "
+        + "forces and moments balance. The block is linear elastic: shells on the mid-planes of "
+        + "its plates, and beams; its supports only take "
+        + "away rigid motion and carry nothing. Displacements are relative to the rigid motion. "
+        + "The raw peak stress can lie at a sharp corner, "
+        + "where it grows with every refinement of the mesh; the checked stress is a mean over "
+        + "squares of 50 x 50 mm, which does not, and is the "
         + "one compared with yield."),
-      h("p", {}, "A utilisation is demand over limit; the verdict is a pass when every check passes. Forces in tonnes (1000 kg) are kN divided by 9.80665 m/s²."),
+      h("p", {}, "A utilisation is demand over limit; the verdict is a pass when every check "
+        + "passes. Forces in tonnes (1000 kg) are kN divided by 9.80665 m/s²."),
       (summary.files ?? []).length > 0 && table("Files of this result", [left("File"), left("Content")],
         summary.files!.map((file) => [h("code", {}, file.name), file.content])),
       data.case.yaml && h("details", { class: "case" }, h("summary", {}, "The case file"), h("pre", { tabindex: 0 }, data.case.yaml))],

@@ -54,7 +54,8 @@ function drawingsOf(blocks: ComparedBlock[]): Drawing[] {
 /** Puts the drawings before what the page says of the blocks without scripts. */
 export function showBlocks(data: ComparedBlocks, host: HTMLElement): void {
   if (!canDraw()) {
-    host.prepend(h("p", { class: "hint" }, "This browser does not draw in three dimensions (WebGL); the table has the largest stresses."));
+    host.prepend(h("p", { class: "hint" }, "This browser does not draw in three dimensions "
+      + "(WebGL); the table has the largest stresses."));
     return;
   }
   const pictures = h("div", {});
@@ -128,8 +129,11 @@ class BlockPictures {
   /** What the colours mean, in words. */
   private note(): string {
     const whole: Record<Way, string> = {
-      history: "Stress is the largest of the whole lift at each point, which may come at another instant in each result; deformation is that of the instant of the largest checked stress.",
-      simultaneous: "Stress and deformation are those of the worst of the instants of each rope's largest load.",
+      history: "Stress is the largest of the whole lift at each point, which may come at another "
+        + "instant in each result; deformation is that of the instant of the largest checked "
+        + "stress.",
+      simultaneous: "Stress and deformation are those of the worst of the instants of each rope's "
+        + "largest load.",
       per_rope_maxima: "Stress and deformation are those of each rope's largest load, all at once.",
     };
     return `${whole[this.data.way]} Differences count from ${this.reference.name}: red is more, blue is less, grey has no counterpart there.`;

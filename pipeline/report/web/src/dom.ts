@@ -54,7 +54,8 @@ export function equip(element: HTMLElement): void {
   const body = element.querySelector("table")!;
   const caption = body.caption!;
   const name = caption.textContent ?? "";
-  caption.append(h("button", { class: "copy", type: "button", title: "Copy this table, for a spreadsheet", "aria-label": `Copy: ${name}`,
+  caption.append(h("button", { class: "copy", type: "button", title: "Copy this table, for a "
+    + "spreadsheet", "aria-label": `Copy: ${name}`,
     onclick: (event: MouseEvent) => copyTable(body, event.currentTarget as HTMLButtonElement) }, "copy"),
   h("button", { class: "copy csv", type: "button", title: "Save this table as CSV", "aria-label": `Save as CSV: ${name}`,
     onclick: () => saveTable(body, name) }, "CSV"));

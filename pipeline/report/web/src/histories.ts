@@ -321,7 +321,8 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
   const readout = h("p", { class: "readout", "aria-live": "off" });
   const read = (time: number | null): void => { readout.textContent = readoutText(shown, data.stages, time ?? clock.time); };
   const host = h("div", {
-    class: "plot large", tabindex: 0, role: "img", "aria-label": "Tension over time; arrow keys move, plus and minus zoom, 0 shows all",
+    class: "plot large", tabindex: 0, role: "img", "aria-label": "Tension over time; arrow keys "
+      + "move, plus and minus zoom, 0 shows all",
     onkeydown: (event: KeyboardEvent) => {
       const keys: Record<string, () => void> = {
         ArrowLeft: () => group.move(-0.1, 1), ArrowRight: () => group.move(0.1, 1),
@@ -402,7 +403,8 @@ export function historiesSection(data: PageData, clock: Clock): Section | null {
     id: "histories", title: "Rope tensions", content: [
       h("div", { class: "plot-head" }, heading, legend(), svgButton("tension", () => onPaper(data, shown, clock, true))),
       stageButtons(data, group), host, paper, readout,
-      h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's instant (dashed). Rings mark the largest values. "
+      h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's "
+        + "instant (dashed). Rings mark the largest values. "
         + "The small plots all span the same number of kN; choose one by its name."),
       measuredText(data) && h("p", {}, measuredText(data)),
       grid("rope"),
@@ -509,7 +511,8 @@ export function outputsSection(data: PageData, clock: Clock): Section | null {
   }
   clock.listen(() => group.redraw());
   return { id: "outputs", title: "Outputs", content: [
-    h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's instant (dashed)."),
+    h("p", { class: "hint" }, "Drag to zoom, double-click for all, click to set the drawing's "
+      + "instant (dashed)."),
     h("div", { class: "tiles two" }, [...tiles].map(([title, packed]) => tileOf(data, group, clock, {
       title, packed, series: packed.map((one) => new Series(one)), label: (one) => one.quantity.replace(/_/g, " "), factor: 1,
       unit: packed[0].units, plugins: [nowLine(clock)] })))] };

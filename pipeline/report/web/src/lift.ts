@@ -19,7 +19,8 @@ interface Rope { name: string; sling: boolean; segments: three.Mesh[]; label?: {
 
 /** The scene in three dimensions; show() puts everything where it is at an instant. */
 class LiftView {
-  readonly viewer = new Viewer(1, 520, "Drawing of the lift; drag or arrow keys turn it, plus and minus zoom");
+  readonly viewer = new Viewer(1, 520, "Drawing of the lift; drag or arrow keys turn it, plus and "
+    + "minus zoom");
   followLoad = false;
   private closeUp = false;
   /** Largest motion of a natural mode in the drawing, m: what the eye sees well. */
@@ -185,7 +186,8 @@ function stageStrip(data: PageData, scene: Scene, bodies: Bodies, clock: Clock):
 function vibrationBar(clock: Clock, view: LiftView, player: VibrationPlayer, bodies: () => Bodies, atRest: () => void): HTMLElement {
   const shownPeriod = 2500;  // ms of one swing on the screen, whatever its true period
   const name = h("b", {});
-  const bar = h("p", { class: "vibration", hidden: true }, "Natural motion, enlarged and not at its own pace: ", name, " ",
+  const bar = h("p", { class: "vibration", hidden: true }, "Natural motion, enlarged and not at "
+    + "its own pace: ", name, " ",
     h("button", { type: "button", onclick: () => player.play(null) }, "stop"));
   let begun = 0;
   const step = (moment: number): void => {
@@ -244,7 +246,8 @@ export function liftSection(data: PageData, clock: Clock, player: VibrationPlaye
     clock.listen(drawElevations);
     drawings.classList.add("always");
     return { id: "lift", title: scene.load ? "The lift" : "The motion", content: [h("div", { class: "player" }, time, now), drawings, tensionPanel(data, clock), strip,
-      h("p", { class: "hint" }, "This browser does not draw in three dimensions (WebGL); the elevations take its place.")] };
+      h("p", { class: "hint" }, "This browser does not draw in three dimensions (WebGL); the "
+        + "elevations take its place.")] };
   }
   const view = new LiftView(data, scene, bodies, times);
   clock.listen((value) => view.show(value));

@@ -30,8 +30,10 @@ function ropeTable(data: PageData, clock: Clock): Child {
     { head: "Static, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
     { head: "Dynamic, kN" }, { head: "tonnes" }, ...(timed ? [{ head: "at, s" }, { head: "in stage", align: "left" } as Column] : []),
     { head: "Dynamic / static" },
-    ...(broken ? [{ head: "Share of breaking load", title: "largest dynamic tension over breaking load, less what bends take of it" }] : []),
-    ...(curved ? [{ head: "Strain, %", title: "of ropes that stretch by a curve, at the largest dynamic tension" }] : []),
+    ...(broken ? [{ head: "Share of breaking load", title: "largest dynamic tension over breaking "
+      + "load, less what bends take of it" }] : []),
+    ...(curved ? [{ head: "Strain, %", title: "of ropes that stretch by a curve, at the largest "
+      + "dynamic tension" }] : []),
   ];
   const instant = (time: unknown): Child[] => timed
     ? [timeCell(data, clock, time), h("span", { class: "stage" }, known(time) ? stageAt(data.stages, time) : missing)] : [];
@@ -72,7 +74,8 @@ function stageTable(data: PageData): Child {
     const worst = [...stage.ropes ?? []].sort((a, b) => (b.max_dynamic_tension_N ?? 0) - (a.max_dynamic_tension_N ?? 0))[0];
     return [stageName(stage), seconds(stage.start_s), seconds(stage.end_s), worst?.name ?? missing, ...both3(worst), ...both3(stage.load)];
   });
-  return table("Stage by stage: the rope with the largest load, and all slings together (each rope: annex)", [
+  return table("Stage by stage: the rope with the largest load, and all slings together (each "
+    + "rope: annex)", [
     { head: "Stage", align: "left" }, { head: "from, s" }, { head: "to, s" }, { head: "Rope", align: "left" },
     { head: "Static, tonnes" }, { head: "Dynamic, tonnes" }, { head: "more" },
     { head: "All slings static, tonnes" }, { head: "Dynamic, tonnes" }, { head: "more" }], short);
@@ -152,7 +155,9 @@ export function loadsSection(data: PageData, clock: Clock): Section | null {
   return {
     id: "loads", title: "Loads", content: [
       h("p", { class: "lead" }, moved
-        ? "Static: equilibrium of the same operation at the same winch lengths and crane positions, at rest. Dynamic: the integration in time. Each maximum is over the whole operation."
+        ? "Static: equilibrium of the same operation at the same winch lengths and crane "
+          + "positions, at rest. Dynamic: the integration in time. Each maximum is over the whole "
+          + "operation."
         : "The rope loads were given in the case file; no motion was computed."),
       ropeTable(data, clock), stageTable(data), comparisonTable(data),
       capacityTable("Hoists", "Hoist", data.summary.hoists, data, clock),

@@ -56,7 +56,8 @@ export function measuresSection(data: PageData, clock: Clock): Section | null {
   };
   return {
     id: "measures", title: "Attitude, angles, radii and clearances", short: "Angles and clearances", content: [
-      h("p", { class: "lead" }, "What follows from where the parts are and what pulls at them, over the whole operation: of each kind the one that is furthest out."),
+      h("p", { class: "lead" }, "What follows from where the parts are and what pulls at them, "
+        + "over the whole operation: of each kind the one that is furthest out."),
       folded("Angles and clearances", "Furthest out", columns, [...worst, ...rest].map(row), worst.length),
       measurePlots(data, clock, kinds.map((kind) => ({ kind, packed: ofKind(kind) })).filter(({ packed }) => packed.length > 0))],
   };

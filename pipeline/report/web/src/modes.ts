@@ -92,7 +92,8 @@ function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], pl
   const columns: Column[] = [
     { head: "Motion", align: "left" }, { head: "Period, s" }, { head: "Frequency, Hz" },
     { head: "Damping ratio", title: "share of critical damping" },
-    { head: "Elastic", title: "part of the restoring energy in stretched ropes; the rest is weight: a pendulum 0 %, a bounce 100 %" },
+    { head: "Elastic", title: "part of the restoring energy in stretched ropes; the rest is "
+      + "weight: a pendulum 0 %, a bounce 100 %" },
     { head: "Kinetic energy in", align: "left" }, ...(play ? [{ head: "" }] : []),
   ];
   return table(caption, columns, modes.map((mode) => [
@@ -100,7 +101,8 @@ function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], pl
     period(mode), mode.kind === "neutral" || mode.kind === "overdamped" ? missing : significant(mode.frequency_Hz, 3),
     mode.kind === "neutral" ? missing : `${fixed((mode.damping_ratio ?? 0) * 100, 2)}\u202f%`,
     share(mode.elastic_share), mover(mode),
-    ...(play ? [h("button", { type: "button", class: "time show-mode", title: "Play this motion in the drawing", onclick: () => play(all.indexOf(mode)) }, "show")] : []),
+    ...(play ? [h("button", { type: "button", class: "time show-mode", title: "Play this motion "
+      + "in the drawing", onclick: () => play(all.indexOf(mode)) }, "show")] : []),
   ]));
 }
 
@@ -112,7 +114,8 @@ function overview(data: PageData, load: string, clock: Clock): Child {
   for (const { modes } of instants) for (const mode of modes) if (isMain(mode, load) && !names.includes(mode.name)) names.push(mode.name);
   const columns: Column[] = [{ head: "Instant", align: "left" }, { head: "at, s" }, ...names.map((name) => ({ head: name }))];
   return table("Natural periods along the operation, s", columns, instants.map(({ instant, time_s: time, modes }) => [instant,
-    data.scene ? h("button", { class: "time", type: "button", title: "Show this instant in the drawing", onclick: () => {
+    data.scene ? h("button", { class: "time", type: "button", title: "Show this instant in the "
+      + "drawing", onclick: () => {
       clock.set(time);
       document.getElementById("lift")?.scrollIntoView({ behavior: "smooth" });
     } }, seconds(time)) : seconds(time),
@@ -156,10 +159,13 @@ export function modesSection(data: PageData, clock: Clock, player: VibrationPlay
     instants.map((one, i) => h("option", { value: i }, `${one.instant}, ${seconds(one.time_s)} s`)));
   return {
     id: "periods", title: "Natural periods", content: [
-      h("p", { class: "lead" }, load ? "The motions that the lift has of its own while it hangs at rest, drives and winches held: a push or a "
-        + "start of the cranes wakes those whose period it meets. Small vibrations about the equilibrium at the start, after each stage, "
+      h("p", { class: "lead" }, load ? "The motions that the lift has of its own while it hangs "
+        + "at rest, drives and winches held: a push or a "
+        + "start of the cranes wakes those whose period it meets. Small vibrations about the "
+        + "equilibrium at the start, after each stage, "
         + "and where a rope at rest is nearest to breaking."
-        : "The motions that the mechanism has of its own at rest, drives and winches held: small vibrations about its equilibrium at the start."),
+        : "The motions that the mechanism has of its own at rest, drives and winches held: small "
+          + "vibrations about its equilibrium at the start."),
       overview(data, load, clock),
       instants.length > 1 ? h("div", { class: "controls" }, h("label", {}, "Instant ", which)) : null, body],
   };

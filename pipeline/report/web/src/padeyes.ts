@@ -77,7 +77,8 @@ export function padeyesSection(data: PageData): Section | null {
   return {
     id: "padeyes", title: "Padeyes", content: [
       h("p", { class: "lead" }, `Each padeye is cut from the block along its base and meshed finely (up to ${significant(unknowns, 3)} unknowns); `
-        + "the block's displacement drives its base, the pin presses on half of its hole with the cosine of the angle from the rope's direction."),
+        + "the block's displacement drives its base, the pin presses on half of its hole with the "
+        + "cosine of the angle from the rope's direction."),
       pictures(data.padeyes ?? []),
       folded("Padeyes", "Stress of the fine mesh (without consequence factor)", [{ head: "Lug", align: "left" }, { head: "Instant", align: "left" },
         { head: "at, s" }, { head: "Force, kN" }, { head: "along the pin, kN" }, { head: "Main plate, checked, MPa" },

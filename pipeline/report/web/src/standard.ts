@@ -33,7 +33,8 @@ function chainTable(chain: Chain, governing: boolean): Child {
   }
   return h("details", { class: "chain", open: governing }, h("summary", {}, chain.name),
     table(`Chain of factors: ${chain.name}`, [{ head: "", align: "left" }, { head: "Step", align: "left" },
-      { head: "By the standard" }, { head: "By the simulation" }, { head: "Clause, or key of the input", align: "left" }], rows, "checks"));
+      { head: "By the standard" }, { head: "By the simulation" }, { head: "Clause, or key of the "
+        + "input", align: "left" }], rows, "checks"));
 }
 
 function utilisations(chains: Chain[], governing: string | undefined): Child {
@@ -46,7 +47,8 @@ function utilisations(chains: Chain[], governing: string | undefined): Child {
     bar(chain.standard_utilisation, (chain.standard_utilisation ?? 0) <= 1),
     value(chain.simulated, chain.unit), value(chain.simulated_limit, chain.unit),
     bar(chain.simulated_utilisation, (chain.simulated_utilisation ?? 0) <= 1), mark(chain.pass === true)]);
-  return folded("By the rules", "Utilisations: by the standard's factors, and with the simulation in their place", [
+  return folded("By the rules", "Utilisations: by the standard's factors, and with the simulation "
+    + "in their place", [
     { head: "What", align: "left" }, { head: "By the standard" }, { head: "Limit" }, { head: "Utilisation", align: "left" },
     { head: "By the simulation" }, { head: "Limit" }, { head: "Utilisation", align: "left" }, { head: "Result", align: "left" }],
   rows, Math.max(6, sorted.filter((chain) => !chain.pass).length), "checks");
@@ -57,8 +59,10 @@ export function standardSection(data: PageData): Section | null {
   if (!standard || standard.chains.length === 0) return null;
   return {
     id: "standard", title: `By the rules ${standard.name}`, short: standard.name, content: [
-      h("p", { class: "lead" }, "The standard's column takes every factor of its rules on the largest load at rest. The simulation's column takes what "
-        + "the motion did to this very thing in place of amplification, tilt and yaw. Both take contingency and centre of mass."),
+      h("p", { class: "lead" }, "The standard's column takes every factor of its rules on the "
+        + "largest load at rest. The simulation's column takes what "
+        + "the motion did to this very thing in place of amplification, tilt and yaw. Both take "
+        + "contingency and centre of mass."),
       h("ul", {}, (standard.notes ?? []).map((note) => h("li", {}, note))),
       utilisations(standard.chains, standard.governing),
       standard.chains.map((chain) => chainTable(chain, chain.name === standard.governing)),

@@ -20,7 +20,8 @@ export function stressSection(data: PageData): Section | null {
   const ways = (["history", "simultaneous", "per_rope_maxima"] as const).filter((way) => fields[way]);
   if (!surface.points || ways.length === 0) return note ? { id: "stress", title: "Stress pictures", content: note } : null;
   if (!canDraw()) return { id: "stress", title: "Stress pictures", content: h("p", { class: "hint" },
-    "This browser does not draw in three dimensions (WebGL). The figures are in the tables below, the fields in the .vtu files.") };
+    "This browser does not draw in three dimensions (WebGL). The figures are in the tables below, "
+      + "the fields in the .vtu files.") };
   return { id: "stress", title: "Stress pictures", content: [stressPictures(data, new BlockSurface(surface), ways), note] };
 }
 
@@ -28,7 +29,8 @@ function stressPictures(data: PageData, surface: BlockSurface, ways: Way[]): HTM
   const fields = data.surface!.fields!;
   const structure = data.summary.structure;
   const shown = states.filter((state) => ways.some((way) => fields[way]![state]));
-  const viewer = new Viewer(shown.length, 460, "Stress of the block, static left and dynamic right; drag or arrow keys turn both");
+  const viewer = new Viewer(shown.length, 460, "Stress of the block, static left and dynamic "
+    + "right; drag or arrow keys turn both");
   const scale = new StressScale(colourTexture());
   const panes = shown.map((state, i) => new StressPane(surface, viewer, i, scale, state));
   const captions = shown.map((state) => h("figcaption", { class: state }));

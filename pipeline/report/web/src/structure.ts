@@ -11,7 +11,8 @@ const left = (head: string): Column => ({ head, align: "left" });
 function accuracyText(accuracy: CheckedAccuracy | undefined): string {
   const steps = accuracy?.steps ?? [];
   if (!accuracy || steps.length === 0) return "";
-  if (steps.length === 1) return "one mesh only: how far the stress moves with the mesh is not known";
+  if (steps.length === 1) return "one mesh only: how far the stress moves with the mesh is not "
+    + "known";
   return `the last of ${steps.length} meshes moved the stress by ${fixed(100 * (accuracy.stress_change ?? 0), 1)}\u202f%, `
     + `the increase by ${fixed(accuracy.increase_change_percent, 1)} points`
     + (accuracy.is_reached ? "" : `: the ${fixed(100 * (accuracy.asked ?? 0), 0)}\u202f% that are asked for are not reached`);
@@ -27,7 +28,8 @@ function waysTable(data: PageData, structure: Structure): Child {
       millimetres(way.static?.max_displacement_m), millimetres(way.dynamic?.max_displacement_m), change(way.deformation_increase_percent)]);
   };
   if (structure.history) row(h("b", {}, "The whole lift, every instant"), structure.history);
-  row(structure.load_table ? "The loads of the table" : "The worst of the instants of each rope's largest load", structure.simultaneous);
+  row(structure.load_table ? "The loads of the table" : "The worst of the instants of each rope's "
+    + "largest load", structure.simultaneous);
   if (!structure.load_table) row("Per-rope maxima, all at once", structure.per_rope_maxima);
   const published = data.summary.comparison;
   if (published && (known(published.stress_increase_percent) || known(published.deformation_increase_percent))) {
@@ -39,7 +41,8 @@ function waysTable(data: PageData, structure: Structure): Child {
       { head: "Static, MPa" }, { head: "Dynamic, MPa" }, { head: "Increase" },
       { head: "Static, mm" }, { head: "Dynamic, mm" }, { head: "Increase" }], rows),
     structure.load_table ? null : h("p", { class: "source" },
-      "An increase compares the worst instant at rest with the worst in motion, wherever on the block each is.")];
+      "An increase compares the worst instant at rest with the worst in motion, wherever on the "
+        + "block each is.")];
 }
 
 /** The instants of each rope's largest load, one by one. */
@@ -73,10 +76,12 @@ function historyTables(structure: Structure): Child {
     fixed(one.cycles_per_lift, 0), scientific(one.damage_per_lift), scientific(one.damage)]);
   return [
     table("Every instant: the largest stress and deformation of the whole lift", [left("History"), { head: "Checked, MPa" }, left("in"),
-      { head: "Away from corners, MPa", title: "largest of the squares that no corner of plates, lugs or openings is near" }, { head: "at, s" }, left("Rope"), { head: "its share, %" }, { head: "Raw peak, MPa" }, { head: "Deformation, mm" }], states),
+      { head: "Away from corners, MPa", title: "largest of the squares that no corner of plates, "
+        + "lugs or openings is near" }, { head: "at, s" }, left("Rope"), { head: "its share, %" }, { head: "Raw peak, MPa" }, { head: "Deformation, mm" }], states),
     table("What simpler practices give in its place (negative: too little)", [left("Practice"), left("Safe"),
       { head: "Largest stress" }, { head: "Where it falls short most" }, left("in"), { head: "Plate area short, %",
-        title: "of the patches that see at least half of the largest stress, those more than 1 % short" }], practices),
+        title: "of the patches that see at least half of the largest stress, those more than 1 % "
+          + "short" }], practices),
     table(`Stress in time and wear, ${history.fatigue?.source ?? ""} curve ${history.fatigue?.curve ?? missing}, ${
       fixed(history.fatigue?.lifts, 0)} ${history.fatigue?.lifts === 1 ? "lift" : "lifts"}`, [left("Place"), left("in"), { head: "at x, y, z" }, { head: "Static, MPa" },
       { head: "Dynamic, MPa" }, { head: "Largest range, MPa" }, { head: "Cycles a lift" }, { head: "Damage a lift" }, { head: "Damage" }], wear)];
@@ -129,7 +134,8 @@ function bucklingTable(structure: Structure): Child {
   if (panels.length === 0) return null;
   return folded("Block", `Panels nearest to buckling, of ${structure.buckling?.panels_looked_at ?? panels.length}, over the whole lift`, [left("Plate"),
     { head: "Centre x, y, z, m" }, { head: "Field, m" }, { head: "thickness, mm" }, { head: "Free edges", align: "left", title: "edges where no plate crosses; the others are simply supported. Side 1 is the field's first length, side 2 its second" },
-    { head: "Mean stress 11, 22, 12, MPa", title: "tension positive" }, { head: "At the most compressed edge 11, 22, MPa" }, left("State"), { head: "at, s" },
+    { head: "Mean stress 11, 22, 12, MPa", title: "tension positive" }, { head: "At the most "
+      + "compressed edge 11, 22, MPa" }, left("State"), { head: "at, s" },
     { head: "Elastic utilisation" }, { head: "Johnson-Ostenfeld" }],
   panels.map((panel) => [panel.plate, point(panel.centre_m), panel.field_m?.map((side) => fixed(side, 2)).join(" x ") ?? missing,
     millimetres(panel.thickness_m), freeEdges(panel), [panel.s11_Pa, panel.s22_Pa, panel.s12_Pa].map(megapascals).join(", "), edgeStresses(panel), panel.state ?? missing,
@@ -142,7 +148,8 @@ function barsTable(structure: Structure): Child {
   const bars = buckling?.bars ?? [];
   if (bars.length === 0) return null;
   return folded("Block", `Bars and stiffeners as columns: those that bear most of ${buckling?.bars_looked_at ?? bars.length}, over the whole lift`, [left("Bar"),
-    { head: "From x, y, z, m" }, { head: "To, m" }, { head: "With plate, mm" }, { head: "Buckling length, m" }, { head: "Compression, kN" }, { head: "Moments, kNm" },
+    { head: "From x, y, z, m" }, { head: "To, m" }, { head: "With plate, mm" }, { head: "Buckling "
+      + "length, m" }, { head: "Compression, kN" }, { head: "Moments, kNm" },
     { head: "Buckling load, kN" }, left("State"), { head: "at, s" }, { head: `Utilisation, forces times ${fixed(buckling?.bar_factor, 2)}` }, { head: "Tripping: length, m" }, { head: "compression, MPa" }, { head: "strength, MPa" }, { head: "utilisation" }],
   bars.map((bar) => [bar.bar, point(bar.from_m), point(bar.to_m), bar.plate_width_m ? millimetres(bar.plate_width_m) : missing,
     fixed(bar.buckling_length_m, 2), kilonewtons(bar.compression_N),
@@ -161,7 +168,8 @@ function balanceTable(structure: Structure): Child {
   row("Simultaneous", structure.simultaneous);
   row("Per-rope maxima", structure.per_rope_maxima);
   return table("Balance: what must vanish for a hanging block", [left("Loads"),
-    { head: "Force residual / load" }, { head: "Moment residual / load" }, { head: "Support reactions / weight" }], rows);
+    { head: "Force residual / load" }, { head: "Moment residual / load" }, { head: "Support "
+      + "reactions / weight" }], rows);
 }
 
 /** Mesh after mesh about what governs: by how much the checked stress and its increase still move. */
@@ -195,7 +203,8 @@ function modelText(structure: Structure): string {
   if (known(structure.mesh_size_m)) parts.push(`largest element ${fixed(structure.mesh_size_m, 2)} m`);
   if (structure.material) parts.push(structure.material + (known(structure.yield_Pa) ? ` (yield ${megapascals(structure.yield_Pa)} MPa)` : ""));
   const error = structure.estimated_error;
-  if (known(error?.relative) && !error!.worst_part) parts.push("bars alone, whose elements hold end loads and even loads exactly");
+  if (known(error?.relative) && !error!.worst_part) parts.push("bars alone, whose elements hold "
+    + "end loads and even loads exactly");
   else if (known(error?.relative)) parts.push(`estimated error of the stress field ${fixed(100 * error!.relative!, 1)}\u202f% in the energy norm, `
     + `most of it in ${error!.worst_part}`);
   return parts.length ? `Model: ${parts.join(", ")}.` : "";
@@ -209,10 +218,14 @@ export function structureSection(data: PageData): Section | null {
   addToAnnex("Block", balanceTable(structure));
   return {
     id: "structure", title: "Block stress and deformation", short: "Block", content: [
-      h("p", { class: "lead" }, (structure.history ? "The whole lift: every instant; what is checked and leads the page. " : "")
-        + (structure.load_table ? "The loads of the case's table, which has no instants: simultaneous and per-rope maxima are the same. "
-          : "Simultaneous: the instant of one rope's largest load, every other rope at its value then; the "
-        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at once. "), modelText(structure)),
+      h("p", { class: "lead" }, (structure.history ? "The whole lift: every instant; what is "
+        + "checked and leads the page. " : "")
+        + (structure.load_table ? "The loads of the case's table, which has no instants: "
+        + "simultaneous and per-rope maxima are the same. "
+          : "Simultaneous: the instant of one rope's largest load, every other rope at its value "
+            + "then; the "
+        + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at "
+        + "once. "), modelText(structure)),
       waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), barsTable(structure), massTable(structure)],
   };
 }

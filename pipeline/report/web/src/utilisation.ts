@@ -14,7 +14,8 @@ export function bar(utilisation: unknown, pass: boolean): Child {
     h("span", { class: "bar", "aria-hidden": "true" },
       h("span", { class: pass ? "fill" : "fill failed", style: `width:${width}%` }),
       h("span", { class: "limit", style: `left:${100 / full}%` })),
-    h("span", { class: "value" }, utilisation < beyondAnyLimit ? share(utilisation) : "beyond any limit"));
+    h("span", { class: "value" }, utilisation < beyondAnyLimit ? share(utilisation) : "beyond any "
+      + "limit"));
 }
 
 export function mark(pass: boolean): Child {

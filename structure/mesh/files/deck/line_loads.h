@@ -7,7 +7,8 @@
 
 namespace blocklift::structure {
 
-/// Force and moment of a load along a beam, per m of the line that bears it or, at one place, whole.
+/// Force and moment of a load along a beam, per m of the line that bears it or, at one place,
+/// whole.
 struct LoadAtPlace {
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
 };

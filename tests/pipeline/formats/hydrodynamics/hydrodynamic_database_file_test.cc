@@ -100,6 +100,29 @@ TEST(HydrodynamicDatabaseFile, ReadsExactlyWhatWasWritten) {
   EXPECT_EQ(read_hydrodynamic_file("db.h5").origin, "made up");
 }
 
+// Not told, none lost and lost ones are three answers; one that names a body which is not there is
+// none.
+TEST(HydrodynamicDatabaseFile, TellsWhichWavesAreLost) {
+  const test::TemporaryFolder folder;
+  HydrodynamicFile file{"0123", "made up", {0, {0.0}, {make_sample_database()}}};
+  const auto kept = [&] {
+    write_hydrodynamic_file("db.h5", file);
+    return read_hydrodynamic_file("db.h5").waves_lost;
+  };
+  EXPECT_FALSE(kept());
+  file.waves_lost.emplace();
+  ASSERT_TRUE(kept());
+  EXPECT_FALSE(*kept());
+  file.waves_lost.emplace(dynamics::CouplingReach{0, 1, 4.25, 77.5});
+  const std::optional<WavesLost> lost = kept();
+  ASSERT_TRUE(lost && *lost);
+  EXPECT_EQ((*lost)->second, 1);
+  EXPECT_EQ((*lost)->gap, 4.25);
+  EXPECT_EQ((*lost)->shortest, 77.5);
+  file.waves_lost.emplace(dynamics::CouplingReach{0, 2, 4.25, 77.5});
+  EXPECT_FALSE(kept());
+}
+
 TEST(HydrodynamicDatabaseFile, KeepsDriftAndFarField) {
   const test::TemporaryFolder folder;
   HydrodynamicDatabase database = make_sample_database();
