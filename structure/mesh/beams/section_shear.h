@@ -64,7 +64,8 @@ std::vector<Eigen::Vector2d> stress_points(const BeamSection& section);
 ///   flanges of two widths, where the centroid is off the middle.
 /// Where the points do not tell height and width, J does if it is that of two thin flanges and a web
 /// (J = (2 b t_f^3 + h t_w^3) / 3) that have A and both second moments, too; not of a box, whose thin
-/// webs may then have 1.8 times as much as 2 / A. A web has 0.15 of the area at least.
+/// webs may then have 1.8 times as much as 2 / A; nor where J is more than half of the lesser second
+/// moment, as that of solid bars is. A web has 0.15 of the area at least.
 ///
 /// At the stress points themselves a force has none, for at the edge nothing flows across it; all of
 /// it, with the signs of either force, counts at four fifths of their way from the centroid. So
