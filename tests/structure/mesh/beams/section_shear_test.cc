@@ -354,8 +354,8 @@ TEST(SectionShear, ShapesOfRectanglesByFigures) {
   const BeamSection i = i_beam(h, web, b, flange, b, flange).section;
   const double moment = b * flange * (h - flange) / 2 + web * inner * inner / 8;
   EXPECT_NEAR(ratio(i, {1, 0}, moment / (i.second_moment_3 * web)), 1.06, 1e-6);
-  // Level: each flange as a rectangle of its own; the web adds 0.02 % to the second moment.
-  EXPECT_NEAR(ratio(i, {0, 1}, 1.5 / (2 * b * flange)), 1, 1e-3);
+  // Level: each flange as a rectangle of its own; the web adds 0.14 % to the second moment.
+  EXPECT_NEAR(ratio(i, {0, 1}, 1.5 / (2 * b * flange)), 1, 2e-3);
   const BeamSection bar = solid_rectangle(0.3, 0.02).section;
   BeamSection without_points = bar;
   without_points.stress_points.clear();
