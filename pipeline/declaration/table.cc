@@ -27,7 +27,7 @@ bool may_be_unread(const ValueDescription& value) {
 }
 
 /// "a mass is due", "the keys of a load are due".
-std::string what_is_due(const ValueDescription& value) {
+std::string due_text(const ValueDescription& value) {
   using Kind = ValueDescription::Kind;
   const bool are_many = value.kind == Kind::table || value.kind == Kind::names_to;
   return value.phrase() + (are_many ? " are due" : " is due");
@@ -125,7 +125,7 @@ void Keys::leave_out(const Key& key, const Mark& mark, Reading& reading, void* v
   const KeyDescription& description = key.description;
   if (description.required) {
     reading.error(mark, reading.owner() + " lacks the key \"" + description.name + "\"",
-                  {what_is_due(*description.value) + ": " + description.description});
+                  {due_text(*description.value) + ": " + description.description});
   } else if (!description.default_text.empty()) {
     reading.with_key(description.name, [&] {
       return key.read(*key.reader, key.member, parse_default(description.default_text), mark,
