@@ -151,7 +151,7 @@ void add_hydro(CLI::App& app, int& code) {
       ->check(CLI::PositiveNumber);
   command->add_option(
       "--import", options->import,
-      "take over a database: BEMIO .h5, WAMIT .1 (with .3 and .hst), Capytaine .nc, "
+      "take over a database: BEMIO .h5, WAMIT .1 (with .3 or .2, and .hst), Capytaine .nc, "
       "or one of blocklift's own for --export");
   command
       ->add_option("--export", options->export_format, "write what is imported as bemio or wamit")
@@ -228,7 +228,7 @@ void add_sweep(CLI::App& app, int& code) {
 void add_rig(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "rig",
-      "Choose slings, shackles, master links and spreader bars from stock for a case, by its "
+      "Choose slings, shackles, master links, sheaves and spreaders from stock for a case, by its "
       "checks and its own loads");
   auto options = std::make_shared<RigOptions>();
   command->add_option("CASE", options->path, "case file, or folder with a case.yaml")->required();

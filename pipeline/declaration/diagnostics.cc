@@ -47,6 +47,24 @@ std::string shortened(const std::string& message) {
   return beginning_of(text, longest_message);
 }
 
+/// Keeps the first of complaints that say the same of one place: what an anchor holds is read at
+/// each of its names, and its faults are found again. Those of one place stand beside each other.
+void drop_repeated(std::vector<const Diagnostic*>& sorted) {
+  const auto is_same_place = [](const Mark& a, const Mark& b) {
+    return a.file == b.file && a.line == b.line && a.column == b.column;
+  };
+  std::vector<const Diagnostic*> kept;
+  for (const Diagnostic* error : sorted) {
+    bool is_told = false;
+    for (auto told = kept.rbegin(); told != kept.rend() && !is_told; ++told) {
+      if (!is_same_place((*told)->mark, error->mark)) break;
+      is_told = (*told)->message == error->message && (*told)->hints == error->hints;
+    }
+    if (!is_told) kept.push_back(error);
+  }
+  sorted = std::move(kept);
+}
+
 }  // namespace
 
 void Diagnostics::error(Mark mark, std::string message, std::vector<std::string> hints) {
@@ -71,6 +89,8 @@ std::string Diagnostics::to_text() const {
     return std::tuple(order_of_file.at(file_of(*a)), a->mark.line, a->mark.column) <
            std::tuple(order_of_file.at(file_of(*b)), b->mark.line, b->mark.column);
   });
+
+  drop_repeated(sorted);
 
   std::string text;
   for (std::size_t i = 0; i < std::min(sorted.size(), most_printed); ++i) {

@@ -120,6 +120,8 @@ std::optional<std::string> read_text(const fs::path& path,
 
 /// What the parser says, put so that one knows what to do about it.
 std::vector<std::string> hints_for(const YAML::Exception& exception, const std::string& text) {
+  if (exception.msg.starts_with("end of ") && exception.msg.ends_with("flow not found"))
+    return {"a bracket in this line or above it is opened and not closed"};
   std::vector<std::string> hints;
   std::size_t begin = 0;
   for (int line = 0; line < exception.mark.line && begin != std::string::npos; ++line) {

@@ -196,6 +196,22 @@ class UnitDatabase {
   std::map<std::string, std::optional<UnitMeaning>> meanings_;
 };
 
+/// The text with blanks and a minus of ASCII. Texts that are copied from a data sheet or from a
+/// report have others: no-break, thin and narrow no-break spaces, and U+2212.
+std::string with_plain_signs(std::string_view text) {
+  static constexpr std::array<std::pair<std::string_view, char>, 4> signs = {
+      {{"\xC2\xA0", ' '}, {"\xE2\x80\x89", ' '}, {"\xE2\x80\xAF", ' '}, {"\xE2\x88\x92", '-'}}};
+  std::string plain;
+  while (!text.empty()) {
+    const auto sign = std::find_if(signs.begin(), signs.end(), [&](const auto& known) {
+      return text.starts_with(known.first);
+    });
+    plain += sign == signs.end() ? text.front() : sign->second;
+    text.remove_prefix(sign == signs.end() ? 1 : sign->first.size());
+  }
+  return plain;
+}
+
 std::string_view trimmed(std::string_view text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -324,10 +340,12 @@ Measure read_measure(std::string_view text, bool needs_unit, const std::string& 
 }  // namespace
 
 Measure parse_measure(std::string_view text) {
-  return read_measure(text, false, "; a number with its unit is due, for example \"12 m\"");
+  return read_measure(with_plain_signs(text), false,
+                      "; a number with its unit is due, for example \"12 m\"");
 }
 
-Quantity parse_quantity(std::string_view text, const std::vector<Dimension>& allowed) {
+Quantity parse_quantity(std::string_view given, const std::vector<Dimension>& allowed) {
+  const std::string text = with_plain_signs(given);
   const std::string due = what_is_due(allowed);
   const bool plain = std::find(allowed.begin(), allowed.end(), Dimension::ratio) != allowed.end();
   const Measure measure = read_measure(text, !plain, due);
@@ -341,7 +359,8 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   return parse_quantity(text, std::vector{dimension}).value;
 }
 
-double parse_number(std::string_view text) {
+double parse_number(std::string_view given) {
+  const std::string text = with_plain_signs(given);
   const std::string due = "; a plain number is due, for example 1.5";
   std::string_view rest;
   const double value = leading_number(text, rest, due);

@@ -26,6 +26,19 @@ bool may_be_unread(const ValueDescription& value) {
          value.kind == Kind::number || value.kind == Kind::integer || value.kind == Kind::choice;
 }
 
+/// "a mass is due", "the keys of a load are due".
+std::string due_text(const ValueDescription& value) {
+  using Kind = ValueDescription::Kind;
+  const bool are_many = value.kind == Kind::table || value.kind == Kind::names_to;
+  return value.phrase() + (are_many ? " are due" : " is due");
+}
+
+/// What stands behind a comma of "length: 3,5 m" within braces is read as a key without a value.
+bool is_part_of_number(const Entry& entry) {
+  return !entry.key.empty() && entry.key.front() >= '0' && entry.key.front() <= '9' &&
+         entry.value.IsNull();
+}
+
 }  // namespace
 
 Keys::Keys(std::string noun, std::string description)
@@ -103,14 +116,16 @@ void Keys::read_entry(const Entry& entry, Reading& reading, void* value) const {
     return;
   }
   reading.error(entry.mark, reading.owner() + " has no key \"" + entry.key + "\"",
-                {names_hint("its keys are", description_->key_names(), entry.key)});
+                {is_part_of_number(entry)
+                     ? "decimals take a point (1.5): what stands behind a comma is a key of its own"
+                     : names_hint("its keys are", description_->key_names(), entry.key)});
 }
 
 void Keys::leave_out(const Key& key, const Mark& mark, Reading& reading, void* value) const {
   const KeyDescription& description = key.description;
   if (description.required) {
     reading.error(mark, reading.owner() + " lacks the key \"" + description.name + "\"",
-                  {"it is " + description.value->phrase() + ": " + description.description});
+                  {due_text(*description.value) + ": " + description.description});
   } else if (!description.default_text.empty()) {
     reading.with_key(description.name, [&] {
       return key.read(*key.reader, key.member, parse_default(description.default_text), mark,

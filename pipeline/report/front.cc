@@ -218,7 +218,7 @@ std::string band_text(const Json& structure) {
   const std::size_t meshes = at(accuracy, "steps").size();
   if (meshes == 0) return "";
   if (meshes == 1) return "one mesh only: how far it moves with the mesh is not known";
-  return fmt::format("within {} %, by which the last of {} meshes moved it",
+  return fmt::format("the stress within {}\u00a0%, by which the last of {} meshes moved it",
                      f::fixed(at(accuracy, "stress_change"), 1, 100), meshes);
 }
 

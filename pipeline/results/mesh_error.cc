@@ -36,9 +36,13 @@ void note_band(double band, Check& check) {
   if (!check.note.empty()) check.note += "; ";
   const bool is_stress = check.unit == "Pa";
   const double scale = is_stress ? 1e-6 : 1;
-  check.note += fmt::format("{:.4g} to {:.4g}{} by the error of the mesh",
-                            scale * check.demand * std::max(0.0, 1 - band),
-                            scale * check.demand * (1 + band), is_stress ? " MPa" : "");
+  // As many digits as the check itself is shown with.
+  const auto shown = [&](double share) {
+    const double value = scale * check.demand * share;
+    return value < 1000 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
+  };
+  check.note += fmt::format("{} to {}{} by the error of the mesh", shown(std::max(0.0, 1 - band)),
+                            shown(1 + band), is_stress ? " MPa" : "");
 }
 
 }  // namespace blocklift::pipeline

@@ -118,6 +118,7 @@ class PointResolver {
     const std::string part = name.value.substr(dot + 1);
     const CraneInCase* crane = case_.find_crane(crane_name);
     if (!crane) {
+      if (case_.cranes.empty() && diagnostics_.has_errors()) return std::nullopt;  // told
       fail(name,
            fmt::format("{} \"{}\", but the case has no crane \"{}\"", subject_, name.value,
                        crane_name),
@@ -209,6 +210,8 @@ class PointResolver {
       resolved.point = lug.value;
       return resolved;
     }
+    // A load that could not be read, or is missing, was complained of.
+    if (!case_.load.vessel_name && diagnostics_.has_errors()) return std::nullopt;
     fail(name, fmt::format("{} lug \"{}\", which the load does not have", subject_, name.value),
          names_hint("its lugs are", names_of(case_.load.lugs), name.value));
     return std::nullopt;

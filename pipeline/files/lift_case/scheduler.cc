@@ -147,6 +147,8 @@ class Scheduler {
       known.push_back(schedule_.movers[i].name);
     }
     if (plan_.is_incomplete(name.value)) return std::nullopt;
+    if (known.empty() && diagnostics_.has_errors())
+      return std::nullopt;  // cranes are complained of
     diagnostics_.error(name.mark,
                        fmt::format("stage \"{}\" moves \"{}\", which is no drive or winch of {}",
                                    stage_->name.value, name.value, plan_.owner),

@@ -97,7 +97,8 @@ TEST(DocumentTest, RefusesWhatCannotBeRead) {
 
 TEST(DocumentTest, SaysWhereYamlIsBroken) {
   EXPECT_EQ(complaints_about("a: [1, 2\n"),
-            "case.yaml:2:1: error: this is not YAML: end of sequence flow not found\n1 error\n");
+            "case.yaml:2:1: error: this is not YAML: end of sequence flow not found\n"
+            "    a bracket in this line or above it is opened and not closed\n1 error\n");
   EXPECT_EQ(complaints_about("a:\n\tb: 1\n"),
             "case.yaml:2:3: error: this is not YAML: illegal map value\n"
             "    YAML indents with blanks, never with tabs\n1 error\n");
@@ -113,6 +114,12 @@ TEST(DocumentTest, SaysWhereYamlIsBroken) {
       complaints_about("a: 1\n---\nb: 2\n"),
       "case.yaml:3:1: error: a second YAML document begins here; one file holds one\n"
       "    is the line before indented like its neighbours, or a \"---\" too many?\n1 error\n");
+}
+
+TEST(DocumentTest, SaysThatABracketIsOpen) {
+  for (const char* text : {"a: 1\nb: {c: 1, d: 2\ne: 3\n", "a: 1\nb: [1, 2\ne: 3\n"}) {
+    EXPECT_NE(complaints_about(text).find("is opened and not closed"), std::string::npos) << text;
+  }
 }
 
 TEST(DocumentTest, SurvivesDeepNesting) {

@@ -27,6 +27,11 @@ TEST(QuantityTest, ConvertsUnitsOfTheYardToSi) {
   EXPECT_DOUBLE_EQ(parse_quantity("3 m/min", Dimension::speed), 0.05);
   EXPECT_DOUBLE_EQ(parse_quantity("45 deg", Dimension::angle), std::atan(1));
   EXPECT_DOUBLE_EQ(parse_quantity("45°", Dimension::angle), std::atan(1));
+  // As copied from a report: a narrow no-break, a no-break and a thin space, a minus of its own.
+  EXPECT_DOUBLE_EQ(parse_quantity("30\u202fMN", Dimension::force), 30e6);
+  EXPECT_DOUBLE_EQ(parse_quantity("8\u00a0m/s", Dimension::speed), 8);
+  EXPECT_DOUBLE_EQ(parse_quantity("\u22120.6\u2009m", Dimension::length), -0.6);
+  EXPECT_DOUBLE_EQ(parse_number("\u22122"), -2);
   EXPECT_DOUBLE_EQ(parse_quantity("0.628 rad/s", Dimension::angular_speed), 0.628);
   EXPECT_DOUBLE_EQ(parse_quantity("1 rpm", Dimension::angular_speed), 8 * std::atan(1) / 60);
   EXPECT_DOUBLE_EQ(parse_quantity("355 MPa", Dimension::stress), 355e6);

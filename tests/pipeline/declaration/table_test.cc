@@ -101,6 +101,23 @@ TEST(TableTest, FillsInDeclaredDefaults) {
   EXPECT_EQ(cart.stations, std::vector<double>{3});
 }
 
+TEST(TableTest, SaysWhatADecimalCommaDid) {
+  EXPECT_EQ(
+      read_cart("mass: 1 t\nwheels: {left: {radius: 3,5 m}}\n").complaints,
+      "cart.yaml:2:25: error: radius \"3\" has no unit; a length is due, for example \"12 m\"\n"
+      "cart.yaml:2:27: error: wheel left has no key \"5 m\"\n"
+      "    decimals take a point (1.5): what stands behind a comma is a key of its own\n"
+      "2 errors\n");
+}
+
+TEST(TableTest, SaysOnceWhatIsWrongBehindAnAnchor) {
+  EXPECT_EQ(
+      read_cart("mass: 1 t\nwheels: {left: &wheel {radius: 3}, right: *wheel, third: *wheel}\n")
+          .complaints,
+      "cart.yaml:2:32: error: radius \"3\" has no unit; a length is due, for example \"12 m\"\n"
+      "1 error\n");
+}
+
 TEST(TableTest, GathersEverythingThatIsWrong) {
   EXPECT_EQ(read_cart("sped: 3 m/min\nspeed: 3 m\ncolour: gren\nposition: [1 m, 2 m]\n"
                       "wheels:\n  left: {radius: -40 cm}\n  right: {}\nseats: 12\ncovered: maybe\n")
@@ -109,7 +126,7 @@ TEST(TableTest, GathersEverythingThatIsWrong) {
             "    its keys are mass, speed, colour, position, wheels, stations, seats, covered; did "
             "you mean \"speed\"?\n"
             "cart.yaml:1:1: error: cart lacks the key \"mass\"\n"
-            "    it is a mass: laden\n"
+            "    a mass is due: laden\n"
             "cart.yaml:2:8: error: speed \"3 m\" is a length; a speed is due, for example \"3 "
             "m/min\"\n"
             "cart.yaml:3:9: error: colour \"gren\" does not exist\n"
@@ -117,7 +134,7 @@ TEST(TableTest, GathersEverythingThatIsWrong) {
             "cart.yaml:4:11: error: position has 2 items; 3 are due, each a length\n"
             "cart.yaml:6:18: error: radius \"-40 cm\" must be greater than 0\n"
             "cart.yaml:7:10: error: wheel right lacks the key \"radius\"\n"
-            "    it is a length: of rolling\n"
+            "    a length is due: of rolling\n"
             "cart.yaml:8:8: error: seats \"12\" must be from 0 to 9\n"
             "cart.yaml:9:10: error: covered \"maybe\" must be true or false\n"
             "9 errors\n");

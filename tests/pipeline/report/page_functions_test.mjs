@@ -56,6 +56,26 @@ try {
   const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
   names.forEach((a, i) => names.slice(i + 1).forEach((b) => assert.ok(apart(a.box, b.box), `${a.text} lies on ${b.text}`)));
 
+  // A plate of 2 x 1 m, one quadrangle beside four of half the size: the line between them is no outline, though no two
+  // quadrangles share an edge there. Where the small ones are bent up, or of another plate, it is.
+  const { BlockSurface } = await load("surface");
+  const packed = (array) => ({ type: array instanceof Float32Array ? "f32" : "u32", data: Buffer.from(array.buffer).toString("base64") });
+  const outlines = (lift, groups) => {
+    const points = [[0, 0], [1, 0], [1, 1], [0, 1], [1, 0.5], [1.5, 0], [1.5, 0.5], [1.5, 1], [2, 0], [2, 0.5], [2, 1]]
+      .flatMap(([x, y]) => [x, y, lift * Math.max(0, x - 1)]);
+    const quads = [[0, 1, 2, 3], [1, 5, 6, 4], [4, 6, 7, 2], [5, 8, 9, 6], [6, 9, 10, 7]].flat();
+    const surface = new BlockSurface({ points: packed(Float32Array.from(points)), quads: packed(Uint32Array.from(quads)),
+      groups: ["a", "b"], quad_group: packed(Uint32Array.from(groups)) });
+    const lines = surface.outlines();
+    const found = [];
+    for (let i = 0; i < lines.length; i += 2) found.push([lines[i], lines[i + 1]].sort((a, b) => a - b).join("-"));
+    return found.sort();
+  };
+  const rim = ["0-1", "0-3", "1-5", "10-7", "2-3", "2-7", "5-8", "8-9", "9-10"].map((edge) => edge.split("-").sort((a, b) => a - b).join("-")).sort();
+  assert.deepEqual(outlines(0, [0, 0, 0, 0, 0]), rim);
+  assert.deepEqual(outlines(1, [0, 0, 0, 0, 0]), [...rim, "1-4", "2-4"].sort());
+  assert.deepEqual(outlines(0, [0, 1, 1, 1, 1]), [...rim, "1-4", "2-4"].sort());
+
   const { kilonewtons, significant } = await load("numbers");
   assert.deepEqual([99964, 99940, 103000].map(kilonewtons), ["100", "99.9", "103"]);
   assert.equal(significant(0.09996, 3), "0.100");

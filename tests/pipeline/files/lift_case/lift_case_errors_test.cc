@@ -535,9 +535,9 @@ TEST(LiftCaseErrors, CaseWithoutAnything) {
   lift.lift_case = "title: nothing\n";
   EXPECT_EQ(complaints_about(lift),
             "case.yaml:1:1: error: lift case lacks the key \"case\"\n"
-            "    it is a name: its name\n"
+            "    a name is due: its name\n"
             "case.yaml:1:1: error: lift case lacks the key \"load\"\n"
-            "    it is the keys of a load: the block or vessel that is lifted\n"
+            "    the keys of a load are due: the block or vessel that is lifted\n"
             "case.yaml:1:1: error: the lift case lacks the key \"cranes\"\n"
             "    a case has cranes, ropes and operation, or a load_table\n"
             "case.yaml:1:1: error: the lift case lacks the key \"ropes\"\n"
@@ -545,6 +545,25 @@ TEST(LiftCaseErrors, CaseWithoutAnything) {
             "case.yaml:1:1: error: the lift case lacks the key \"operation\"\n"
             "    a case has cranes, ropes and operation, or a load_table\n"
             "5 errors\n");
+}
+
+// What hangs on the load or on cranes is not complained of once more.
+TEST(LiftCaseErrors, LoadOrCranesThatCannotBeRead) {
+  SampleLift lift;
+  lift.lift_case = R"(case: nothing
+cranes: C1
+ropes:
+  R1: {from: C1.main, to: L1, model: {axial_stiffness: 10 MN, damping_time: 1 ms}, length: 3 m}
+operation:
+  - stage: hoist
+    moves:
+      - {drives: [C1.main], by: -1 m}
+)";
+  EXPECT_EQ(complaints_about(lift),
+            "case.yaml:1:1: error: lift case lacks the key \"load\"\n"
+            "    the keys of a load are due: the block or vessel that is lifted\n"
+            "case.yaml:2:9: error: cranes is \"C1\"; names, each with the keys of a crane are due\n"
+            "2 errors\n");
 }
 
 TEST(LiftCaseErrors, FolderWithoutACase) {
