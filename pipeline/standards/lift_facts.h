@@ -29,7 +29,7 @@ struct ComputedFactors {
   std::optional<double> skew;        ///< by all sets of the slings' length tolerances
   std::optional<double> centre_box;  ///< by the centre of mass at the worst corner of its box
   std::optional<TwoHooks>
-      two_hooks;  ///< where the lift hangs from two, at the largest load at rest
+      two_hooks;           ///< where the lift hangs from two, at the largest load at rest
   bool bears_all = false;  ///< the load has no other way up, wherever its centre of mass lies
 };
 
