@@ -27,7 +27,7 @@ struct EquivalentRectangle {
 /// has no equivalent, if there are not just four or if it turns by 45 degrees or more elsewhere.
 /// @param outline places in turn, either way round, m.
 /// Source: IACS Common Structural Rules for Bulk Carriers and Oil Tankers (2014), part 1 chapter 8
-/// section 4, [2.3].
+/// section 4, on panels of irregular geometry. The rules were not at hand.
 std::optional<EquivalentRectangle> equivalent_rectangle(
     const std::vector<Eigen::Vector2d>& outline);
 
