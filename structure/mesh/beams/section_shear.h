@@ -59,8 +59,8 @@ std::vector<Eigen::Vector2d> stress_points(const BeamSection& section);
 /// - c^2 / (2 I), c the reach of the stress points along the force, which a wall of even thickness
 ///   that ends there has: a tee's web, the flanges of an I under a level force. I is the second
 ///   moment less I_23^2 over the other one, which covers angles (1.4 to 1.6 times);
-/// - that of a web between two flanges as wide as the stress points reach. What the section lacks of
-///   the rectangle about the points is then a rectangle itself, and A, I and the centroid give its
+/// - that of a web between two flanges as wide as the stress points reach. What the section lacks
+///   of the rectangle about the points is then a rectangle itself, and A, I and the centroid give its
 ///   size: exact of an I, a box and a channel of rectangles. 6 % more count for fillets, and 60 % for
 ///   flanges of two widths, where the centroid is off the middle.
 /// Where the points do not tell height and width, J does if it is that of two thin flanges and a web
