@@ -109,8 +109,8 @@ Reach reach_along(const BeamSection& section, int axis) {
 constexpr double of_fillets = 1.06;
 
 /// Largest S / (I t) of a web between flanges that are as wide as the section, 1/m^2; none if none
-/// has these figures. What the section lacks of its rectangle is one of even width, and has an area,
-/// a centroid and a second moment.
+/// has these figures. What the section lacks of its rectangle is one of even width, and has an
+/// area, a centroid and a second moment.
 std::optional<double> by_flanges(double area, double moment, const Reach& reach, double width) {
   const double up = reach.up, down = reach.down;
   const double lack = width * reach.both() - area;
@@ -136,8 +136,8 @@ std::optional<double> by_flanges(double area, double moment, const Reach& reach,
 }
 
 /// Share of the web in the area of an I, by how much torsion its flanges need to have this torsion
-/// constant; none if no flanges do. Solid bars and even closed walls have J of 1.5 to 4 times the lesser
-/// second moment, rolled beams and channels up to 0.17 times.
+/// constant; none if no flanges do. Solid bars and even closed walls have J of 1.5 to 4 times the
+/// lesser second moment, rolled beams and channels up to 0.17 times.
 std::optional<double> web_by_torsion(double area, double upright, double level, double torsion) {
   if (torsion > 0.5 * level) return std::nullopt;
   const double upright_square = upright / area, level_square = level / area;

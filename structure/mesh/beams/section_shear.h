@@ -59,19 +59,19 @@ std::vector<Eigen::Vector2d> stress_points(const BeamSection& section);
 /// - c^2 / (2 I), c the reach of the stress points along the force, which a wall of even thickness
 ///   that ends there has: a tee's web, the flanges of an I under a level force. I is the second
 ///   moment less I_23^2 over the other one, which covers angles (1.4 to 1.6 times);
-/// - that of a web between two flanges as wide as the stress points reach. What the section lacks of
-///   the rectangle about the points is then a rectangle itself, and A, I and the centroid give its
-///   size: exact of an I, a box and a channel of rectangles. 6 % more count for fillets, and 60 % for
-///   flanges of two widths, where the centroid is off the middle.
-/// Where the points do not tell height and width, J does if it is that of two thin flanges and a web
-/// (J = (2 b t_f^3 + h t_w^3) / 3) that have A and both second moments, too; not of a box, whose thin
-/// webs may then have 1.8 times as much as 2 / A; nor where J is more than half of the lesser second
-/// moment, as that of solid bars is. A web has 0.15 of the area at least.
+/// - that of a web between two flanges as wide as the stress points reach. What the section lacks
+///   of the rectangle about the points is then a rectangle itself, and A, I and the centroid give
+///   its size: exact of an I, a box and a channel of rectangles. 6 % more count for fillets, and 60
+///   % for flanges of two widths, where the centroid is off the middle.
+/// Where the points do not tell height and width, J does if it is that of two thin flanges and a
+/// web (J = (2 b t_f^3 + h t_w^3) / 3) that have A and both second moments, too; not of a box,
+/// whose thin webs may then have 1.8 times as much as 2 / A; nor where J is more than half of the
+/// lesser second moment, as that of solid bars is. A web has 0.15 of the area at least.
 ///
-/// At the stress points themselves a force has none, for at the edge nothing flows across it; all of
-/// it, with the signs of either force, counts at four fifths of their way from the centroid. So
-/// slender bars keep the stress of their bending, as solid ones have it. Where the web of an I ends,
-/// at 0.93 of its height with 0.9 of the largest shear, the sum may be 8 % more.
+/// At the stress points themselves a force has none, for at the edge nothing flows across it; all
+/// of it, with the signs of either force, counts at four fifths of their way from the centroid. So
+/// slender bars keep the stress of their bending, as solid ones have it. Where the web of an I
+/// ends, at 0.93 of its height with 0.9 of the largest shear, the sum may be 8 % more.
 ///
 /// Between the ends of a taper figures run straight, and an estimate by them is coarse.
 std::vector<SectionPoint> checked_points(const BeamSection& section);
