@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,18 +63,18 @@ class LeapPairs {
       : values_(values), places_(std::move(places)), limit_(limit) {}
 
   std::vector<FaultySamples> find() {
-    std::optional<std::size_t> open;
+    std::size_t open = 0;  // the leap that is not undone yet; 0: none
     for (std::size_t k = 1; k < places_.size(); ++k) {
       if (std::abs(step(k)) <= limit_) continue;
-      if (open && std::abs(stand_off(*open, k)) > limit_) {
-        add_drop_out(*open, k);
-        open.reset();
+      if (open > 0 && std::abs(stand_off(open, k)) > limit_) {
+        add_drop_out(open, k);
+        open = 0;
         continue;
       }
-      if (open) add_jump(*open);
+      if (open > 0) add_jump(open);
       open = k;
     }
-    if (open) add_jump(*open);
+    if (open > 0) add_jump(open);
     return std::move(found_);
   }
 
