@@ -354,12 +354,13 @@ class Doubts {
   /// A gust that comes after the lift is not felt.
   void doubt_gust(const LiftRun& lift) {
     if (!case_.wind || !case_.wind->gust) return;
-    const double start = case_.wind->gust->make_gust().start();
+    const dynamics::WindGust gust = case_.wind->gust->make_gust();
     const dynamics::History& history = lift.dynamic_history();
     const double end = history.time[history.sample_count() - 1];
-    if (start >= end)
-      doubt("The gust begins at {:g} s, and the lift ends at {:g} s: it feels none of it.", start,
-            end);
+    // Before its first point a table may add something as well.
+    if (gust.start() >= end && gust.evaluate(end) == 0)
+      doubt("The gust begins at {:g} s, and the lift ends at {:g} s: it feels none of it.",
+            gust.start(), end);
   }
 
   void doubt_wind() {
