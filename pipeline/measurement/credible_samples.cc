@@ -355,10 +355,12 @@ std::string faults_in_words(const std::vector<FaultySamples>& faults, const Time
           all.begin(), all.end(), [](const FaultySamples& a, const FaultySamples& b) {
             return std::abs(a.leap) < std::abs(b.leap);
           });
+      const double leap = factor * farthest.leap;
       text += fmt::format(
-          "{} {:+.4g} {} at {:.1f} s",
+          "{} {} {} at {:.1f} s",
           all.size() == 1 ? "a spike of" : fmt::format("{} spikes, the farthest of", all.size()),
-          factor * farthest.leap, shown, from(farthest));
+          std::abs(leap) < 1000 ? fmt::format("{:+.4g}", leap) : fmt::format("{:+.0f}", leap),
+          shown, from(farthest));
       continue;
     }
     text += fault == Fault::drop_out ? "it leaps away and back"
