@@ -243,8 +243,8 @@ class Judge {
     return motion_over(begin, end) < std::abs(one.leap) / 2;
   }
 
-  /// A rope without tension reads one value as well; it comes to it and leaves it without a leap, as
-  /// a line that is torn does not.
+  /// A rope without tension reads one value as well. It comes to it and leaves it without a leap,
+  /// which a line that is torn does not.
   bool is_slack_rope(const FaultySamples& one) const {
     const auto leaps_at = [&](std::size_t i) {
       return i > 0 && i < measured_.size() &&
