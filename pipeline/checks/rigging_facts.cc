@@ -207,7 +207,7 @@ ComputedFactors RiggingFacts::of_hook(std::size_t hoist, Index sample) const {
     computed.centre_box =
         std::max(computed.centre_box.value_or(1), (tension[tackle] - block) / at_rest);
   computed.two_hooks = two_hooks(lift_.model.hoists[hoist].name, sample);
-  computed.bears_all = bears_all(lift_.model.hoists[hoist].name);
+  computed.bears_all = bears_all(lift_.model.hoists[hoist].name, sample);
   return computed;
 }
 
@@ -231,12 +231,15 @@ ComputedFactors RiggingFacts::of_crane(std::size_t crane, Index sample) const {
     for (const LiftHoist& hoist : hoists)
       if (hoist.crane == crane && !computed.two_hooks)
         computed.two_hooks = two_hooks(hoist.name, sample);
-  computed.bears_all = bears_all(case_.cranes[crane].name.value);
+  computed.bears_all = bears_all(case_.cranes[crane].name.value, sample);
   return computed;
 }
 
-bool RiggingFacts::bears_all(const std::string& hook_or_crane) const {
+bool RiggingFacts::bears_all(const std::string& hook_or_crane, Index sample) const {
   using Kind = ResolvedPoint::Kind;
+  // Pads, ground or water that bear a part bear more or less of it as the centre lies.
+  constexpr double nearly_all = 0.99;
+  if (hook_load(lift_.static_history)[sample] < nearly_all * weight_) return false;
   const auto hangs = [](const ResolvedPoint& point) {
     return point.kind == Kind::load || point.kind == Kind::spreader;
   };

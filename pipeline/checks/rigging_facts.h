@@ -51,8 +51,9 @@ class RiggingFacts {
   dynamics::Pose pose_of(dynamics::BodyIndex body, Eigen::Index sample) const;
   double hook_block_weight(std::size_t hoist) const;  ///< N
   bool shares_the_load(std::size_t crane) const;      ///< Does another crane bear some of it?
-  /// Do all ropes that hold the load or its spreaders lead to hooks of this name, or of this crane?
-  bool bears_all(const std::string& hook_or_crane) const;
+  /// Do all ropes that hold the load or its spreaders lead to hooks of this name, or of this crane,
+  /// and does nothing else bear any of it at a sample at rest?
+  bool bears_all(const std::string& hook_or_crane, Eigen::Index sample) const;
   std::size_t first_tackle() const { return slings_.size() + to_bars_.size(); }
   std::optional<TwoHooks> two_hooks(const std::string& hook, Eigen::Index sample) const;
   std::string crane_of(const std::string& hook) const { return hook.substr(0, hook.find('.')); }

@@ -261,9 +261,9 @@ bool has_rotations(const dynamics::HydrodynamicDatabase& database) {
 }
 
 /// Capytaine's datasets do not hold the point that moments and rotations are about, which its users
-/// mostly lay into the centre of mass.
+/// mostly lay into the centre of mass. A database of our own that was made of one has been told it.
 bool lacks_rotation_centres(const HydroOptions& options, const HydrodynamicFile& file) {
-  return file.origin.ends_with("(Capytaine)") && options.bodies_at.empty() &&
+  return fs::path(*options.import).extension() == ".nc" && options.bodies_at.empty() &&
          has_rotations(file.series.databases.front()) && !tells_rotation_centres(*options.import);
 }
 

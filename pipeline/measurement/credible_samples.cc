@@ -169,7 +169,7 @@ void choose_between_jumps(std::vector<FaultySamples>& faults, std::size_t size) 
 }
 
 /// What a tension is when the load hangs, with its sign: a few spikes do not make it, nor do zeros.
-double load_of(const std::vector<double>& values) {
+double typical_load(const std::vector<double>& values) {
   constexpr double loaded = 0.9;
   std::vector<double> sizes;
   double sum = 0;
@@ -184,7 +184,9 @@ double load_of(const std::vector<double>& values) {
 class Judge {
  public:
   Judge(const TimeSeries& measured, const TimeSeries& computed, bool is_tension)
-      : measured_(measured) {
+      : measured_(measured),
+        is_tension_(is_tension),
+        limit_(shortest_leap(measured.values, is_tension)) {
     std::vector<double> ours, theirs;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       computed_.push_back(computed.at(measured.time[i]));
@@ -200,7 +202,7 @@ class Judge {
       return algebra::quantile_of(values, 0.95) - algebra::quantile_of(values, 0.05);
     };
     // A cell may be in another unit, or its sign reversed; other quantities have an own zero.
-    const double load = load_of(ours), computed_load = load_of(theirs);
+    const double load = typical_load(ours), computed_load = typical_load(theirs);
     if (is_tension && load != 0 && computed_load != 0) scale_ = load / computed_load;
     least_motion_ = is_tension ? 0.02 * std::abs(load) : 0.1 * range(ours);
   }
@@ -233,10 +235,22 @@ class Judge {
   }
 
   bool is_contradicted(const FaultySamples& one) const {
-    if (one.fault == Fault::stuck) return motion_over(one.begin, one.end) > least_motion_;
+    if (one.fault == Fault::stuck)
+      return motion_over(one.begin, one.end) > least_motion_ && !is_slack_rope(one);
     const std::size_t begin = one.begin - std::min(one.begin, samples_about_a_leap),
                       end = std::min(one.end + samples_about_a_leap, measured_.size());
     return motion_over(begin, end) < std::abs(one.leap) / 2;
+  }
+
+  /// A rope without tension reads one value as well. It comes to it and leaves it without a leap,
+  /// which a line that is torn does not.
+  bool is_slack_rope(const FaultySamples& one) const {
+    const auto leaps_at = [&](std::size_t i) {
+      return i > 0 && i < measured_.size() &&
+             std::abs(measured_.values[i] - measured_.values[i - 1]) > limit_;
+    };
+    return is_tension_ && std::abs(measured_.values[one.begin]) <= least_motion_ &&
+           !leaps_at(one.begin) && !leaps_at(one.end);
   }
 
   /// Measured less computed jumps as far as the measured quantity does, or half of it at least.
@@ -257,6 +271,8 @@ class Judge {
   const TimeSeries& measured_;
   std::vector<double> computed_;
   std::vector<bool> is_common_;
+  bool is_tension_;
+  double limit_;  ///< the shortest leap
   double scale_ = 1, least_motion_ = 0;
 };
 
@@ -338,10 +354,12 @@ std::string faults_in_words(const std::vector<FaultySamples>& faults, const Time
           all.begin(), all.end(), [](const FaultySamples& a, const FaultySamples& b) {
             return std::abs(a.leap) < std::abs(b.leap);
           });
+      const double leap = factor * farthest.leap;
       text += fmt::format(
-          "{} {:+.4g} {} at {:.1f} s",
+          "{} {} {} at {:.1f} s",
           all.size() == 1 ? "a spike of" : fmt::format("{} spikes, the farthest of", all.size()),
-          factor * farthest.leap, shown, from(farthest));
+          std::abs(leap) < 1000 ? fmt::format("{:+.4g}", leap) : fmt::format("{:+.0f}", leap),
+          shown, from(farthest));
       continue;
     }
     text += fault == Fault::drop_out ? "it leaps away and back"

@@ -31,7 +31,8 @@ struct FaultySamples {
 std::vector<FaultySamples> find_suspects(const TimeSeries& series, bool is_tension);
 
 /// Those suspects that the computed quantity does not share: it does not move so about them, or
-/// moves on where the measured one stands still. Of jumps the longest stretch between two stays,
+/// moves on where the measured one stands still, but for a tension near zero that is reached and
+/// left without a leap: such a rope is slack. Of jumps the longest stretch between two stays,
 /// and the others are faults as a whole: which zero is right nobody has measured.
 /// @param measured by the clock of the lift. @param computed not empty.
 std::vector<FaultySamples> find_faults(const TimeSeries& measured, const TimeSeries& computed,

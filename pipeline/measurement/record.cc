@@ -224,13 +224,19 @@ class RecordReader {
                          {"leave the unit out: such instants count in seconds from the first"});
       return false;
     }
-    constexpr double day = 86400;
-    double days = 0;
-    const double first = time_.front();
-    for (std::size_t i = 0; i < time_.size(); ++i) {
-      if (!file_.has_dates && i > 0 && time_[i] + days - first < time_[i - 1] - day / 2)
-        days += day;
-      time_[i] += days - first;
+    constexpr double day = 86400, nearly_a_day = 0.95 * day;
+    const auto is_known = [](double instant) { return !std::isnan(instant); };
+    const auto known = std::find_if(time_.begin(), time_.end(), is_known);
+    if (known == time_.end()) return true;  // complained of with the rows
+    const double first = *known;
+    double days = 0, before = first;
+    for (double& instant : time_) {
+      if (!is_known(instant)) continue;
+      if (!file_.has_dates && instant < before - day / 2) days += day;
+      // A row of before midnight may come late.
+      if (!file_.has_dates && instant > before + nearly_a_day) days -= day;
+      before = instant;
+      instant += days - first;
     }
     return true;
   }

@@ -93,8 +93,7 @@ std::string wind_sentence(const WindInCase& wind) {
     const dynamics::WindGust gust = wind.gust->make_gust();
     text += fmt::format(
         "{} a single gust from {:g} to {:g} s, of {:.3g} to {:.3g} m/s with the mean, everywhere "
-        "at "
-        "once",
+        "at once",
         gusts ? ", and" : " but", gust.start(), gust.breakpoints().back(),
         wind.speed + gust.lowest(), wind.speed + gust.highest());
   }

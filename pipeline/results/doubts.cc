@@ -354,12 +354,13 @@ class Doubts {
   /// A gust that comes after the lift is not felt.
   void doubt_gust(const LiftRun& lift) {
     if (!case_.wind || !case_.wind->gust) return;
-    const double start = case_.wind->gust->make_gust().start();
+    const dynamics::WindGust gust = case_.wind->gust->make_gust();
     const dynamics::History& history = lift.dynamic_history();
     const double end = history.time[history.sample_count() - 1];
-    if (start >= end)
-      doubt("The gust begins at {:g} s, and the lift ends at {:g} s: it feels none of it.", start,
-            end);
+    // Before its first point a table may add something as well.
+    if (gust.start() >= end && gust.evaluate(end) == 0)
+      doubt("The gust begins at {:g} s, and the lift ends at {:g} s: it feels none of it.",
+            gust.start(), end);
   }
 
   void doubt_wind() {
@@ -439,17 +440,20 @@ class Doubts {
     constexpr double least = 2, usual = 5;  // times the weight: no rule of slings is below 2.28
     if (!mass_ || case_.ropes.empty() || !hangs_on_hooks_alone()) return;
     const double weight = *mass_ * case_.gravity;
+    const auto kilonewtons = [](double force) {
+      return force < 1e6 ? fmt::format("{:.4g}", force / 1e3) : fmt::format("{:.0f}", force / 1e3);
+    };
     const double slings = std::min(strength_at(Kind::load), strength_at(Kind::hook));
     if (slings < least * weight)
       doubt(
-          "The load weighs {:.0f} kN, and its slings break under {:.4g} kN together; usually they "
+          "The load weighs {:.0f} kN, and its slings break under {} kN together; usually they "
           "do under {:g} times its weight.",
-          weight / 1e3, slings / 1e3, usual);
+          weight / 1e3, kilonewtons(slings), usual);
     const double hooks = capacity_of_hooks();
     constexpr double rounding = 1.01;  // gravity of the case, and that of a tonne as a force
     if (rounding * hooks < weight)
-      doubt("The load weighs {:.0f} kN, and the hooks that hold it may carry {:.4g} kN together.",
-            weight / 1e3, hooks / 1e3);
+      doubt("The load weighs {:.0f} kN, and the hooks that hold it may carry {} kN together.",
+            weight / 1e3, kilonewtons(hooks));
   }
 
   void doubt_materials() {

@@ -39,7 +39,7 @@ void note_band(double band, Check& check) {
   // As many digits as the check itself is shown with.
   const auto shown = [&](double share) {
     const double value = scale * check.demand * share;
-    return value < 1000 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
+    return value < 999.5 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
   };
   check.note += fmt::format("{} to {}{} by the error of the mesh", shown(std::max(0.0, 1 - band)),
                             shown(1 + band), is_stress ? " MPa" : "");

@@ -1,4 +1,5 @@
 // Records of a known lift with what cells, loggers and clocks do to them.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -241,6 +242,16 @@ TEST(FaultySamples, AreNotWhatWasComputedToo) {
   EXPECT_TRUE(find_faults(measured, computed, true).empty());
   const TimeSeries steady = series_of([](double t) { return 47e3 + 2e3 * std::sin(1.57 * t); });
   EXPECT_EQ(count_left_out(find_faults(measured, steady, true), measured.size()), 31U);
+}
+
+// A cell reads one value as long as its rope is slack, whatever was computed.
+TEST(FaultySamples, AreNoRopeThatSlackensByAndBy) {
+  const auto taut = [](double t) { return 47e3 + 2e3 * std::sin(1.57 * t); };
+  const auto share = [](double t) { return std::clamp((std::abs(t - 30) - 2.5) / 3, 0.0, 1.0); };
+  const TimeSeries measured =
+      series_of([&](double t) { return share(t) * (taut(t) + 30 * std::sin(777 * t)); });
+  EXPECT_FALSE(find_suspects(measured, true).empty());
+  EXPECT_TRUE(find_faults(measured, series_of(taut), true).empty());
 }
 
 // A load that is taken over within a sample is a jump of both.

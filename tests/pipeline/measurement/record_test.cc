@@ -130,6 +130,21 @@ TEST_F(MeasuredRecords, MayHaveTheTimeOfAClock) {
   EXPECT_EQ(over_midnight[0].channels[0].series.time.back(), 8);
   EXPECT_EQ(over_midnight[0].channels[0].series.values.back(), 2500);
 
+  // One row has no time, and one of before midnight comes after it.
+  cells = "time,ropes.R1 [N]\n";
+  for (int i = 0; i < 60; ++i) {
+    const int k = i == 30 ? 29 : i == 29 ? 30 : i;
+    cells += (k < 30 ? "23:59:" + std::to_string(k + 30) : "00:00:" + std::to_string(k - 20)) +
+             ',' + std::to_string(k) + '\n';
+    if (i == 0) cells += ",5\n";
+  }
+  const auto late = read(cells);
+  const TimeSeries& sorted = late[0].channels[0].series;
+  ASSERT_EQ(sorted.size(), 60u);
+  EXPECT_EQ(sorted.time[29], 29);
+  EXPECT_EQ(sorted.values[29], 29);
+  EXPECT_EQ(sorted.time.back(), 69);
+
   // The hour when summer time ends comes twice, and its zone tells which it is.
   cells = "time,ropes.R1 [kN]\n";
   for (const char* zone : {"+02:00", "+01:00"})
