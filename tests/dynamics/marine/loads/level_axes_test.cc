@@ -225,6 +225,7 @@ TEST(LevelAxes, ABoxThatRollsInWavesIsHardlyPushed) {
   LinearRestraint::Definition springs;
   springs.name = "springs";
   springs.point = {1, Vector3::Zero()};
+  springs.X_WR = Pose::identity();
   springs.stiffness.diagonal() << 0, 0, 3e8, 4.7e5, 4.7e5, 0;
   springs.damping.diagonal() << 2e7, 0, 3e8, 6e5, 6e5, 0;
   std::get<std::vector<LinearRestraint>>(elements).emplace_back(springs);
