@@ -228,8 +228,10 @@ double largest_sagitta(const ElementKind& kind, const Eigen::Matrix3Xd& places) 
     for (int a = 0; a < kind.corners; ++a)
       for (int b = 0; b < a; ++b) {
         if (!kind.local.col(middle).isApprox((kind.local.col(a) + kind.local.col(b)) / 2)) continue;
-        const Vector3 chord_middle = (places.col(a) + places.col(b)) / 2;
-        largest = std::max(largest, (places.col(middle) - chord_middle).norm());
+        // Across the chord: at a crack's tip middles lie on it, but nearer to one end.
+        const Vector3 along = (places.col(b) - places.col(a)).normalized();
+        const Vector3 off = places.col(middle) - (places.col(a) + places.col(b)) / 2;
+        largest = std::max(largest, (off - off.dot(along) * along).norm());
       }
   return largest;
 }

@@ -284,8 +284,8 @@ def _change_of(key: str, value: str) -> str:
     model, _, own = key.partition(":")
     way = "".join(f"[{part + 1}]" if isinstance(part, int) else f".{part}" for part in _parts(own))
     if not model or not way.startswith("."):
-        raise KeyError(f'"{key}" is no key of a model: "block:mass" is, the model as the case calls '
-                       "it before the colon")
+        raise KeyError(f'"{key}" is no key of a model: "block:mass" is, the model as the case '
+                       "calls it before the colon")
     return f"{model}:{way[1:]}={value}"
 
 

@@ -374,8 +374,8 @@ TEST(BlockPanels, AWebRoundACornerIsTwoStrips) {
   EXPECT_NEAR(wider, 0.6 + 0.5 * 0.6 * 0.6 / 4, 1e-9);
 }
 
-// Of a web along a side of 3 m and a floor of 4 m either strip may have the corner, with rectangles of
-// one size: it is the longer one, to port as to starboard.
+// Of a web along a side of 3 m and a floor of 4 m either strip may have the corner, with rectangles
+// of one size: it is the longer one, to port as to starboard.
 TEST(BlockPanels, AMirrorImageIsCutAlike) {
   for (const bool is_mirrored : {false, true}) {
     WebMesh web(0.2);
@@ -480,8 +480,8 @@ Motion6 bent_upwards(const Vector3& x) {
 }
 
 // A pipe that bends is compressed on one side: the mean over a sector of 30 degrees about its
-// lowest line is sin(15 degrees) / (pi / 12) = 0.989 of the stress there, over one that ends at that line
-// sin(75 degrees) times as much, 0.955; facets take 0.001 off. Round it a long pipe bears
+// lowest line is sin(15 degrees) / (pi / 12) = 0.989 of the stress there, over one that ends at
+// that line sin(75 degrees) times as much, 0.955; facets take 0.001 off. Round it a long pipe bears
 // 3 D / (R^2 t) (Timoshenko and Gere, 1961, chapter 7), however narrow its sectors.
 TEST(BlockPanels, APipeIsCutIntoSectors) {
   const double radius = 0.5;

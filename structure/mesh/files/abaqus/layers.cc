@@ -32,6 +32,7 @@ Vector3 part_along(const Vector3& direction, const Vector3& normal, const std::s
 
 AbaqusLayers::AbaqusLayers(const AbaqusModel& model, const AbaqusScope& scope,
                            const AbaqusBlock& block) {
+  if (block.data.empty()) throw CardError{"there are no layers"};
   for (const AbaqusLine& line : block.data) {
     const std::vector<std::string_view> fields = line.fields();
     if (fields.size() < 3)

@@ -326,8 +326,8 @@ TEST_F(MeshFiles, StepIsMeshedWithQuadraticTetrahedra) {
   EXPECT_THROW(read_part_mesh(path("box.step"), reading), ModelError);
 }
 
-// OpenCASCADE turns what a STEP file declares into millimetres: a box of 20 x 3 x 2 units is as large
-// as its file says, and whoever says another unit is told.
+// OpenCASCADE turns what a STEP file declares into millimetres: a box of 20 x 3 x 2 units is as
+// large as its file says, and whoever says another unit is told.
 TEST_F(MeshFiles, StepHasTheUnitThatItDeclares) {
   write_box(path("box.step"), false);
   std::ifstream stream(path("box.step"));

@@ -332,8 +332,8 @@ TEST(SolidDecks, WrittenAndReadAgainTheyAreTheSame) {
   expect_same_solids(second, read_abaqus(folder.path() / "again.inp", second.units));
 }
 
-// Two quadratic tetrahedra on either side of a face: both are to have the nodes in the middles of its
-// edges, which a mesher that makes each part quadratic by itself gives twice.
+// Two quadratic tetrahedra on either side of a face: both are to have the nodes in the middles of
+// its edges, which a mesher that makes each part quadratic by itself gives twice.
 TEST(SolidDecks, SaysWhichNodesTwoSolidsHaveInTheMiddleOfOneEdge) {
   const auto deck = [](const std::string& middle) {
     return "*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,0.,1.,0.\n4,0.,0.,1.\n5,0.,0.,-1.\n"
