@@ -448,7 +448,9 @@ TEST(LiftCaseErrors, LoadOrCranesThatCannotBeRead) {
   lift.lift_case = R"(case: nothing
 cranes: C1
 ropes:
-  R1: {from: C1.main, to: L1, model: {axial_stiffness: 10 MN, damping_time: 1 ms}, length: 3 m}
+  R1:
+    {from: C1.main, to: L1, length: 3 m,
+     model: {axial_stiffness: 10 MN, damping_time: 1 ms, breaking_load: 1 MN}}
 operation:
   - stage: hoist
     moves:
