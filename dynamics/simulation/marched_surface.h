@@ -18,9 +18,9 @@ namespace blocklift::dynamics {
 /// mass is no part of it: that acts at once, on the left-hand side, so that the way round is stable
 /// however large it is.
 ///
-/// Velocities and forces are those of small motions about the rest, each body's in the level axes of
-/// its own frame H of RadiatedWater (level_axes.h): the surface is carried along and turned with the
-/// bodies, its waves with it, which is right where they go and turn slowly against the waves' own
+/// Velocities and forces are those of small motions about the rest, each body's in the level axes
+/// of its own frame H of RadiatedWater (level_axes.h): the surface is carried along and turned with
+/// the bodies, its waves with it, which is right where they go and turn slowly against the waves' own
 /// way. Where their headings differ they influence each other as if they did not, as with a
 /// database. The sea's waves are met at the mean place of the frames under the mean of their
 /// headings.

@@ -34,8 +34,8 @@ struct SurfaceMesh {
 };
 
 /// Quadrangles in rings around each water line, with their vertices on its vertices, growing
-/// outwards. Each body has its region: the plane is divided half way between neighbouring bodies, or,
-/// of three and more around which circles do not meet, by the radical axes of these circles.
+/// outwards. Each body has its region: the plane is divided half way between neighbouring bodies,
+/// or, of three and more around which circles do not meet, by the radical axes of these circles.
 /// Beyond the circle that holds all bodies the rings are common. A body's rays run square off its
 /// water line first, then straight, fanned out evenly, to the edge of its region. Panels of one
 /// region need not meet those of the next at their corners: the potential is constant on a panel.

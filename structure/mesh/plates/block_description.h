@@ -124,7 +124,8 @@ struct Lug {
   Vector3 p_BPin = Vector3::Zero();
 };
 
-/// Thickened region of a plane free plate, in the plate's frame (structure/mesh/fields/plane_frame.h).
+/// Thickened region of a plane free plate, in the plate's frame
+/// (structure/mesh/fields/plane_frame.h).
 struct FreePad {
   std::string name;
   std::string plate;
