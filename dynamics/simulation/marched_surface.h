@@ -20,8 +20,8 @@ namespace blocklift::dynamics {
 ///
 /// Velocities and forces are those of small motions about the rest, each body's in the level axes
 /// of its own frame H of RadiatedWater (level_axes.h): the surface is carried along and turned with
-/// the bodies, its waves with it, which is right where they go and turn slowly against the waves' own
-/// way. Where their headings differ they influence each other as if they did not, as with a
+/// the bodies, its waves with it, which is right where they go and turn slowly against the waves'
+/// own way. Where their headings differ they influence each other as if they did not, as with a
 /// database. The sea's waves are met at the mean place of the frames under the mean of their
 /// headings.
 class MarchedSurface {
