@@ -89,7 +89,7 @@ class LeapPairs {
       lowest = std::min(lowest, value(k));
       highest = std::max(highest, value(k));
     }
-    const auto [low, high] = std::minmax(value(begin - 1), value(end));
+    const auto [low, high] = std::minmax({value(begin - 1), value(end)});
     if (lowest > high) return lowest - high;
     return highest < low ? highest - low : 0;
   }

@@ -257,7 +257,8 @@ class ClockRate {
     std::vector<double> worths;
     for (int i = -steps; i <= steps; ++i) worths.push_back(worth(shift_at(i)));
     const double best = *std::max_element(worths.begin(), worths.end());
-    const auto at = [&](int i) { return worths[static_cast<std::size_t>(i + steps)]; };
+    const auto middle = worths.begin() + steps;
+    const auto at = [&](int i) { return middle[i]; };
     const auto is_peak = [&](int i) {
       return at(i) >= best - equally_good && (i == -steps || at(i) >= at(i - 1)) &&
              (i == steps || at(i) >= at(i + 1));
