@@ -113,6 +113,14 @@ class LeapPairs {
   std::vector<FaultySamples> found_;
 };
 
+/// Do the samples begin or end with a leap?
+bool leaps_at_an_end(const std::vector<double>& values, const FaultySamples& run, double limit) {
+  const auto leaps_at = [&](std::size_t i) {
+    return i > 0 && i < values.size() && std::abs(values[i] - values[i - 1]) > limit;
+  };
+  return leaps_at(run.begin) || leaps_at(run.end);
+}
+
 /// Runs of equal samples that noise would not leave. One that lasts almost all the time is a dead
 /// channel, which is told otherwise.
 std::vector<FaultySamples> find_stands(const std::vector<double>& values, double limit) {
@@ -131,12 +139,9 @@ std::vector<FaultySamples> find_stands(const std::vector<double>& values, double
   const auto others = static_cast<double>(values.size() - in_runs);
   const bool is_rare = static_cast<double>(equal_elsewhere) <= rare * others;
   std::erase_if(runs, [&](const FaultySamples& run) {
-    const auto leaps_at = [&](std::size_t i) {
-      return i > 0 && i < values.size() && std::abs(values[i] - values[i - 1]) > limit;
-    };
     return static_cast<double>(run.end - run.begin) >
                almost_all * static_cast<double>(values.size()) ||
-           !(is_rare || leaps_at(run.begin) || leaps_at(run.end));
+           !(is_rare || leaps_at_an_end(values, run, limit));
   });
   return runs;
 }
@@ -245,12 +250,8 @@ class Judge {
   /// A rope without tension reads one value as well. It comes to it and leaves it without a leap,
   /// which a line that is torn does not.
   bool is_slack_rope(const FaultySamples& one) const {
-    const auto leaps_at = [&](std::size_t i) {
-      return i > 0 && i < measured_.size() &&
-             std::abs(measured_.values[i] - measured_.values[i - 1]) > limit_;
-    };
     return is_tension_ && std::abs(measured_.values[one.begin]) <= least_motion_ &&
-           !leaps_at(one.begin) && !leaps_at(one.end);
+           !leaps_at_an_end(measured_.values, one, limit_);
   }
 
   /// Measured less computed jumps as far as the measured quantity does, or half of it at least.
