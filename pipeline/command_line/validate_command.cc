@@ -198,20 +198,28 @@ void draw(const BlockModel& block, const fs::path& file, const fs::path& folder)
   std::cout << fmt::format("pictures: {}\n", path.string());
 }
 
+/// Before anything is read: what is found in other files must not be lost by it.
+void refuse_files_without_keys(const std::vector<std::string>& files,
+                               const std::vector<std::string>& set) {
+  for (const std::string& file : files) {
+    const FileKind kind = kind_of_file(input_file(file));
+    if (kind != FileKind::lift_case && kind != FileKind::mechanism) refuse_asked_changes(file, set);
+  }
+}
+
 }  // namespace
 
 int validate_files(const std::vector<std::string>& files,
                    const std::optional<std::string>& pictures,
                    const std::vector<std::string>& set) {
   const std::vector<KeyChange> changes = read_asked_changes(set);
+  if (!set.empty()) refuse_files_without_keys(files, set);
   Diagnostics all;
   std::set<std::string> said;
   for (const std::string& file : files) {
     // Each by itself: what is wrong with one, or with a model of it, must not hush up another.
     Diagnostics own;
     ModelLibrary library = ModelLibrary::of_installation();
-    const FileKind kind = kind_of_file(input_file(file));
-    if (kind != FileKind::lift_case && kind != FileKind::mechanism) refuse_asked_changes(file, set);
     library.set_changes(changes);
     std::shared_ptr<const BlockModel> block;
     const auto summary = validate(file, library, own, block);
