@@ -107,9 +107,8 @@ class HullComputation {
                            .threads = settings.rankine.threads,
                            .memory_limit = settings.rankine.memory_limit}),
         database_(begin_database(model, settings)),
-        coarser_(settings.with_coarser ? settings.frequencies.size() : 0),
-        coarser_diffraction_(coarser_.size(),
-                             MatrixXcd::Zero(model.mode_count(), settings.headings.size())) {
+        coarser_(model.mode_count(), settings.with_coarser ? settings.frequencies.size() : 0,
+                 settings.headings.size()) {
     account_.panels = model.body_mesh().size();
     account_.cells = equations_.cell_count();
     account_.peak_bytes =
@@ -137,8 +136,7 @@ class HullComputation {
   double highest_;  ///< solved, rad/s
   HullEquations equations_;
   HydrodynamicDatabase database_;
-  std::vector<MatrixXcd> coarser_;              ///< B + i w A of coarser panels, for each frequency
-  std::vector<MatrixXcd> coarser_diffraction_;  ///< of theirs, 6N x headings
+  CoarserForces coarser_;
 };
 
 void HullComputation::add_infinite_frequency() {
@@ -172,10 +170,12 @@ void HullComputation::add_asked(std::size_t k, const std::vector<HullEquations::
   const double w = settings_.frequencies[k];
   database_.damping[k] = force.real();
   database_.added_mass[k] = force.imag() / w;
-  if (settings_.with_coarser) coarser_[k] = equations_.calc_coarser_radiation(parts, w);
+  if (coarser_.sought()) coarser_.radiation[k] = equations_.calc_coarser_radiation(parts, w);
   for (const HullEquations::Part& part : parts) {
+    if (coarser_.sought())
+      add_coarser_arms(model_, part, equations_.coarser_panels(), database_, k, coarser_);
     add_diffraction(model_, part, k, database_,
-                    settings_.with_coarser ? &coarser_diffraction_[k] : nullptr);
+                    coarser_.diffraction.empty() ? nullptr : &coarser_.diffraction[k]);
     if (settings_.with_far_field) add_far_field(model_, part, k, database_);
   }
 }
@@ -301,10 +301,10 @@ HydrodynamicDatabase HullComputation::run() {
   add_retardation_of(found);
   check_memory(found);
   if (settings_.with_coarser) {
-    const PanelClusters& clusters = equations_.clusters();
+    const PanelClusters& clusters = equations_.coarser_panels().bodies;
     database_.change_from_coarser = error_of_panels(largest_change(database_, coarser_), clusters);
     database_.excitation_change_from_coarser =
-        error_of_panels(largest_excitation_change(database_, coarser_diffraction_), clusters);
+        error_of_panels(largest_excitation_change(database_, coarser_), clusters);
   }
   return std::move(database_);
 }

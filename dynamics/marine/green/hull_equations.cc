@@ -69,8 +69,7 @@ HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
       settings_(settings),
       hull_count_(model.body_mesh().size()),
       parities_(model.parities()),
-      clusters_(cluster_panels(model.body_mesh())),
-      flat_(find_flat_clusters(model.body_mesh(), clusters_)) {
+      coarser_(make_coarser_panels(model.body_mesh())) {
   make_cells();
   const int count = hull_count_ + cells_.size();
   const double limit = settings.memory_limit > 0.0 ? settings.memory_limit : usable_memory();
@@ -174,13 +173,13 @@ void HullEquations::integrate_images() {
 }
 
 void HullEquations::integrate_at_middles() {
-  const auto rows = static_cast<Eigen::Index>(flat_.middles.size());
-  const std::vector<std::array<PointColumns, 3>> places = reflect(flat_.middles);
+  const auto rows = static_cast<Eigen::Index>(coarser_.flat.middles.size());
+  const std::vector<std::array<PointColumns, 3>> places = reflect(coarser_.flat.middles);
   const Eigen::VectorXd areas = model_.body_areas();
   for (const Influence<double>& images : images_) {
     const auto mean = [&](const MatrixXd& matrix) {
       const MatrixXd of_hull = matrix.topLeftCorner(hull_count_, hull_count_);
-      return MatrixXd(-clusters_.average(areas, of_hull)(flat_.clusters, Eigen::all));
+      return MatrixXd(-coarser_.bodies.average(areas, of_hull)(coarser_.flat.clusters, Eigen::all));
     };
     at_middles_.push_back({mean(images.source), mean(images.dipole)});
   }
@@ -193,7 +192,8 @@ void HullEquations::integrate_at_middles() {
         dipole.setZero();
         add_panel_potentials(panel(j), places[g][k], PanelIntegral::both, 1.0, source.data(),
                              dipole.data());
-        if (g == 0 && k == 0 && flat_.of_panel[j] >= 0) dipole[flat_.of_panel[j]] = 0.0;
+        if (g == 0 && k == 0 && coarser_.flat.of_panel[j] >= 0)
+          dipole[coarser_.flat.of_panel[j]] = 0.0;
         for (std::size_t p = 0; p < parities_.size(); ++p) {
           const double sign = model_.sign(parities_[p], g);
           at_middles_[p].source.col(j) += sign * source;
@@ -348,12 +348,17 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency,
     MatrixXcd all(hull_count_, modes + scattered.cols());
     all << part.normal_velocities.cast<Complex>(), scattered;
     MatrixXcd matrix = make_matrix(waves[p], frequency, count);
-    MatrixXcd right = -(waves[p].source.topLeftCorner(count, hull_count_) * all);
-    waves[p] = {};
+    const auto of_source = waves[p].source.topLeftCorner(count, hull_count_);
+    MatrixXcd right = -(of_source * all);
+    MatrixXd means;
+    MatrixXcd of_means;
     if (extent.coarser) {
-      part.coarser_potentials =
-          solve_coarser(p, matrix, right.leftCols(modes), part.normal_velocities);
+      means = coarser_.bodies.average(model_.body_areas(), part.normal_velocities)(
+          coarser_.bodies.of_panel, Eigen::all);
+      of_means = -(of_source * means.cast<Complex>());
     }
+    waves[p] = {};
+    if (extent.coarser) part.coarser_potentials = solve_coarser(p, matrix, of_means, means);
     solve_in_place(matrix, right, "the matrix of the hulls' panels");
     part.potentials = right.topLeftCorner(hull_count_, modes);
     part.scattered = right.topRows(hull_count_).rightCols(scattered.cols());
@@ -361,18 +366,18 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency,
   return parts;
 }
 
-// Potentials are constant on the clusters. Equations hold at the middles of those that are flat,
+// Potentials and velocities are constant on the clusters. Equations hold at the middles of those that are flat,
 // but for the waves' smooth share, and in the mean over others. Cells stay.
 MatrixXcd HullEquations::solve_coarser(std::size_t part, const MatrixXcd& matrix,
                                        const MatrixXcd& right, const MatrixXd& velocities) const {
   const Eigen::VectorXd areas = model_.body_areas();
-  const Eigen::VectorXd whole = clusters_.sum(areas);
+  const Eigen::VectorXd whole = coarser_.bodies.sum(areas);
   const int cells = static_cast<int>(matrix.rows()) - hull_count_;
   const auto place = [&](int j) {
-    return j < hull_count_ ? clusters_.of_panel[j] : clusters_.count + j - hull_count_;
+    return j < hull_count_ ? coarser_.bodies.of_panel[j] : coarser_.bodies.count + j - hull_count_;
   };
   const auto share = [&](int i) { return i < hull_count_ ? areas[i] / whole[place(i)] : 1.0; };
-  const int count = clusters_.count + cells;
+  const int count = coarser_.bodies.count + cells;
   MatrixXcd coarser = MatrixXcd::Zero(count, count);
   MatrixXcd coarser_right = MatrixXcd::Zero(count, right.cols());
   for (int i = 0; i < matrix.rows(); ++i) coarser_right.row(place(i)) += share(i) * right.row(i);
@@ -380,15 +385,15 @@ MatrixXcd HullEquations::solve_coarser(std::size_t part, const MatrixXcd& matrix
     for (int i = 0; i < matrix.rows(); ++i) coarser(place(i), place(j)) += share(i) * matrix(i, j);
   }
   const auto& [source, dipole] = at_middles_[part];
-  const MatrixXcd of_hull = clusters_.sum_columns(dipole).cast<Complex>();
+  const MatrixXcd of_hull = coarser_.bodies.sum_columns(dipole).cast<Complex>();
   const MatrixXcd of_modes = (source * velocities).cast<Complex>();
-  for (std::size_t k = 0; k < flat_.clusters.size(); ++k) {
+  for (std::size_t k = 0; k < coarser_.flat.clusters.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    coarser.row(flat_.clusters[k]).head(clusters_.count) -= of_hull.row(row);
-    coarser_right.row(flat_.clusters[k]) -= of_modes.row(row);
+    coarser.row(coarser_.flat.clusters[k]).head(coarser_.bodies.count) -= of_hull.row(row);
+    coarser_right.row(coarser_.flat.clusters[k]) -= of_modes.row(row);
   }
   solve_in_place(coarser, coarser_right, "the matrix of coarser panels of the hulls");
-  return clusters_.spread(coarser_right.topRows(clusters_.count));
+  return coarser_.bodies.spread(coarser_right.topRows(coarser_.bodies.count));
 }
 
 MatrixXcd HullEquations::calc_radiation(const std::vector<Part>& parts, double frequency) const {

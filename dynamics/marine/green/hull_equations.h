@@ -55,7 +55,7 @@ class HullEquations {
   int size() const { return static_cast<int>(points_.size()); }
   int cell_count() const { return cells_.size(); }
   /// Of the hulls' panels, for the coarser flow.
-  const PanelClusters& clusters() const { return clusters_; }
+  const CoarserPanels& coarser_panels() const { return coarser_; }
 
   using Part = FlowOfPart;
   /// What is solved besides the modes' flow.
@@ -94,7 +94,8 @@ class HullEquations {
   Eigen::MatrixXcd make_matrix(const Influence<std::complex<double>>& waves, double frequency,
                                int count) const;
   /// The modes' potentials by clusters of the hulls' panels, on each panel.
-  /// @param velocities of the modes, a column each. @param part index.
+  /// @param right of these velocities. @param part index.
+  /// @param velocities of the modes, the mean of its cluster on each panel, a column each.
   Eigen::MatrixXcd solve_coarser(std::size_t part, const Eigen::MatrixXcd& matrix,
                                  const Eigen::MatrixXcd& right,
                                  const Eigen::MatrixXd& velocities) const;
@@ -119,8 +120,7 @@ class HullEquations {
   std::vector<double> diameters_;       ///< m
   double reach_ = 0.0, deepest_ = 0.0;  ///< m
   std::vector<Parity> parities_;
-  PanelClusters clusters_;  ///< of the hulls' panels
-  FlatClusters flat_;
+  CoarserPanels coarser_;  ///< of the hulls' alone
   /// For each part, what 1/r and its images at flat clusters' middles (rows) are more than in the
   /// mean over the clusters, of the hulls' panels (columns).
   std::vector<Influence<double>> at_middles_;

@@ -192,4 +192,11 @@ FlatClusters find_flat_clusters(const PanelMesh& mesh, const PanelClusters& clus
   return result;
 }
 
+CoarserPanels make_coarser_panels(const PanelMesh& bodies, const PanelMesh& surface,
+                                  double largest) {
+  PanelClusters of_bodies = cluster_panels(bodies);
+  FlatClusters flat = find_flat_clusters(bodies, of_bodies);
+  return {std::move(of_bodies), std::move(flat), cluster_panels(surface, largest)};
+}
+
 }  // namespace blocklift::dynamics

@@ -62,4 +62,15 @@ struct FlatClusters {
 /// would change by next to nothing. Where a hull is curved the middle lies within it.
 FlatClusters find_flat_clusters(const PanelMesh& mesh, const PanelClusters& clusters);
 
+/// Panels of a problem that are taken together for a second, coarser solution of it.
+struct CoarserPanels {
+  PanelClusters bodies;
+  FlatClusters flat;  ///< of the bodies
+  PanelClusters surface;
+};
+
+/// @param largest of the surface's clusters, m across.
+CoarserPanels make_coarser_panels(const PanelMesh& bodies, const PanelMesh& surface = {},
+                                  double largest = std::numeric_limits<double>::infinity());
+
 }  // namespace blocklift::dynamics

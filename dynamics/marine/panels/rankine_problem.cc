@@ -254,7 +254,7 @@ void RankinePart::solve_coarser(const PanelModel& model, const Influence& influe
 
 void RankinePart::take_rows_at_middles(const PanelModel& model, const CoarserPanels& panels,
                                        int threads, Influence& coarse) const {
-  const FlatClusters flat = find_flat_clusters(model.body_mesh(), panels.bodies);
+  const FlatClusters& flat = panels.flat;
   if (flat.clusters.empty()) return;
   PointColumns points(flat.middles.size());
   for (std::size_t k = 0; k < flat.middles.size(); ++k) {

@@ -17,11 +17,6 @@ double usable_memory();
 /// Sets a limit for the process, bytes, from now on; there is none to begin with.
 void limit_usable_memory(double bytes);
 
-/// Panels of a problem that are taken together for a second, coarser solution of it.
-struct CoarserPanels {
-  PanelClusters bodies, surface;
-};
-
 struct RankineSettings {
   int threads = 0;  ///< 0: one a core
   /// What may be used, bytes; 0: usable_memory().

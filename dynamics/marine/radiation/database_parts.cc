@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -133,23 +134,35 @@ Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const Matrix
   return largest_share(modes, forces_on_themselves(database), amounts);
 }
 
-Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
-                               const std::vector<MatrixXcd>& coarser) {
+CoarserForces::CoarserForces(Eigen::Index modes, std::size_t count, std::size_t headings)
+    : radiation(count, MatrixXcd::Zero(modes, modes)),
+      diffraction(headings == 0 ? 0 : count,
+                  MatrixXcd::Zero(modes, static_cast<Eigen::Index>(headings))),
+      arms(MatrixXcd::Zero(modes, static_cast<Eigen::Index>(count))) {}
+
+void CoarserForces::miss(const std::vector<int>& modes) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  for (MatrixXcd& force : radiation) force(modes, modes).setConstant(unknown);
+  for (MatrixXcd& force : diffraction) force(modes, Eigen::all).setConstant(unknown);
+}
+
+Eigen::VectorXd largest_change(const HydrodynamicDatabase& database, const CoarserForces& coarser) {
   MatrixXcd changes = forces_on_themselves(database);
-  for (std::size_t k = 0; k < coarser.size(); ++k) {
-    changes.col(static_cast<Eigen::Index>(k)) -= coarser[k].diagonal();
+  for (std::size_t k = 0; k < coarser.radiation.size(); ++k) {
+    changes.col(static_cast<Eigen::Index>(k)) -= coarser.radiation[k].diagonal();
   }
-  return largest_share(database, changes.cwiseAbs());
+  const MatrixXd filled = (changes - coarser.arms).cwiseAbs();
+  return largest_share(database, changes.cwiseAbs().cwiseMax(filled));
 }
 
 Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
-                                          const std::vector<MatrixXcd>& coarser) {
+                                          const CoarserForces& coarser) {
   constexpr double negligible = 1e-3;
   if (database.headings.empty()) return {};
   Eigen::VectorXd changes = Eigen::VectorXd::Zero(database.mode_count());
   Eigen::VectorXd forces = changes;
-  for (std::size_t k = 0; k < coarser.size(); ++k) {
-    const MatrixXcd difference = database.diffraction[k] - coarser[k];
+  for (std::size_t k = 0; k < coarser.diffraction.size(); ++k) {
+    const MatrixXcd difference = database.diffraction[k] - coarser.diffraction[k];
     changes = changes.cwiseMax(difference.cwiseAbs().rowwise().maxCoeff());
     forces = forces.cwiseMax(database.excitation(k).cwiseAbs().rowwise().maxCoeff());
   }
@@ -188,6 +201,28 @@ void add_diffraction(const PanelModel& model, const FlowOfPart& flow, std::size_
   if (coarser == nullptr) return;
   const MatrixXcd weighted = model.body_areas().asDiagonal() * flow.coarser_potentials;
   (*coarser)(flow.modes, Eigen::all) += factor * (weighted.transpose() * opposed);
+}
+
+void add_coarser_arms(const PanelModel& model, const FlowOfPart& flow, const CoarserPanels& panels,
+                      const HydrodynamicDatabase& database, std::size_t frequency,
+                      CoarserForces& coarser) {
+  const Eigen::VectorXd& areas = model.body_areas();
+  const auto within = [&](const MatrixXd& values) {
+    const MatrixXd means = panels.bodies.average(areas, values);
+    MatrixXd result = values - means(panels.bodies.of_panel, Eigen::all);
+    for (Eigen::Index k = 0; k < result.rows(); ++k) {
+      if (panels.flat.of_panel[static_cast<std::size_t>(k)] < 0) result.row(k).setZero();
+    }
+    return result;
+  };
+  const MatrixXd weighted = areas.asDiagonal() * within(flow.normal_velocities);
+  MatrixXcd potentials(flow.potentials.rows(), flow.potentials.cols());
+  potentials.real() = within(flow.potentials.real());
+  potentials.imag() = within(flow.potentials.imag());
+  const Complex factor(0.0, -2.0 * database.frequencies[frequency] * model.water().density *
+                                model.symmetry().image_count());
+  coarser.arms(flow.modes, static_cast<Eigen::Index>(frequency)) +=
+      factor * weighted.cast<Complex>().cwiseProduct(potentials).colwise().sum().transpose();
 }
 
 void add_far_field(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,

@@ -25,17 +25,33 @@ Eigen::VectorXd largest_share(const std::vector<int>& modes, const Eigen::Matrix
 /// The same of all modes of a database.
 Eigen::VectorXd largest_share(const HydrodynamicDatabase& database, const Eigen::MatrixXd& amounts);
 
-/// The largest_share() by which the forces change from those of coarser panels, B + i w A.
-Eigen::VectorXd largest_change(const HydrodynamicDatabase& database,
-                               const std::vector<Eigen::MatrixXcd>& coarser);
+/// What coarser panels make of a database's forces, to be compared with it.
+struct CoarserForces {
+  /// All nothing. @param count of frequencies; 0: nothing is sought.
+  CoarserForces(Eigen::Index modes, std::size_t count, std::size_t headings);
+  bool sought() const { return !radiation.empty(); }
+  /// Of the part's modes: there is no such solution.
+  void miss(const std::vector<int>& modes);
+
+  std::vector<Eigen::MatrixXcd> radiation;    ///< B + i w A, 6N x 6N for each frequency
+  std::vector<Eigen::MatrixXcd> diffraction;  ///< 6N x headings for each; empty: not sought
+  /// What of each mode's force on itself lies within the coarser panels (add_coarser_arms); 6N x
+  /// frequencies.
+  Eigen::MatrixXcd arms;
+};
+
+/// The largest_share() by which the forces change from those of coarser panels, B + i w A: with
+/// their arms filled in or without, whichever is more. On broad flat bottoms arms hide the edges'
+/// error: they make turning too easy, at second order in the panels' size, where sharp edges make
+/// it too hard at first. Filled in, what is left is the edges'.
+Eigen::VectorXd largest_change(const HydrodynamicDatabase& database, const CoarserForces& coarser);
 
 /// For each mode, the largest difference of its diffraction from that of coarser panels, over
 /// frequencies and headings, as a share of the largest excitation of the mode over them. Zero for a
 /// mode on which waves exert next to nothing: less than a thousandth of the largest excitation of
 /// those that move the same body in the same way. Empty without headings.
-/// @param coarser 6N x headings for each frequency.
 Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
-                                          const std::vector<Eigen::MatrixXcd>& coarser);
+                                          const CoarserForces& coarser);
 
 /// Normal velocities on the bodies that a wave of unit amplitude would have there, with the other
 /// sign: those of the waves scattered. A column for each heading (rad); 1/s.
@@ -58,6 +74,19 @@ struct FlowOfPart {
 /// @param coarser diffraction by the coarser potentials, added to; 6N x headings; null: not sought.
 void add_diffraction(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
                      HydrodynamicDatabase& database, Eigen::MatrixXcd* coarser = nullptr);
+
+/// Adds what the coarser panels leave out of the part's radiation forces as they have one pressure
+/// and one velocity each: of a mode's force on itself, with v its normal velocity, phi its
+/// potential, both of the finer panels, and means over the flat clusters of these,
+///
+///   -2 i w rho sum over panels of area (v - mean v)(phi - mean phi),
+///
+/// once for the pressures' arms, and by reciprocity once for the velocities. Nothing where a
+/// cluster moves along its normal as a whole.
+/// @param frequency index.
+void add_coarser_arms(const PanelModel& model, const FlowOfPart& flow, const CoarserPanels& panels,
+                      const HydrodynamicDatabase& database, std::size_t frequency,
+                      CoarserForces& coarser);
 
 /// Adds what the part sends out far away: by Green's theorem with the wave psi = f(z) exp(i k
 /// (x cos theta + y sin theta)), f that of the incident waves, and stationary phase,

@@ -62,8 +62,8 @@ RankineSettings rankine_settings(const PanelModel& model, const DatabaseSettings
   const double wave =
       2.0 * std::numbers::pi / calc_wave_number(settings.frequencies.back(), model.water());
   const double largest = std::max(wave / 8.0, 2.0 * diameters / model.body_mesh().size());
-  rankine.coarser = std::make_shared<const CoarserPanels>(CoarserPanels{
-      cluster_panels(model.body_mesh()), cluster_panels(model.surface_mesh(), largest)});
+  rankine.coarser = std::make_shared<const CoarserPanels>(
+      make_coarser_panels(model.body_mesh(), model.surface_mesh(), largest));
   return rankine;
 }
 
@@ -80,12 +80,12 @@ class PartComputation {
   long run(double step, const RunLength& length, std::vector<MatrixXd>& retardation,
            Progress& progress);
   void add_frequencies(HydrodynamicDatabase& database) const;
-  /// To excitation, and to the far field, made for all parts together.
-  /// @param coarser diffraction of the coarser solution, for each frequency; empty: not sought.
-  void add_waves(HydrodynamicDatabase& database, std::vector<MatrixXcd>& coarser) const;
+  /// To excitation, and to the far field, made for all parts together; and to what the coarser
+  /// solution makes of the former.
+  void add_waves(HydrodynamicDatabase& database, CoarserForces& coarser) const;
   void add_distant_waves(HydrodynamicDatabase& database) const;
-  /// To the radiation forces of the coarser solution, one 6N x 6N for each frequency.
-  void add_coarser(std::vector<MatrixXcd>& forces) const;
+  /// To the radiation forces of the coarser solution.
+  void add_coarser(CoarserForces& coarser) const;
   /// To what the ends of the runs cut off, modes x frequencies.
   void add_cut(MatrixXd& cut) const;
 
@@ -163,17 +163,16 @@ void PartComputation::add_frequencies(HydrodynamicDatabase& database) const {
   }
 }
 
-void PartComputation::add_coarser(std::vector<MatrixXcd>& forces) const {
+void PartComputation::add_coarser(CoarserForces& coarser) const {
   const auto& modes = part_.modes();
   if (!coarser_run_) {
-    for (MatrixXcd& force : forces)
-      force(modes, modes).setConstant(std::numeric_limits<double>::infinity());
+    coarser.miss(modes);
     return;
   }
   const MatrixXd& volume = part_.coarser()->infinite_frequency_volume();
   for (std::size_t k = 0; k < settings_.frequencies.size(); ++k) {
     const MatrixXd mass = model_.water().density * volume + coarser_run_->added_mass(k);
-    forces[k](modes, modes) +=
+    coarser.radiation[k](modes, modes) +=
         coarser_run_->damping(k) + Complex(0, settings_.frequencies[k]) * mass;
   }
 }
@@ -200,23 +199,21 @@ FlowOfPart PartComputation::flow(std::size_t frequency) const {
           mode_potentials(part_, run_, frequency)};
 }
 
-void PartComputation::add_waves(HydrodynamicDatabase& database,
-                                std::vector<MatrixXcd>& coarser) const {
-  if (!coarser_run_) {
-    for (MatrixXcd& force : coarser)
-      force(part_.modes(), Eigen::all).setConstant(std::numeric_limits<double>::infinity());
-  }
+void PartComputation::add_waves(HydrodynamicDatabase& database, CoarserForces& coarser) const {
   parallel::for_each(
       static_cast<int>(database.frequencies.size()), settings_.rankine.threads, [&](int index) {
         const auto k = static_cast<std::size_t>(index);
         FlowOfPart found = flow(k);
-        if (coarser.empty() || !coarser_run_) {
+        if (coarser.sought()) {
+          add_coarser_arms(model_, found, *coarser_panels_, database, k, coarser);
+        }
+        if (coarser.diffraction.empty() || !coarser_run_) {
           add_diffraction(model_, found, k, database);
           return;
         }
         found.coarser_potentials =
             coarser_panels_->bodies.spread(mode_potentials(*part_.coarser(), *coarser_run_, k));
-        add_diffraction(model_, found, k, database, &coarser[k]);
+        add_diffraction(model_, found, k, database, &coarser.diffraction[k]);
       });
 }
 
@@ -271,8 +268,7 @@ double database_bytes(const PanelModel& model, const DatabaseSettings& settings)
     const int coarser = rankine.coarser->surface.count;
     bytes += bytes_of(rankine.coarser->bodies.count, coarser);
     // Its equations at the middles of flat clusters are made with the finer panels.
-    const auto middles = static_cast<double>(
-        find_flat_clusters(model.body_mesh(), rankine.coarser->bodies).clusters.size());
+    const auto middles = static_cast<double>(rankine.coarser->flat.clusters.size());
     bytes += 8.0 * middles * (2.0 * bodies + (finite_depth ? 2.0 : 1.0) * surface);
     if (!settings.headings.empty())
       bytes += elevation_bytes(static_cast<double>(coarser) * model.mode_count(),
@@ -305,11 +301,8 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   account.surface_panels = model.surface_mesh().size();
   account.peak_bytes = database_bytes(model, settings);
   const RankineSettings rankine = rankine_settings(model, settings);
-  std::vector<MatrixXcd> coarser(settings.with_coarser ? settings.frequencies.size() : 0,
-                                 MatrixXcd::Zero(model.mode_count(), model.mode_count()));
-  std::vector<MatrixXcd> coarser_diffraction(
-      settings.headings.empty() ? 0 : coarser.size(),
-      MatrixXcd::Zero(model.mode_count(), settings.headings.size()));
+  CoarserForces coarser(model.mode_count(), settings.with_coarser ? settings.frequencies.size() : 0,
+                        settings.headings.size());
   MatrixXd cut =
       MatrixXd::Zero(model.mode_count(), static_cast<Eigen::Index>(settings.frequencies.size()));
   double step = settings.time_step;
@@ -334,12 +327,12 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     const auto steps = static_cast<long>(std::ceil(duration / step));
     account.steps += computation.run(step, {steps, most_lengths}, database.retardation, progress);
     computation.add_frequencies(database);
-    computation.add_coarser(coarser);
+    if (coarser.sought()) computation.add_coarser(coarser);
     computation.add_cut(cut);
     account.march_s += seconds_since(start);
     start = std::chrono::steady_clock::now();
     progress.excite();
-    computation.add_waves(database, coarser_diffraction);
+    computation.add_waves(database, coarser);
     if (settings.with_far_field) computation.add_distant_waves(database);
     account.excitation_s += seconds_since(start);
     const RankineTiming& timing = computation.part().timing();
@@ -358,7 +351,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     const PanelClusters& clusters = rankine.coarser->bodies;
     database.change_from_coarser = error_of_panels(largest_change(database, coarser), clusters);
     database.excitation_change_from_coarser =
-        error_of_panels(largest_excitation_change(database, coarser_diffraction), clusters);
+        error_of_panels(largest_excitation_change(database, coarser), clusters);
   }
   database.cut_off_by_end = largest_share(database, cut);
   return database;

@@ -272,9 +272,9 @@ TEST_P(ClustersOfABox, AreAMeshOfTwiceTheSize) {
   const PanelModel coarse = make_even_box(10, 4, 1, GetParam());
   RankineSettings settings;
   settings.coarser = std::make_shared<const CoarserPanels>(
-      CoarserPanels{cluster_panels(fine.body_mesh()), cluster_panels(fine.surface_mesh())});
+      make_coarser_panels(fine.body_mesh(), fine.surface_mesh()));
   EXPECT_EQ(settings.coarser->bodies.count, coarse.body_mesh().size());
-  EXPECT_EQ(find_flat_clusters(fine.body_mesh(), settings.coarser->bodies).clusters.size(),
+  EXPECT_EQ(settings.coarser->flat.clusters.size(),
             static_cast<std::size_t>(coarse.body_mesh().size()));
   for (const Parity& parity : {Parity{1, 1}, Parity{-1, 1}}) {
     const RankinePart part(fine, parity, settings), of_coarse(coarse, parity);
