@@ -6,10 +6,7 @@
 #include <numbers>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/panels/mirrored_bodies.h"
-#include "dynamics/marine/panels/wetted_body.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
-#include "dynamics/simulation/marched_surface.h"
 #include "pipeline/files/lift_case/sea_band.h"
 
 namespace blocklift::pipeline {
@@ -35,100 +32,14 @@ double mean_wave_length(const dynamics::WaveField& waves) {
   return sum > 0 ? 2.0 * std::numbers::pi * energy / sum : std::numeric_limits<double>::infinity();
 }
 
-double wave_length(double frequency, const dynamics::Water& water) {
-  return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, water);
+/// `vessel` is null for a load, which does not drift.
+dynamics::FroudeKrylovPart part_from_database(const VesselInCase* vessel) {
+  using Part = dynamics::FroudeKrylovPart;
+  if (vessel && vessel->linear_buoyancy) return Part::whole;
+  return vessel && vessel->drift.value == DriftMethod::newman ? Part::along_water : Part::none;
 }
 
 }  // namespace
-
-dynamics::MemoryFit memory_fit_of_vessels() {
-  dynamics::MemoryFit fit;
-  fit.tolerance = 0.005;
-  fit.most_states = 400;
-  fit.acceptable_error = 0.02;
-  // Water that swings long between two hulls takes more states.
-  fit.loose_tolerance = 0.1;
-  fit.most_loose_states = 600;
-  return fit;
-}
-
-int RadiationProblem::lowered_body() const {
-  const auto found = std::find_if(bodies.begin(), bodies.end(),
-                                  [](const Body& body) { return !body.draughts.empty(); });
-  return found == bodies.end() ? -1 : static_cast<int>(found - bodies.begin());
-}
-
-RadiationProblem without_lowered(RadiationProblem problem) {
-  const int body = problem.lowered_body();
-  if (body >= 0) problem.bodies.erase(problem.bodies.begin() + body);
-  return problem;
-}
-
-RadiationProblem at_draught(RadiationProblem problem, double draught) {
-  const int body = problem.lowered_body();
-  if (body < 0) return problem;
-  RadiationProblem::Body& lowered = problem.bodies[body];
-  lowered.X_DB.p.z() = -lowered.vessel->hull.bounds()[0].z() - draught;
-  lowered.draughts.clear();
-  return problem;
-}
-
-dynamics::PanelModel make_panel_model(const RadiationProblem& problem) {
-  std::vector<dynamics::WettedBody> bodies;
-  std::vector<std::vector<Vector3>> vertices_W;
-  for (const RadiationProblem::Body& body : problem.bodies) {
-    const dynamics::Hull& hull = body.vessel->hull;
-    bodies.push_back(make_wetted_body(hull, body.X_DB, body.p_BoR_B));
-    bodies.back().name = body.name;
-    std::vector<Vector3>& vertices = vertices_W.emplace_back();
-    for (const Vector3& vertex : hull.vertices()) vertices.push_back(body.X_DB.apply(vertex));
-  }
-  mirror_bodies(vertices_W, bodies);
-  const dynamics::Symmetry symmetry = keep_symmetry(find_symmetry(bodies), problem.lids);
-  const std::vector<dynamics::WaterLine> lines = find_water_lines(bodies);
-  dynamics::SurfaceMesh surface;
-  surface.mesh.symmetry = symmetry;
-  if (problem.method == dynamics::PanelMethod::marched_surface) {
-    surface = make_surface_mesh(
-        lines,
-        dynamics::surface_settings(lines, wave_length(problem.frequencies.back(), problem.water),
-                                   wave_length(problem.frequencies.front(), problem.water)));
-  }
-  dynamics::PanelModel model(std::move(bodies), surface, problem.water, symmetry);
-  require_panels_for_waves(model, problem.frequencies.back());
-  return model;
-}
-
-MarchedWater make_marched_water(const RadiationProblem& problem) {
-  if (!problem.direct || problem.bodies.empty()) return {};
-  const dynamics::PanelModel model = make_panel_model(problem);
-  dynamics::DirectRadiation::Settings settings;
-  settings.damping_strength = dynamics::damping_zone(problem.frequencies.front()).strength;
-  settings.lids = problem.lids;
-  settings.waves = problem.waves;
-  settings.with_froude_krylov = false;  // HullForce's
-  settings.ramp = problem.ramp;
-  settings.origin = problem.origin;
-  MarchedWater water;
-  water.radiation = std::make_shared<dynamics::DirectRadiation>(model, settings);
-  water.step = dynamics::marching_step(*water.radiation, problem.frequencies.back());
-  water.unknowns = model.body_mesh().size() + model.surface_mesh().size();
-  return water;
-}
-
-dynamics::HydrodynamicDatabase compute_radiation(
-    const RadiationProblem& problem, const dynamics::PanelModel& model,
-    const std::vector<dynamics::BodyGroup>& groups,
-    const std::function<void(double, const char*)>& progress) {
-  dynamics::DatabaseSettings settings;
-  settings.frequencies = problem.frequencies;
-  settings.headings = problem.headings;
-  settings.lids = problem.lids;
-  settings.with_coarser = true;
-  settings.with_far_field = problem.drifting.has_value();
-  settings.progress = progress;
-  return compute_by_method(problem.method, model, groups, settings);
-}
 
 dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {
   const VesselModel& model = vessel.model->model;
@@ -197,6 +108,12 @@ std::vector<MarineBuilder::Radiating> MarineBuilder::radiating() const {
         lowered(load_->name, load_->vessel, load_->draughts, load_->position, load_->heading));
   }
   return vessels;
+}
+
+MarineBuilder::Radiating MarineBuilder::radiating(const std::string& name) const {
+  const std::vector<Radiating> vessels = radiating();
+  return *std::find_if(vessels.begin(), vessels.end(),
+                       [&](const Radiating& one) { return one.name == name; });
 }
 
 dynamics::Pose MarineBuilder::world_of_database(const std::vector<Radiating>& vessels) {
@@ -406,10 +323,7 @@ void MarineBuilder::take_buoyancy_of_database(const VesselInCase& vessel, double
                                               Vector3& p_WC) const {
   const dynamics::HydrodynamicDatabase& database = *vessel.hydrodynamics;
   const auto b = static_cast<std::size_t>(vessel.hydrodynamic_body);
-  const std::vector<Radiating> vessels = radiating();
-  const Radiating& own = *std::find_if(vessels.begin(), vessels.end(), [&](const Radiating& one) {
-    return one.name == vessel.name.value;
-  });
+  const Radiating own = radiating(vessel.name.value);
   buoyancy.frame.X_BH = own.X_BR;
   const dynamics::Pose X_WH = own.X_WB * own.X_BR;
   if (database.displaced_volumes[b] > 0.0) {
@@ -495,12 +409,14 @@ void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool 
   const std::string& name = vessel.name.value;
   if (vessel.linear_buoyancy) {
     add_linear_buoyancy(vessel, body, elements);
-    add_damping(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
-                displaced_mass_.at(name), at_rest, elements);
   } else {
-    add_hull(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
-             displaced_mass_.at(name), at_rest, elements);
+    dynamics::HullForce::Definition hull{"hull of " + name, body, clusters(*vessel.model),
+                                         sea(at_rest)};
+    if (vessel.drift.value == DriftMethod::newman) hull.p_BoR_B = radiating(name).X_BR.p;
+    std::get<std::vector<dynamics::HullForce>>(elements).emplace_back(std::move(hull));
   }
+  add_damping(name, body, *vessel.model, vessel.damping, vessel.quadratic_damping,
+              displaced_mass_.at(name), at_rest, elements);
   if (vessel.current_load) add_current_load(vessel, body, at_rest, elements);
   if (vessel.restraint) add_restraint(vessel, body, elements);
   for (const MemberInCase& model : vessel.members) {
@@ -569,7 +485,7 @@ void MarineBuilder::add_elements(const BodyOf& point, const dynamics::Hydrodynam
     force.mark = draught_mark(vessels, point);
     force.database_body = index++;
     force.sea = sea(at_rest);
-    force.with_froude_krylov = in_case && in_case->linear_buoyancy;
+    force.froude_krylov = part_from_database(in_case);
     std::get<std::vector<dynamics::DiffractionForce>>(elements).emplace_back(std::move(force));
   }
 }

@@ -99,6 +99,8 @@ std::string kind_name(H5T_class_t kind) {
       return "numbers";
     case H5T_STRING:
       return "texts";
+    case H5T_COMPOUND:
+      return "compounds, as h5py writes complex numbers (write real and imaginary part apart)";
     default:
       return "neither numbers nor texts";
   }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/loads/excitation_drift.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/formats/hydrodynamics/hull_hash.h"
@@ -332,6 +333,22 @@ std::vector<dynamics::MemoryStateSpace> find_memories(
       });
 }
 
+namespace {
+
+/// The mean drift forces of a vessel that floats freely, less what the excitation of a simulation
+/// has in the mean by itself (calc_excitation_drift).
+void add_mean_drift(const RadiationProblem::FreeVessel& vessel,
+                    dynamics::HydrodynamicDatabase& database) {
+  database.hydrostatic_stiffness = vessel.stiffness;
+  const std::vector<Eigen::MatrixXcd> motions =
+      calc_response_amplitudes(database, vessel.mass, vessel.damping);
+  database.mean_drift = calc_mean_drift(database, motions, vessel.damping);
+  const std::vector<Eigen::MatrixXd> besides = calc_excitation_drift(database, motions);
+  for (std::size_t k = 0; k < besides.size(); ++k) database.mean_drift[k] -= besides[k];
+}
+
+}  // namespace
+
 FoundRadiation find_radiation(const RadiationProblem& problem,
                               const std::function<void(const std::string&)>& report,
                               const std::function<void(double, const std::string&)>& progress) {
@@ -357,12 +374,7 @@ FoundRadiation find_radiation(const RadiationProblem& problem,
     lost = found.lost;
   }
   if (problem.drifting) {
-    dynamics::HydrodynamicDatabase& database = series.databases.front();
-    database.hydrostatic_stiffness = problem.drifting->stiffness;
-    database.mean_drift = calc_mean_drift(
-        database,
-        calc_response_amplitudes(database, problem.drifting->mass, problem.drifting->damping),
-        problem.drifting->damping);
+    add_mean_drift(*problem.drifting, series.databases.front());
   }
   // What is taken of a given one for the case's bodies has lost what its maker found out about it.
   const std::span<const dynamics::HydrodynamicDatabase> doubted =

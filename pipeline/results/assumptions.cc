@@ -249,8 +249,8 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
         "on "
         "the vessel as it floats freely in regular waves (Maruo's formula, or those of the "
         "database "
-        "that the case names). What the waves' pressure on the moving hull has of it already is "
-        "counted twice.",
+        "that the case names). In surge, sway and yaw the waves' first-order force is that on the "
+        "hull at rest, so that nothing is counted twice.",
         drifting));
   }
   if (!linear.empty()) {

@@ -16,6 +16,7 @@
 #include "pipeline/build/keel_clearance.h"
 #include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/files/lift_case/vessel_database.h"
+#include "pipeline/files/lift_case/vessel_doubts.h"
 #include "pipeline/files/lift_case/wave_headings.h"
 #include "pipeline/files/vessel/wetted_mesh.h"
 #include "pipeline/lift/parallel_baskets.h"
@@ -339,6 +340,8 @@ class Doubts {
   void doubt_sea() {
     std::string of_sea = doubt_about_sea(case_, case_.gravity);
     if (!of_sea.empty()) list_.push_back(std::move(of_sea));
+    for (std::string& of_vessel : doubts_about_vessels(case_))
+      list_.push_back(std::move(of_vessel));
     for (std::string& of_database : doubts_about_database(case_.vessels))
       list_.push_back(std::move(of_database));
   }

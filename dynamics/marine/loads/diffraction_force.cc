@@ -31,6 +31,11 @@ void check(const DiffractionForce::Definition& d) {
   }
 }
 
+bool takes(FroudeKrylovPart part, Eigen::Index mode) {
+  const bool along_water = mode == surge || mode == sway || mode == yaw;
+  return part == FroudeKrylovPart::whole || (part == FroudeKrylovPart::along_water && along_water);
+}
+
 }  // namespace
 
 DiffractionForce::DiffractionForce(Definition definition) : definition_(std::move(definition)) {
@@ -77,8 +82,9 @@ DiffractionForce::Amplitude DiffractionForce::amplitude_at(const HydrodynamicDat
     const auto column = static_cast<Eigen::Index>(heading);
     const auto row = modes_per_body * static_cast<Eigen::Index>(body);
     Amplitude value = database.diffraction[f].col(column).segment<6>(row);
-    if (definition_.with_froude_krylov) {
-      value += database.froude_krylov[f].col(column).segment<6>(row);
+    for (Eigen::Index m = 0; m < modes_per_body; ++m) {
+      if (takes(definition_.froude_krylov, m))
+        value[m] += database.froude_krylov[f](row + m, column);
     }
     const double phase = calc_wave_number(known[f], database.water) * place;
     Amplitude ordered;

@@ -10,6 +10,13 @@
 
 namespace blocklift::dynamics {
 
+/// How much of the undisturbed wave's force DiffractionForce takes from its database.
+enum class FroudeKrylovPart {
+  none,         ///< HullForce has it
+  along_water,  ///< surge, sway and yaw, of a hull that drifts: HullForce has the rest
+  whole,        ///< there is no HullForce
+};
+
 /// Force of the waves that a floating body scatters, from a database: linear in each component of
 /// the sea,
 ///
@@ -21,9 +28,9 @@ namespace blocklift::dynamics {
 /// with it. R's swaying in time with a wave is in the phase, too. What that leaves in the mean is
 /// along the wave's way, k/w times the power that its force along the water feeds in, and in the
 /// limit of long waves due (Rainey 1989). X is linear between the database's frequencies and
-/// headings, its phase taken at R. With `with_froude_krylov` the force of the incident wave comes
-/// from the database as well, on the mean wetted surface; else it is left to HullForce. The waves'
-/// ramp acts on it. While a body is lowered X is interpolated between its draughts
+/// headings, its phase taken at R. As much of the incident wave's force as `froude_krylov` says
+/// comes from the database as well, on the mean wetted surface; the rest is left to HullForce. The
+/// waves' ramp acts on it. While a body is lowered X is interpolated between its draughts
 /// (DraughtInterpolation).
 class DiffractionForce {
  public:
@@ -33,7 +40,7 @@ class DiffractionForce {
     std::shared_ptr<const HydrodynamicDatabase> database;
     int database_body = 0;  ///< which of the database's bodies it is
     std::shared_ptr<const Sea> sea;
-    bool with_froude_krylov = false;
+    FroudeKrylovPart froude_krylov = FroudeKrylovPart::none;
     /// In place of a single database: several, the first of a dry body (draught 0).
     std::shared_ptr<const HydrodynamicSeries> series = {};
     DraughtMark mark = {};  ///< where the draught of the series' lowered body is read

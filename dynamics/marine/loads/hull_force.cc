@@ -38,6 +38,12 @@ void locate(const Pose& X_WB, std::span<const Vector3> points_B, double* x, doub
   }
 }
 
+// Heave, roll and pitch about a point that lies r_W from where the force's moment is taken.
+ForceVector without_water_plane_part(const ForceVector& F, const Vector3& r_W) {
+  const Vector3 moment = F.moment - r_W.cross(F.force);
+  return shift_to({{moment.x(), moment.y(), 0.0}, {0.0, 0.0, F.force.z()}}, r_W);
+}
+
 }  // namespace
 
 void HullForce::add_panels(double time, const Pose& X_WB, const TriangleTree& tree,
@@ -134,7 +140,9 @@ ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const 
     };
     add_part(time, X_WB, range, *surface_->faces(), add_leaf, F_B);
   }
-  return {rho_g_ * (X_WB.R * F_B.moment), rho_g_ * (X_WB.R * F_B.force)};
+  const ForceVector F_W{rho_g_ * (X_WB.R * F_B.moment), rho_g_ * (X_WB.R * F_B.force)};
+  if (!definition_.p_BoR_B) return F_W;
+  return without_water_plane_part(F_W, X_WB.R * *definition_.p_BoR_B);
 }
 
 ForceVector HullForce::calc_force(const MotionState& state) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "dynamics/force/force_element.h"
 #include "dynamics/marine/hull/hydrostatics.h"
@@ -32,6 +33,18 @@ enum class WaveLoading {
 /// cut. Boxes of either that lie below the deepest trough are taken whole (PressureBoxes): there
 /// the hydrostatic part is exact, and p_d right to a share of WaveSurface::box_tolerance. Energy:
 /// rho g times the energy of hydrostatics.h is stored; what waves add is supplied.
+///
+/// **Of a hull that drifts** (`p_BoR_B`) only heave, roll and pitch act in waves. The whole
+/// pressure has a mean along the water where the hull moves with the waves: by Gauss's theorem
+///
+///   mean of rho int a dV,   a the acceleration of the wave's water, over the hull below the wave,
+///
+/// which is one of the parts of the mean force of second order (Pinkster 1980, ch. III: the relative
+/// elevation at the water line, the pressure's gradient along the motion). The momentum of the waves
+/// far away holds all of these parts together (Maruo 1960), so that SlowDrift would count this one
+/// twice, and near a resonance of roll it is the larger. To the first order the force that is left
+/// out is that of the wave on the hull at rest, which DiffractionForce has then
+/// (FroudeKrylovPart::along_water).
 class HullForce {
  public:
   struct Definition {
@@ -40,6 +53,9 @@ class HullForce {
     std::shared_ptr<const HullClusters> hull;  ///< in the frame of the body
     std::shared_ptr<const Sea> sea;
     WaveLoading wave_loading = WaveLoading::froude_krylov;
+    /// Of a hull that drifts: R, about which its moment is divided into roll, pitch and yaw, m.
+    /// None: all of its force acts.
+    std::optional<Vector3> p_BoR_B = {};
   };
 
   /// @throws ModelError if the hull or sea is missing or the body is the world.

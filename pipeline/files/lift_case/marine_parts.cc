@@ -212,7 +212,8 @@ void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
       vessel.draught->mark,
       fmt::format("vessel {} would float at a draught of {:.4g} m, and its hull reaches "
                   "from {:.4g} m to {:.4g} m above its base",
-                  vessel.name.value, vessel.draught->value, low.z(), high.z()));
+                  vessel.name.value, vessel.draught->value, low.z(), high.z()),
+      {"a draught between the two: hulls wholly above or under the water are not computed"});
 }
 
 /// Draughts belong to databases, and to one vessel.

@@ -14,6 +14,7 @@
 #include "pipeline/files/lift_case/rigging_check.h"
 #include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/files/lift_case/vessel_database.h"
+#include "pipeline/files/lift_case/vessel_doubts.h"
 #include "pipeline/files/mechanism/urdf_import.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/files/vessel/wetted_mesh.h"
@@ -119,6 +120,8 @@ void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) check_hulls_apart(place_hulls(mechanism), diagnostics);
   if (diagnostics.has_errors()) return;
   if (std::string doubt = doubt_about_sea(mechanism, -g.z()); !doubt.empty())
+    mechanism.doubts.push_back(std::move(doubt));
+  for (std::string& doubt : doubts_about_vessels(mechanism))
     mechanism.doubts.push_back(std::move(doubt));
   for (const VesselInCase& vessel : mechanism.vessels) {
     if (!vessel.model) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 
 #include "pipeline/formats/hdf5_handle.h"
 
@@ -58,6 +59,41 @@ std::size_t character_count(const std::filesystem::path& path, const std::string
   return static_cast<std::size_t>(extents.back());
 }
 
+/// Complex numbers as h5py and h5netcdf write them, compounds of a real part r and an imaginary
+/// part i: both along one more dimension, the last. None: the variable holds something else.
+std::optional<Array<double>> read_complex(const std::filesystem::path& path,
+                                          const std::string& name) {
+  using hdf5::Handle;
+  const hdf5::QuietErrors quiet;
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Handle set(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle type(H5Dget_type(set.get()), H5Tclose);
+  if (H5Tget_class(type.get()) != H5T_COMPOUND || H5Tget_nmembers(type.get()) != 2) return {};
+  const Handle pair(H5Tcreate(H5T_COMPOUND, 2 * sizeof(double)), H5Tclose);
+  std::size_t offset = 0;
+  for (const char* const part : {"r", "i"}) {
+    const int member = H5Tget_member_index(type.get(), part);
+    if (member < 0) return {};
+    if (H5Tget_member_class(type.get(), static_cast<unsigned>(member)) != H5T_FLOAT) return {};
+    H5Tinsert(pair.get(), part, offset, H5T_NATIVE_DOUBLE);
+    offset += sizeof(double);
+  }
+  const Handle space(H5Dget_space(set.get()), H5Sclose);
+  std::vector<hsize_t> extents(
+      static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
+  H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
+  Array<double> array;
+  array.shape.assign(extents.begin(), extents.end());
+  array.shape.push_back(2);
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  array.values.resize(2 * static_cast<std::size_t>(std::max<hssize_t>(0, count)));
+  if (!array.values.empty() &&
+      H5Dread(set.get(), pair.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0) {
+    throw ResultsError(path.string() + ": the complex numbers of \"" + name + "\" cannot be read");
+  }
+  return array;
+}
+
 /// NetCDF-4.
 class Hdf5Netcdf : public NetcdfFile::Source {
  public:
@@ -75,8 +111,11 @@ class Hdf5Netcdf : public NetcdfFile::Source {
   }
 
   NetcdfVariable read(const std::string& name) const override {
-    NetcdfVariable result{{}, reader_.read(name)};
+    std::optional<Array<double>> complex = read_complex(path_, name);
+    const bool is_complex = complex.has_value();
+    NetcdfVariable result{{}, is_complex ? std::move(*complex) : reader_.read(name)};
     result.dimensions = read_dimensions(path_, name);
+    if (is_complex) result.dimensions.emplace_back("complex");
     return result;
   }
 

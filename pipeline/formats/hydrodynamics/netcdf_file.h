@@ -23,8 +23,9 @@ struct NetcdfVariable {
 /// Reads a NetCDF file of either kind, told apart by its first bytes: NetCDF-4, an HDF5 file, is
 /// read through HDF5; the classic formats (NetCDF-3, with offsets of 32 or 64 bits, and CDF-5) by
 /// their own specification (Unidata, "NetCDF classic format specification"). Texts are strings, or
-/// characters along a last dimension of their own, as classic files must have them. All functions
-/// throw ResultsError that names the file and the variable.
+/// characters along a last dimension of their own, as classic files must have them. Complex numbers
+/// that are compounds of r and i, as h5py and h5netcdf write them, have their parts along a last
+/// dimension "complex", the real one first. All functions throw ResultsError that names the file and the variable.
 class NetcdfFile {
  public:
   explicit NetcdfFile(const std::filesystem::path& path);

@@ -88,8 +88,11 @@ TEST_F(AfloatCommand, SaysWhatIsLeftOfAnIrregularSea) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("The irregular sea has waves of 0.833 to 1.2 rad/s"));
   const auto summary = nlohmann::json::parse(test::text_of_file("results/summary.json"));
-  ASSERT_EQ(summary["warnings"].size(), 1U);
+  const std::string dry = "no water moves along with B1, B2.";
+  EXPECT_THAT(valid.out, HasSubstr(dry));
+  ASSERT_EQ(summary["warnings"].size(), 2U);
   EXPECT_THAT(summary["warnings"][0].get<std::string>(), HasSubstr("highest_frequency is 1.2"));
+  EXPECT_THAT(summary["warnings"][1].get<std::string>(), HasSubstr(dry));
 }
 
 TEST_F(AfloatCommand, RefusesVesselsInEachOthersWay) {

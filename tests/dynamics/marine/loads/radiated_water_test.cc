@@ -284,13 +284,20 @@ TEST(DiffractionForce, FollowsTheBody) {
 TEST(DiffractionForce, WithFroudeKrylovAndBetweenFrequencies) {
   auto definition = diffraction({{1.0, 0.65, 0.0, 0.0}});
   const DiffractionForce scattered(definition);
-  definition.with_froude_krylov = true;
+  definition.froude_krylov = FroudeKrylovPart::whole;
   const DiffractionForce whole(definition);
+  definition.froude_krylov = FroudeKrylovPart::along_water;
+  const DiffractionForce along_water(definition);
   testing::OneBody body;
   body.time = 0.3;
   const double alone = scattered.calc_force(body.state()).force.x();
   EXPECT_NEAR(alone, 0.65 * std::cos(0.65 * 0.3), 1e-9);
   EXPECT_NEAR(whole.calc_force(body.state()).force.x(), 3 * alone, 1e-9);
+  // The incident wave's force is twice the scattered one in every mode.
+  const ForceVector part = scattered.calc_force(body.state());
+  const ForceVector mixed = along_water.calc_force(body.state());
+  EXPECT_LT((mixed.force - part.force.cwiseProduct(Vector3(3, 3, 1))).norm(), 1e-9);
+  EXPECT_LT((mixed.moment - part.moment.cwiseProduct(Vector3(1, 1, 3))).norm(), 1e-9);
 }
 
 TEST(DiffractionForce, RefusesWavesThatTheDatabaseDoesNotHold) {

@@ -170,7 +170,7 @@ TEST(LinearBuoyancy, IsThatOfADatabase) {
   EXPECT_EQ(d.stiffness(0, 2), 1e6);
   const auto& force =
       std::get<std::vector<dynamics::DiffractionForce>>(built.system.elements()).at(0);
-  EXPECT_TRUE(force.definition().with_froude_krylov);
+  EXPECT_EQ(force.definition().froude_krylov, dynamics::FroudeKrylovPart::whole);
 
   const auto complaint = [&](const std::function<void(Eigen::MatrixXd&)>& change) {
     return read(text, change).complaints;

@@ -363,6 +363,13 @@ TEST(MarineParts, DriftComesFromADatabase) {
   };
   EXPECT_EQ(drifts(built.system), 1U);
   EXPECT_EQ(drifts(built.at_rest()), 0U);
+  // What the drift holds is not in the hull's own pressure besides.
+  const auto& elements = built.system.elements();
+  const auto& hull = std::get<std::vector<dynamics::HullForce>>(elements).at(0).definition();
+  const auto& waves = std::get<std::vector<dynamics::DiffractionForce>>(elements).at(0);
+  ASSERT_TRUE(hull.p_BoR_B);
+  EXPECT_LT((*hull.p_BoR_B - waves.definition().frame.X_BH.p).norm(), 1e-12);
+  EXPECT_EQ(waves.definition().froude_krylov, dynamics::FroudeKrylovPart::along_water);
 }
 
 TEST(MarineParts, ComplainsAboutDriftAndCurrentLoads) {

@@ -1,4 +1,5 @@
-// Which waves an irregular sea keeps, and for which radiation is computed.
+// Which waves an irregular sea keeps, for which radiation is computed, and what is doubted of vessels
+// in it.
 #include "pipeline/files/lift_case/sea_band.h"
 
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/files/lift_case/vessel_doubts.h"
 #include "pipeline/files/mechanism/mechanism_file.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -16,6 +18,7 @@ namespace {
 
 using test::TemporaryFolder;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -66,6 +69,9 @@ std::string spectrum(const std::string& period) {
   return "waves: {spectrum: {significant_height: 0.5 m, peak_period: " + period + "}}";
 }
 
+/// What is doubted of the sea itself.
+std::string doubt_of_sea(const MechanismFile& file) { return doubt_about_sea(file, g); }
+
 const std::string bare_buoy = "vessels/buoy, radiation: none",
                   bare_barge = "vessels/barge, radiation: none";
 
@@ -79,7 +85,7 @@ TEST(SeaBand, IsThatOfTheSeaWhereNothingRadiates) {
   EXPECT_NEAR(band.sea[1], 3.781 * peak, 3e-3);
   EXPECT_NEAR(band.kept, std::sqrt(0.995), 1e-4);
   EXPECT_NEAR(make_sea(file, g).waves.significant_height(), 0.5 * band.kept, 1e-4);
-  EXPECT_THAT(file.doubts, IsEmpty());
+  EXPECT_EQ(doubt_of_sea(file), "");
   EXPECT_THAT(describe_sea(file, g), HasSubstr("99.7 % of the 0.5 m of the spectrum"));
 }
 
@@ -117,7 +123,8 @@ TEST(SeaBand, ObeysAHighestFrequency) {
     EXPECT_DOUBLE_EQ(band.sea[1], 1.2);
     EXPECT_DOUBLE_EQ(band.radiation[1], 1.2);
     EXPECT_NEAR(band.kept, std::sqrt(0.458 * 0.458 - 1e-3), 1e-3);
-    ASSERT_EQ(file.doubts.size(), 1U);
+    ASSERT_FALSE(file.doubts.empty());
+    EXPECT_EQ(file.doubts[0], doubt_of_sea(file));
     EXPECT_THAT(file.doubts[0], AllOf(HasSubstr("The sea has 45.7 % of its significant height"),
                                       HasSubstr("highest_frequency is 1.2 rad/s")));
   }
@@ -139,11 +146,41 @@ TEST(SeaBand, ARecordKeepsItsWaves) {
   const std::string record = "waves: {record: {file: waves.csv}}";
   const MechanismFile file = sound_afloat(record, bare_buoy);
   EXPECT_NEAR(make_sea(file, g).waves.significant_height(), 4 * 0.1 / std::sqrt(2), 0.005);
-  EXPECT_THAT(file.doubts, IsEmpty());
+  EXPECT_EQ(doubt_of_sea(file), "");
   const MechanismFile cut =
       sound_afloat("waves: {record: {file: waves.csv, highest_frequency: 1.4 rad/s}}", bare_buoy);
   EXPECT_LT(find_sea_band(cut, g).kept, 0.2);
-  EXPECT_EQ(cut.doubts.size(), 1U);
+  EXPECT_NE(doubt_of_sea(cut), "");
+}
+
+// Whoever floats in waves without added mass hears of it, once for all.
+TEST(VesselDoubts, AreOfDryVesselsInWaves) {
+  MechanismFile file = sound_afloat(spectrum("9 s"), bare_barge);
+  const std::vector<std::string> doubts = doubts_about_vessels(file);
+  EXPECT_THAT(doubts, ElementsAre(AllOf(HasSubstr("radiation: none: no water moves along with B1."),
+                                        HasSubstr("leave radiation out"))));
+  EXPECT_EQ(file.doubts, doubts);
+  file.vessels.push_back(file.vessels.front());
+  file.vessels.back().name.value = "B2";
+  EXPECT_THAT(doubts_about_vessels(file), ElementsAre(HasSubstr("along with B1, B2.")));
+  EXPECT_THAT(doubts_about_vessels(sound_afloat(spectrum("9 s"), "vessels/barge")), IsEmpty());
+  EXPECT_THAT(sound_afloat("depth: 20 m", bare_barge).doubts, IsEmpty());
+}
+
+// A barge that heads along y in a current of 2 m/s towards x, from its side: its damping of sway
+// pulls by 2 m/s x 30 kN s/m.
+TEST(VesselDoubts, AreOfACurrentThatPullsTwice) {
+  const std::string current = "current: {speed: 2 m/s, towards: 0 deg}";
+  const auto barge = [](const std::string& damping, const std::string& load) {
+    return "vessels/barge, heading: 90 deg, damping: " + damping + load;
+  };
+  const std::string load =
+      ", current_load: {area: 40 m^2, length: 20 m, coefficients: [[0 deg, 0.1, 0, 0], "
+      "[180 deg, -0.1, 0, 0]]}";
+  EXPECT_THAT(sound_afloat(current, barge("{surge: 9 kN s/m, sway: 30 kN s/m}", load)).doubts,
+              ElementsAre(HasSubstr("the current of 2 m/s pulls vessel B1 by 60 kN through it")));
+  EXPECT_THAT(sound_afloat(current, barge("{sway: 30 kN s/m}", "")).doubts, IsEmpty());
+  EXPECT_THAT(sound_afloat(current, barge("{roll: 3 MN m s/rad}", load)).doubts, IsEmpty());
 }
 
 // It floats 2 m deep, by its weight or its draught.

@@ -217,6 +217,51 @@ TEST(Capytaine, IsReadByTheNamesOfItsDimensions) {
   EXPECT_EQ(database.headings, std::vector<double>{0.5});
 }
 
+// As h5py and h5netcdf write a dataset whose parts were not taken apart. Other files' numbers may
+// not be such, which is said.
+TEST(Capytaine, ReadsComplexNumbers) {
+  using hdf5::Handle;
+  const test::TemporaryFolder folder;
+  write_sample_of_capytaine("body.nc");
+  const HydrodynamicDatabase apart = import_hydrodynamics("body.nc", {}).series.databases.front();
+  {
+    const Handle file(H5Fopen("body.nc", H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+    const Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Complex)), H5Tclose);
+    H5Tinsert(type.get(), "r", 0, H5T_NATIVE_DOUBLE);
+    H5Tinsert(type.get(), "i", sizeof(double), H5T_NATIVE_DOUBLE);
+    const hsize_t extents[] = {4, 1, 2};
+    const Handle space(H5Screate_simple(3, extents, nullptr), H5Sclose);
+    std::vector<Complex> force;
+    for (const double w : {0.0, 3.0, 2.0, 1.0}) {
+      force.emplace_back(w, 2.0 * w);
+      force.emplace_back(5.0, 0.0);
+    }
+    for (const char* const name : {"diffraction_force", "Froude_Krylov_force"}) {
+      H5Ldelete(file.get(), name, H5P_DEFAULT);
+      const Handle set(H5Dcreate2(file.get(), name, type.get(), space.get(), H5P_DEFAULT,
+                                  H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose);
+      H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, force.data());
+    }
+  }
+  for (const char* const name : {"diffraction_force", "Froude_Krylov_force"}) {
+    name_dimensions("body.nc", name, {"omega", "wave_direction", "influenced_dof"});
+  }
+  const HydrodynamicDatabase together =
+      import_hydrodynamics("body.nc", {}).series.databases.front();
+  EXPECT_EQ(together.frequencies, apart.frequencies);
+  for (std::size_t k = 0; k < apart.frequencies.size(); ++k) {
+    EXPECT_EQ(together.diffraction[k], apart.diffraction[k]);
+    EXPECT_EQ(together.froude_krylov[k], apart.froude_krylov[k]);
+  }
+  try {
+    ResultsReader("body.nc").read("diffraction_force");
+    FAIL() << "is read as numbers";
+  } catch (const ResultsError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("write real and imaginary part apart"));
+  }
+}
+
 TEST(Capytaine, IsReadInTheClassicFormat) {
   const test::TemporaryFolder folder;
   folder.write("classic.nc", classic_sample());
