@@ -69,6 +69,14 @@ double displaced_mass(const HydrodynamicBody& body, const dynamics::Pose& X_WB, 
   return density * calc_hydrostatics(dynamics::HullClusters(body.hull), X_WB).volume;
 }
 
+/// Before anything is meshed: a hull in millimetres mostly asks for too many panels.
+void say_doubts_about_sizes(const HydrodynamicProblem& problem) {
+  for (const HydrodynamicBody& body : problem.bodies) {
+    const std::string doubt = doubt_about_size("vessel " + body.name, body.hull);
+    if (!doubt.empty()) say_warning(doubt);
+  }
+}
+
 /// Of each body once, at its deepest: draughts ascend.
 void say_doubts_about_hulls(const HydrodynamicProblem& problem,
                             const std::vector<HydrodynamicState>& states) {
@@ -81,8 +89,7 @@ void say_doubts_about_hulls(const HydrodynamicProblem& problem,
                                body.body.mass)
             : std::string();
     for (const std::string& doubt :
-         {doubt_about_size("vessel " + body.name, body.hull), mass,
-          doubt_about_keel(body.name, body.hull, X_WB, problem.water.depth)}) {
+         {mass, doubt_about_keel(body.name, body.hull, X_WB, problem.water.depth)}) {
       if (!doubt.empty()) say_warning(doubt);
     }
   }
@@ -158,6 +165,7 @@ int compute_vessel(const HydroOptions& options) {
   if (options.memory_limit) problem->memory_limit = 1e9 * *options.memory_limit;
   const fs::path output = output_of(options, *problem);
   require_writable_file(output);
+  say_doubts_about_sizes(*problem);
   const std::vector<HydrodynamicState> states = prepare(*problem);
   say_doubts_about_hulls(*problem, states);
   std::vector<Eigen::MatrixXd> masses;

@@ -99,9 +99,15 @@ void check_doubled(const Hull& hull, Findings& findings) {
     std::sort(corners.begin(), corners.end());
     const auto [known, is_new] = first.emplace(std::move(corners), panel);
     if (is_new) continue;
+    // Two that look away from each other, as the sides of a stem that a mirror plane holds.
+    const bool opposite =
+        hull.panel_area_vector(panel).dot(hull.panel_area_vector(known->second)) < 0.0;
     findings.add(HullDefectKind::doubled_panel, panel, hull.panel_midpoint(panel),
                  "it has the same vertices as panel " + std::to_string(known->second) + ", at " +
-                     text_of_point(hull.panel_midpoint(panel)) + "; remove one of them");
+                     text_of_point(hull.panel_midpoint(panel)) +
+                     (opposite ? ", and looks the other way: a wall without thickness, as a panel "
+                                 "in a plane of symmetry and its image are; remove both"
+                               : "; remove one of them"));
   }
 }
 

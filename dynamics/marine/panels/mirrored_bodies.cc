@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace blocklift::dynamics {
 namespace {
@@ -70,11 +71,51 @@ void add_positive_part(const Panel& panel, int axis, std::vector<Panel>& panels)
   }
 }
 
-/// The half of a mesh on the positive side, and its image. Panels across the plane are cut.
-PanelMesh from_half(const PanelMesh& mesh, const Symmetry& plane) {
+/// A quadrangle that is not flat was flattened, which moves its vertices by up to a hundredth of
+/// its size, also off the plane of an axis: these are put back, and it becomes two triangles. They
+/// meet at the shorter diagonal, which is that of an image in the other plane, too.
+/// @returns nothing if the panel has no such vertex.
+std::vector<Panel> put_back_onto_plane(const Panel& panel, int axis) {
+  if (panel.vertex_count != 4) return {};
+  const double size = panel.diameter();
+  Points corners(panel.vertices.begin(), panel.vertices.end());
+  bool is_off = false;
+  for (Vector3& corner : corners) {
+    if (std::abs(corner[axis]) > 0.01 * size) continue;
+    is_off |= std::abs(corner[axis]) > 1e-6 * size;
+    corner[axis] = 0.0;
+  }
+  if (!is_off) return {};
+  if ((corners[3] - corners[1]).norm() < (corners[2] - corners[0]).norm())
+    std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+  std::vector<Panel> triangles;
+  for (const Points& triangle :
+       {Points{corners[0], corners[1], corners[2]}, Points{corners[0], corners[2], corners[3]}}) {
+    const double doubled = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
+    if (doubled > 1e-6 * size * size) triangles.push_back(make_panel(triangle));
+  }
+  return triangles;
+}
+
+/// All panels, those with vertices that flattening has moved off the plane of an axis divided.
+std::vector<Panel> put_back_onto_plane(const std::vector<Panel>& panels, int axis) {
+  std::vector<Panel> result;
+  for (const Panel& panel : panels) {
+    const std::vector<Panel> triangles = put_back_onto_plane(panel, axis);
+    if (triangles.empty()) {
+      result.push_back(panel);
+    } else {
+      result.insert(result.end(), triangles.begin(), triangles.end());
+    }
+  }
+  return result;
+}
+
+/// The half of panels on the positive side, and its image. Panels across the plane are cut.
+PanelMesh from_half(const std::vector<Panel>& panels, const Symmetry& plane) {
   const int axis = plane.x ? 0 : 1;
   PanelMesh half{{}, plane};
-  for (const Panel& panel : mesh.panels) {
+  for (const Panel& panel : panels) {
     const double tolerance = 1e-6 * panel.diameter();
     double lowest = 0.0, highest = 0.0;
     for (int k = 0; k < panel.vertex_count; ++k) {
@@ -99,6 +140,40 @@ PanelMesh image_of(const PanelMesh& mesh, const Symmetry& plane) {
   return both;
 }
 
+/// What to do about quadrangles that flattening has moved off the plane.
+enum class Flattened { cut, put_back };
+
+std::vector<WettedBody> mirrored_in(const Symmetry& plane, const std::vector<std::size_t>& images,
+                                    const std::vector<WettedBody>& bodies, Flattened flattened) {
+  std::vector<WettedBody> mirrored = bodies;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::vector<Panel>& panels = bodies[b].hull.panels;
+    if (images[b] < b) mirrored[b].hull = image_of(bodies[images[b]].hull, plane);
+    if (images[b] != b) continue;
+    mirrored[b].hull = from_half(
+        flattened == Flattened::cut ? panels : put_back_onto_plane(panels, plane.x ? 0 : 1), plane);
+  }
+  return mirrored;
+}
+
+bool differ_little(double a, double b, double share) {
+  return std::abs(a - b) <= share * std::abs(b);
+}
+
+/// Vertices that are images may still belong to unlike surfaces. Quadrangles that are not flat are
+/// divided along either diagonal, though, which changes area and volume somewhat, and may leave a
+/// triangle in the plane, as at the foot of a stem: with its image it is a wall without thickness,
+/// and both go.
+bool are_same_surfaces(const std::vector<WettedBody>& bodies, const std::vector<WettedBody>& others,
+                       double share) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const PanelMesh &hull = bodies[b].hull, &other = others[b].hull;
+    if (!differ_little(hull.total_area(), other.total_area(), share)) return false;
+    if (!differ_little(hull.displaced_volume(), other.displaced_volume(), share)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void mirror_bodies(const std::vector<std::vector<Vector3>>& vertices_W,
@@ -106,17 +181,15 @@ void mirror_bodies(const std::vector<std::vector<Vector3>>& vertices_W,
   for (const Symmetry& plane : {Symmetry{true, false}, Symmetry{false, true}}) {
     const auto images = find_images(vertices_W, plane);
     if (!images) continue;
-    std::vector<WettedBody> mirrored = bodies;
-    bool same = true;
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const std::size_t image = (*images)[b];
-      if (image == b) mirrored[b].hull = from_half(bodies[b].hull, plane);
-      if (image < b) mirrored[b].hull = image_of(bodies[image].hull, plane);
-      // What lies in the plane would be lost, or doubled.
-      same &= std::abs(mirrored[b].hull.total_area() - bodies[b].hull.total_area()) <
-              1e-5 * bodies[b].hull.total_area();
+    const Symmetry had = find_symmetry(bodies);
+    const Symmetry due{had.x || plane.x, had.y || plane.y};
+    for (const auto& [flattened, share] :
+         {std::pair(Flattened::cut, 1e-5), std::pair(Flattened::put_back, 1e-2)}) {
+      std::vector<WettedBody> mirrored = mirrored_in(plane, *images, bodies, flattened);
+      if (!are_same_surfaces(mirrored, bodies, share) || find_symmetry(mirrored) != due) continue;
+      bodies = std::move(mirrored);
+      break;
     }
-    if (same) bodies = std::move(mirrored);
   }
 }
 

@@ -48,7 +48,15 @@ void require_few_panels(const Shape& shape, double panel_size) {
 /// Each defect, the last with what the mesh as a whole tells.
 void complain_about_mesh(const dynamics::Hull& hull, const dynamics::HullDemands& demands,
                          const Mark& mark, Diagnostics& diagnostics) {
-  const std::vector<dynamics::HullDefect> defects = dynamics::diagnose(hull, demands);
+  std::vector<dynamics::HullDefect> defects = dynamics::diagnose(hull, demands);
+  // A mesh that ends at its water line is open there: above the water that is not what is wrong.
+  if (std::ranges::any_of(defects, [](const dynamics::HullDefect& defect) {
+        return defect.kind == dynamics::HullDefectKind::above_water;
+      })) {
+    std::erase_if(defects, [](const dynamics::HullDefect& defect) {
+      return defect.kind == dynamics::HullDefectKind::open_edge;
+    });
+  }
   for (std::size_t d = 0; d < defects.size(); ++d) {
     diagnostics.error(mark, defects[d].message,
                       d + 1 < defects.size() ? std::vector<std::string>() : hints_on_mesh(hull));

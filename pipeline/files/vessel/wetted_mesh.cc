@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/hull/hull_diagnosis.h"
 #include "dynamics/marine/hull/hull_edges.h"
 #include "dynamics/marine/hull/point_text.h"
 
@@ -69,6 +71,22 @@ void require_closed_below(const Hull& wetted, const HullEdges& edges, const AtSu
                          "that it ends at z = 0")));
 }
 
+/// The edges of a panel that comes twice look as if panels were turned round.
+/// @throws dynamics::ModelError naming the first such panel below the water line.
+void require_each_once(const Hull& wetted, double tolerance) {
+  const dynamics::HullDemands demands{.largest_warp = std::numeric_limits<double>::infinity(),
+                                      .most_of_a_kind = wetted.panel_count()};
+  std::vector<dynamics::HullDefect> defects = dynamics::diagnose(wetted, demands);
+  std::erase_if(defects, [&](const dynamics::HullDefect& defect) {
+    return defect.kind != dynamics::HullDefectKind::doubled_panel || defect.place.z() > -tolerance;
+  });
+  if (defects.empty()) return;
+  const std::size_t more = defects.size() - 1;
+  throw dynamics::ModelError(
+      defects.front().message +
+      (more > 0 ? fmt::format(" (and {} more of this kind)", more) : std::string()));
+}
+
 /// Lids would be put on both sides of panels that are turned round.
 /// @throws dynamics::ModelError naming the first edge of such a panel.
 void require_one_sense(const Hull& wetted, const HullEdges& edges) {
@@ -92,6 +110,7 @@ Hull with_freeboard(const Hull& wetted) {
   const Vector3 &low = bounds[0], &high = bounds[1];
   const double tolerance = 1e-5 * (high - low).norm();
   if (high.z() > tolerance) return wetted;
+  require_each_once(wetted, tolerance);
   Hull hull(wetted.name());
   for (const Vector3& vertex : wetted.vertices()) hull.add_vertex(vertex);
   const auto at_surface = [&](int vertex) { return wetted.vertex(vertex).z() > -tolerance; };

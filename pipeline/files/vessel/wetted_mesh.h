@@ -10,8 +10,8 @@ namespace blocklift::pipeline {
 /// A hull that ends at z = 0 goes on upright above it, by as much as it is deep, and is closed
 /// there; panels in z = 0 (lids) are left out. A hull that reaches higher stays as it is.
 /// @throws dynamics::ModelError, with the edge and what to do, if the mesh is open below z = 0:
-///   what is closed there without a word would be another hull; or if panels are turned round
-///   against their neighbours.
+///   what is closed there without a word would be another hull; or if panels come twice, or are
+///   turned round against their neighbours.
 dynamics::Hull with_freeboard(const dynamics::Hull& wetted);
 
 /// What to do about a mesh that is open or twisted, where its figures tell: that it is the half of

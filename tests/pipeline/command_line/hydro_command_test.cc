@@ -359,6 +359,28 @@ TEST_F(HydroCommand, DiagnosesMeshes) {
                     HasSubstr("all panels are above the water line; lower the hull")));
 }
 
+// What is wrong with the size of a mesh is said although the work ends at what follows of it.
+TEST_F(HydroCommand, DoubtsAMeshInMillimetresBeforeItIsRefused) {
+  std::string panels = box_panels(-2, false, false);
+  const std::size_t header = panels.find('\n', panels.find("0 0\n") + 4) + 1;
+  std::istringstream numbers(panels.substr(header));
+  panels.erase(header);
+  for (double x = 0.0, y = 0.0, z = 0.0; numbers >> x >> y >> z;) {
+    panels += std::to_string(1e3 * x) + " " + std::to_string(1e3 * y) + " " +
+              std::to_string(1e3 * z) + "\n";
+  }
+  folder_.write("box/hull.gdf", panels);
+  folder_.write("box/vessel.yaml",
+                "kind: vessel\nhull: {mesh: {file: hull.gdf}}\npanel_size: 1 m\nmass: 20 t\n"
+                "centre_of_mass: [0 m, 0 m, 0 m]\nradii_of_gyration: [1 m, 1 m, 1 m]\n"
+                "hydrodynamics: {water_line: as meshed,\n"
+                "  frequencies: {lowest: 0.8 rad/s, highest: 1 rad/s, count: 2}}\n");
+  const Outcome outcome = run("box -o box.h5");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+  EXPECT_THAT(outcome.out + outcome.err,
+              HasSubstr("the file may have millimetres (then 4 m long)"));
+}
+
 // A box of 4 x 4 x 4 m, half in the water, displaces 32.8 t.
 TEST_F(HydroCommand, DoubtsAMassThatIsNotDisplaced) {
   const auto said_of = [&](const std::string& mass) {

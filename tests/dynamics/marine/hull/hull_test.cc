@@ -152,6 +152,12 @@ TEST(HullDiagnosis, FindsDegenerateWarpedDoubledAndBrokenPanels) {
   doubled.add_panel(box.panel(1));
   EXPECT_THAT(kinds_of(diagnose(doubled)),
               ElementsAre(HullDefectKind::doubled_panel, HullDefectKind::crowded_edge));
+  EXPECT_THAT(diagnose(doubled)[0].message, ::testing::HasSubstr("remove one of them"));
+  Hull wall = box;
+  std::vector<int> turned(box.panel(1).begin(), box.panel(1).end());
+  std::reverse(turned.begin(), turned.end());
+  wall.add_panel(turned);
+  EXPECT_THAT(diagnose(wall)[0].message, ::testing::HasSubstr("remove both"));
   Hull broken = box;
   broken.add_vertex({0, not_a_number, 0});
   EXPECT_THAT(kinds_of(diagnose(broken)), ElementsAre(HullDefectKind::not_finite));

@@ -1,5 +1,10 @@
 #include "dynamics/marine/panels/mirrored_bodies.h"
 
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull/hull_shapes.h"
@@ -79,6 +84,43 @@ TEST(MirroredBodies, TwoBodiesMirrorEachOther) {
   EXPECT_EQ(find_symmetry(placed.bodies), (Symmetry{true, true}));
   EXPECT_NEAR(placed.bodies[1].hull.displaced_volume(), volume, 1e-9 * volume);
   EXPECT_GT(placed.bodies[1].hull.panels[0].centroid.y(), 0);
+}
+
+// A hull of Wigley's form in warped quadrangles (Journee 1992: y = B/2 (1 - x^2)(1 - z^2)), which
+// run around from the same corner on all sides: warped ones are divided along diagonals that are not
+// images. At the feet of the stems three corners of a quadrangle lie in the centre plane.
+TEST(MirroredBodies, WarpedQuadranglesMayBeDividedUnlike) {
+  constexpr int along = 20, down = 4;
+  Hull hull("wigley");
+  const auto vertex = [](int i, int k, double side) {
+    const double x = std::sin(std::numbers::pi * (static_cast<double>(i) / along - 0.5));
+    const double z = static_cast<double>(k) / down;
+    return Vector3(1.5 * x, side * 0.15 * (1.0 - x * x) * (1.0 - z * z), -0.1875 * z);
+  };
+  for (const double side : {1.0, -1.0}) {
+    std::vector<int> index;
+    for (int i = 0; i <= along; ++i)
+      for (int k = 0; k <= down; ++k) index.push_back(hull.add_vertex(vertex(i, k, side)));
+    for (int i = 0; i < along; ++i) {
+      for (int k = 0; k < down; ++k) {
+        const std::size_t a = static_cast<std::size_t>(i * (down + 1) + k), b = a + down + 1;
+        const std::array<int, 4> port{index[a], index[b], index[b + 1], index[a + 1]};
+        const std::array<int, 4> starboard{index[a], index[a + 1], index[b + 1], index[b]};
+        hull.add_panel(side > 0.0 ? port : starboard);
+      }
+    }
+  }
+  Placed placed;
+  placed.add(hull, Vector3::Zero());
+  EXPECT_NE(find_symmetry(placed.bodies), (Symmetry{true, true}));
+  const double volume = placed.bodies[0].hull.displaced_volume();
+  ASSERT_GT(volume, 0.0);
+  mirror_bodies(placed.vertices_W, placed.bodies);
+  EXPECT_EQ(find_symmetry(placed.bodies), (Symmetry{true, true}));
+  // 4/9 of length, breadth and draught, less what flat panels cut off: a hundredth and a half.
+  EXPECT_NEAR(placed.bodies[0].hull.displaced_volume(), volume, 1e-2 * volume);
+  EXPECT_NEAR(volume, 4.0 / 9.0 * 3.0 * 0.3 * 0.1875, 0.03 * volume);
+  EXPECT_NO_THROW(PanelModel(placed.bodies, {}, {}, {true, true}));
 }
 
 // Another draught, or place: nothing is changed in the plane that has no image.

@@ -110,6 +110,11 @@ TEST(VesselModel, AMeshMustBeClosedBelowTheWater) {
                              HasSubstr("has no panel on its other side, and lies below the water "
                                        "line z = 0, where alone a mesh may end (4 such edges); add "
                                        "the panels that are missing")));
+  EXPECT_THAT(said_of_wetted_box(bottom + starboard + rest + starboard),
+              HasSubstr("panel 5: it has the same vertices as panel 1"));
+  EXPECT_THAT(said_of_wetted_box("-2 -1 1 -2 1 1 2 1 1 2 -1 1\n"),
+              testing::AllOf(HasSubstr("all panels are above the water line; lower the hull"),
+                             testing::Not(HasSubstr("no panel on its other side"))));
   const std::string turned = "-2 -1 0 2 -1 0 2 -1 -1 -2 -1 -1\n";
   EXPECT_THAT(said_of_wetted_box(bottom + turned + rest),
               testing::AllOf(HasSubstr("one of the two is turned round"),
