@@ -6,7 +6,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -121,6 +123,13 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
   return result;
 }
 
+// Each volume of the geometry is a group besides those that the file names (see read_part_mesh).
+bool is_of_geometry(const PartGroup& group) {
+  constexpr std::string_view noun = "volume ";
+  return group.name.starts_with(noun) &&
+         group.name.find_first_not_of("0123456789", noun.size()) == std::string::npos;
+}
+
 void find_maxima(const PartModel& model, const SolidSet& set,
                  const std::vector<StressColumns>& of_solids, PartSolution& solution) {
   SolidError error = estimate_solid_error(set, solution.stress, solution.displacement);
@@ -136,10 +145,15 @@ void find_maxima(const PartModel& model, const SolidSet& set,
   Eigen::Index worst = 0;
   error.squared_error.maxCoeff(&worst);
   solution.worst_point = model.mesh.centre(model.mesh.solids[worst]);
+  std::set<std::vector<int>> listed;
   for (const PartGroup& group : model.mesh.groups) {
     if (group.dimension != 3) continue;
     std::vector<int> solids;
     for (const int element : group.elements) solids.push_back(solid_of_element.at(element));
+    std::vector<int> sorted = solids;
+    std::sort(sorted.begin(), sorted.end());
+    const bool is_first = listed.insert(std::move(sorted)).second;
+    if (!is_first && is_of_geometry(group)) continue;
     solution.groups.push_back(largest_of(model, solution, of_solids, error, group.name, solids));
   }
   solution.squared_error = std::move(error.squared_error);
