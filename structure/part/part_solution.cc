@@ -41,7 +41,8 @@ void require_supported(const PartModel& model, const std::vector<FixedUnknown>& 
     text +=
         "\n    bodies that touch in a CAD file are joined where they are one body there, or cut "
         "one "
-        "another into common faces, as BooleanFragments of Gmsh does";
+        "another into common faces, as BooleanFragments of Gmsh does; other bodies that touch are "
+        "joined by join: {within: 1 mm}";
   throw ModelError(text);
 }
 
@@ -292,9 +293,9 @@ PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& di
 PartDisplacement find_part_displacement(const PartModel& model,
                                         const std::vector<FixedUnknown>& fixed,
                                         const Eigen::VectorXd& load, const SolverChoice& choice) {
-  const PartUnknowns unknowns(model.mesh);
+  const PartUnknowns unknowns(model.mesh, model.joints.ties);
   const std::vector<FixedUnknown> held = unknowns.to_unknowns(fixed);
-  const Eigen::VectorXd forces = unknowns.to_unknowns(load);
+  const Eigen::VectorXd forces = unknowns.forces_on_unknowns(load);
   PartDisplacement solved;
   bool is_solved = false;
   try {
