@@ -228,8 +228,10 @@ class JointFinder {
       counts[at(body)] += static_cast<double>(of_node.outward.size());
       feet_.emplace_back(node, std::move(feet));
     }
+    // A body whose faces are so large that none of their nodes is there is followed by others.
+    constexpr double large = 1e300;
     for (std::size_t body = 0; body < counts.size(); ++body)
-      if (counts[body] > 0) edges_[body] /= counts[body];
+      edges_[body] = counts[body] > 0 ? edges_[body] / counts[body] : large;
   }
 
   /// Does the first body follow the second? Where faces are alike the later one follows.
@@ -294,7 +296,7 @@ class JointFinder {
     ties.push_back(std::move(tie));
   }
 
-  /// The smallest group of solids that holds the whole body; the body's middle without one.
+  /// The first group of solids that is the body, and the body's middle.
   std::string name_of(int body) const {
     std::vector<char> is_own(mesh_.elements.size(), 0);
     int count = 0;

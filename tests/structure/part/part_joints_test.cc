@@ -186,6 +186,17 @@ TEST(PartJoints, FarSidesStayFree) {
   EXPECT_EQ(joints.meetings[0].tied_nodes, 121);
 }
 
+// A small body in the middle of one face of another, which has no node there, follows it.
+TEST(PartJoints, ASmallBodyFollowsALargeFace) {
+  const PartModel model = model_of({{"left", {0.4, 0.4, 0.1}, {0.1, 0.1, 0.1}, {1, 1, 1}},
+                                    {"right", {0, 0, 0}, {1, 1, 0.1}, {1, 1, 1}}});
+  const PartJoints joints = find_part_joints(model.mesh, {}, 1e-3);
+  ASSERT_EQ(joints.meetings.size(), 1U);
+  EXPECT_EQ(joints.meetings[0].tied_nodes, 8);  // four corners, four middles
+  for (const PartTie& tie : joints.ties)
+    EXPECT_NEAR(model.mesh.nodes(2, tie.freedom / 3), 0.1, 1e-9);
+}
+
 // What a support holds follows nothing: its other axes do.
 TEST(PartJoints, HeldFreedomsDoNotFollow) {
   PartModel model = model_of(halves(0));
