@@ -112,8 +112,10 @@ void write_static_step(std::ofstream& file, const PartModel& model) {
                fixed.unknown % 3 + 1, fixed.value);
   fmt::print(file, "*CLOAD\n");
   const Eigen::VectorXd load = part_load(model);
+  // CalculiX reads 20 characters of a field: with more digits a small load loses the end of its
+  // exponent.
   for (Eigen::Index u = 0; u < load.size(); ++u)
-    if (load[u] != 0) fmt::print(file, "{}, {}, {:.15g}\n", u / 3 + 1, u % 3 + 1, load[u]);
+    if (load[u] != 0) fmt::print(file, "{}, {}, {:.13g}\n", u / 3 + 1, u % 3 + 1, load[u]);
   fmt::print(file, "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=ALL_NODES\nU\n*END STEP\n");
 }
 

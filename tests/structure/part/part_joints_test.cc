@@ -3,10 +3,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
+#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@
 #include "structure/elasticity/natural_modes.h"
 #include "structure/elasticity/rigid_freedom.h"
 #include "structure/mesh/files/part_reader.h"
+#include "structure/output/part_files.h"
 #include "structure/part/part_solution.h"
 
 namespace blocklift::structure {
@@ -204,6 +207,30 @@ TEST(PartJoints, HeldFreedomsDoNotFollow) {
   join(model, 1e-3);
   EXPECT_EQ(model.joints.ties.size(), 90U);
   for (const PartTie& tie : model.joints.ties) EXPECT_NE(tie.freedom % 3, 1);
+}
+
+// CalculiX has the ties as equations. It reads 20 characters of a number: loads of rounding's size
+// at corners lost their exponents' ends, and pushed by tenths of a newton.
+TEST(PartJoints, AreEquationsOfCalculix) {
+  PartModel model = model_of(halves(0));
+  load_as_cantilever(model, "right");
+  join(model, 1e-3);
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("blocklift-joints-{}.inp", ::getpid());
+  write_calculix(path.string(), model);
+  std::ifstream file(path);
+  std::size_t equations = 0, longest = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line == "*EQUATION") ++equations;
+    if (line.starts_with('*')) continue;
+    std::stringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');)
+      longest =
+          std::max(longest, field.size() - std::min(field.find_first_not_of(' '), field.size()));
+  }
+  std::filesystem::remove(path);
+  EXPECT_EQ(equations, model.joints.ties.size());
+  EXPECT_LE(longest, 20U);
 }
 
 // A volume of the geometry is listed by the name that the file gives it, once.
