@@ -35,13 +35,14 @@ struct PartJoints {
 /// Finds where bodies face each other and, if asked, ties them.
 ///
 /// Two bodies meet where an outer face of one has a node, or its middle, within reach of the other,
-/// on the side to which it faces: 5 % of the edges of the solid there (as Abaqus takes for *TIE), or
-/// `within`. Of two that are joined the one with the finer faces there follows (it misses less of
-/// the other's deformation, and the pressure that passes is smoother). A node at place x follows
+/// on the side to which it faces: 5 % of the edges of the solid there (as Abaqus takes for *TIE),
+/// or `within`. Of two that are joined the one with the finer faces there follows (it misses less
+/// of the other's deformation, and the pressure that passes is smoother). A node at place x follows
 /// solid s of the other body, whose place x_0 = X(xi) is the nearest, by
 ///   u(x) = sum_i (N_i(xi) + dN_i/dxi J^-1 (x - x_0)) u_i,
-/// the solid's displacement, carried on linearly across the gap: exact for fields that are linear in
-/// place, so that rigid motions strain nothing and forces keep their moment. Meshes need not match.
+/// the solid's displacement, carried on linearly across the gap: exact for fields that are linear
+/// in place, so that rigid motions strain nothing and forces keep their moment. Meshes need not
+/// match.
 /// @param held freedoms that do not follow.
 /// @param within largest gap to be joined, m; none: nothing is tied.
 PartJoints find_part_joints(const PartMesh& mesh, const std::vector<FixedUnknown>& held,

@@ -69,7 +69,7 @@ struct PartSolution {
   std::vector<Wrench> reactions;  ///< of each support on the part, about the origin
   /// |loads + reactions| over the sum of the magnitudes of both.
   double force_residual = 0;
-  double moment_residual = 0;           ///< the same of moments about the origin
+  double moment_residual = 0;  ///< the same of moments about the origin
   /// Of solids; a volume of the geometry that is a named group as a whole comes by that name alone.
   std::vector<PartGroupResult> groups;
   PartGroupResult all;

@@ -180,9 +180,9 @@ struct WorthyCut {
   double length = 0;  ///< of its rays together, m
 };
 
-/// The cut whose rectangles are smallest together, of several that with the largest piece, then that
-/// of the shortest rays. Cuts follow shells, so that their figures carry the mesh's grain: those
-/// that differ by less than that count as alike, and mirror images of a plate are cut alike
+/// The cut whose rectangles are smallest together, of several that with the largest piece, then
+/// that of the shortest rays. Cuts follow shells, so that their figures carry the mesh's grain:
+/// those that differ by less than that count as alike, and mirror images of a plate are cut alike
 /// whatever their meshes and the turn of their corners.
 PlateCut best_of(std::vector<WorthyCut> cuts) {
   constexpr double grain = 5e-3;

@@ -380,7 +380,7 @@ TEST_F(StressCommand, BodiesAreJoinedWhereAsked) {
   const auto summary = nlohmann::json::parse(text_of_file("results/bar/summary.json"));
   EXPECT_GT(summary["joints"][0]["tied_nodes"], 0);
   // F L / (E A) of the whole bar, even with Poisson's ratio 0. Nodes that follow places of other
-  // faces do not pass an even pressure evenly where meshes do not match: a percent is left for that.
+  // faces do not pass an even pressure evenly where meshes do not match: a percent is for that.
   EXPECT_NEAR(summary["groups"]["other"]["max_displacement_m"].get<double>(),
               600e3 * 2 / (206e9 * 0.06), 1e-2 * 600e3 * 2 / (206e9 * 0.06));
 }

@@ -98,7 +98,8 @@ TEST(ShearCentreOfDecks, TurnsByTheForcesArm) {
 }
 
 // The channel under a force beside its shear centre is told, for it resists warping; through its
-// shear centre it does not twist. T t / J of the flanges, Timoshenko and Goodier (1970), section 109.
+// shear centre it does not twist. T t / J of the flanges: Timoshenko and Goodier (1970), section
+// 109.
 TEST(ShearCentreOfDecks, TorsionThatGovernsAnOpenSectionIsFound) {
   const auto twisted_of = [](const Deck& deck) {
     Mesh mesh = deck.mesh;

@@ -355,8 +355,8 @@ TEST(SolidDecks, SaysWhichNodesTwoSolidsHaveInTheMiddleOfOneEdge) {
   EXPECT_THAT(said, HasSubstr("merge nodes that lie at one place, middles too"));
 }
 
-// The same of two quadratic shells side by side, of either deck. Two halves of a pipe have the nodes
-// at their edges' ends in common and middles on opposite sides: that is no fault.
+// The same of two quadratic shells side by side, of either deck. Two halves of a pipe have the
+// nodes at their edges' ends in common and middles on opposite sides: that is no fault.
 TEST(ShellDecks, SaysWhichNodesTwoShellsHaveInTheMiddleOfOneEdge) {
   const auto abaqus_deck = [](const std::string& middle) {
     return "*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,1.,1.,0.\n4,0.,1.,0.\n5,2.,0.,0.\n6,2.,1.,0.\n"
