@@ -181,7 +181,11 @@ void print_table(const PartAssessment& assessment) {
   if (is_quiet()) return;
   fmt::print("{}\n", assessment.file.title.empty() ? assessment.file.name : assessment.file.title);
   fmt::print("{} solid elements, {} unknowns, {:.6g} kg\n", assessment.model.mesh.solids.size(),
-             3 * assessment.model.mesh.nodes.cols(), assessment.mass.mass);
+             3 * assessment.model.mesh.nodes.cols() -
+                 static_cast<Eigen::Index>(assessment.model.joints.ties.size()),
+             assessment.mass.mass);
+  for (const structure::PartMeeting& meeting : assessment.model.joints.meetings)
+    if (meeting.tied_nodes > 0) print_wrapped(describe(meeting));
   if (!assessment.file.loads.empty()) print_solution(assessment);
   if (assessment.modes) print_modes(*assessment.modes);
   if (assessment.file.references) print_references(assessment, *assessment.file.references);
@@ -240,6 +244,7 @@ int stress_of_part(const StressOptions& options) {
     write_part_results(assessment, folder, options.calculix);
   }
   print_table(assessment);
+  for (const std::string& doubt : list_doubts(assessment.model)) say_warning(doubt);
   if (!is_quiet()) fmt::print("results: {}\n", folder.string());
   return exit_code::done;
 }

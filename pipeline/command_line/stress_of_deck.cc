@@ -98,6 +98,8 @@ void print_remarks(const DeckAssessment& assessment) {
                               assessment.solution.idle_supports.size()));
   for (const std::string& sentence : warnings_of_own_cases(*assessment.block->mesh))
     print_wrapped("warning: " + sentence);
+  for (const std::string& sentence : remarks_on_torsion(assessment))
+    print_wrapped("warning: " + sentence);
   if (const auto& diagnosis = assessment.block->mesh->diagnosis)
     if (const structure::Finding* estimated = diagnosis->find("beams by figures"))
       print_wrapped("note: " + estimated->text);

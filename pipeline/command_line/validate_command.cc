@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -154,8 +155,10 @@ std::optional<std::string> validate(const fs::path& named, ModelLibrary& library
     const std::optional<PartFile> part = read_part_file(path, diagnostics);
     if (!part) return std::nullopt;
     const structure::PartModel model = make_part_model(*part, diagnostics);
-    return if_sound(fmt::format("part {} with {}", part->name,
-                                count(model.mesh.solids.size(), "solid element")));
+    std::string summary = fmt::format("part {} with {}", part->name,
+                                      count(model.mesh.solids.size(), "solid element"));
+    for (const std::string& doubt : list_doubts(model)) summary += "\nwarning: " + doubt;
+    return if_sound(std::move(summary));
   }
   if (kind == FileKind::vessel || kind == FileKind::vessels) {
     const auto problem = read_hydrodynamic_problem(path, library, diagnostics);

@@ -7,7 +7,9 @@
 
 #include "pipeline/lift/stopwatch.h"
 #include "structure/error.h"
+#include "structure/load_cases/deck_heat.h"
 #include "structure/mesh/shell_shape.h"
+#include "structure/stress/open_sections.h"
 
 namespace blocklift::pipeline {
 
@@ -117,6 +119,22 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
                        assessment.block->mesh->file.value, why_none(deck, assessment.solution)),
            ways_to_a_case(deck, assessment.solution));
   return assessment;
+}
+
+std::vector<std::string> remarks_on_torsion(const DeckAssessment& assessment) {
+  std::vector<std::string> sentences;
+  const structure::Deck& deck = assessment.deck();
+  for (const structure::DeckCaseSolution& solution : assessment.solution.cases) {
+    const auto heat = structure::heat_of(*assessment.model, deck, {solution.load_case});
+    for (const structure::TwistedBars& bars : structure::find_twisted_open_bars(
+             assessment.model->space(), solution.motion, heat ? &*heat : nullptr))
+      sentences.push_back(fmt::format(
+          "case {}: torsion makes {:.0f} of {:.0f} MPa in the open section of {} at ({:.4g}, "
+          "{:.4g}, {:.4g}) m; that such a section resists warping is not computed",
+          deck.load_cases[solution.load_case].label, bars.torsion / 1e6, bars.von_mises / 1e6,
+          bars.group, bars.place.x(), bars.place.y(), bars.place.z()));
+  }
+  return sentences;
 }
 
 std::vector<std::string> left_out_of_cases(const structure::Deck& deck) {

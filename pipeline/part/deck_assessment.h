@@ -40,6 +40,10 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
 /// Cards of the deck that are not in its cases though they would be, as sentences; contact, say.
 std::vector<std::string> left_out_of_cases(const structure::Deck& deck);
 
+/// Bars of open section in whose largest stress torsion governs, a sentence each case and group:
+/// that they resist warping is not computed (find_twisted_open_bars).
+std::vector<std::string> remarks_on_torsion(const DeckAssessment& assessment);
+
 /// Writes summary.json, nodes.csv (motions of the deck's nodes), reactions.csv and a picture
 /// case-LABEL.vtu a case into a folder; all of them appear when all are written.
 void write_deck_results(const DeckAssessment& assessment, const std::filesystem::path& folder);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -107,6 +108,8 @@ Json make_summary(const DeckAssessment& assessment) {
   }
   summary["left_out"] = left_out_of_cases(deck);
   summary["warnings"] = warnings_of_own_cases(*assessment.block->mesh);
+  for (std::string& remark : remarks_on_torsion(assessment))
+    summary["warnings"].push_back(std::move(remark));
   const structure::DeckTimes& times = assessment.solution.times;
   summary["timing"] = {{"mesh_s", assessment.mesh_s},
                        {"assembly_s", times.assembly},

@@ -58,10 +58,18 @@ struct PartAssessment {
 /// Reads the mesh and puts the model together.
 /// @returns the model, or after complaints an empty one: files that cannot be read, groups that the
 ///   mesh does not have or that hold no element, solids of no material or of two, a size that makes
-///   a wrong unit of length likely, boxes without faces and places without a node.
+///   a wrong unit of length likely, boxes without faces and places without a node, bodies to be
+///   joined that lie farther apart.
 /// @param sizes of the elements, where the file is a geometry.
 structure::PartModel make_part_model(const PartFile& file, Diagnostics& diagnostics,
                                      const std::optional<structure::SizeField>& sizes = {});
+
+/// Where two bodies of a part face each other, in words, and by what they are joined.
+std::string describe(const structure::PartMeeting& meeting);
+
+/// What is probably not meant: bodies that face each other closely and are not joined, a sentence
+/// each without a full stop.
+std::vector<std::string> list_doubts(const structure::PartModel& model);
 
 /// Runs a part. @throws InputError if the model cannot be made or solved: inverted elements, rigid
 ///   motions that the supports leave, probes outside the part, memory that does not suffice, an

@@ -120,10 +120,19 @@ Json make_part_summary(const PartAssessment& assessment) {
                {"created", creation_time()},
                {"nodes", model.mesh.nodes.cols()},
                {"elements", kinds},
-               {"unknowns", 3 * model.mesh.nodes.cols()},
+               {"unknowns",
+                3 * model.mesh.nodes.cols() - static_cast<Eigen::Index>(model.joints.ties.size())},
                {"mass_kg", assessment.mass.mass},
                {"volume_m3", assessment.mass.volume},
                {"centre_of_mass_m", vector(assessment.mass.centre)}};
+  for (const structure::PartMeeting& meeting : model.joints.meetings)
+    if (meeting.tied_nodes > 0)
+      summary["joints"].push_back({{"bodies", {meeting.bodies[0], meeting.bodies[1]}},
+                                   {"point_m", vector(meeting.place)},
+                                   {"gap_m", meeting.gap},
+                                   {"tied_nodes", meeting.tied_nodes},
+                                   {"largest_gap_m", meeting.largest_gap}});
+  for (const std::string& doubt : list_doubts(model)) summary["warnings"].push_back(doubt);
   if (!assessment.file.loads.empty()) add_solution(assessment, summary);
   if (assessment.modes) {
     for (const double frequency : assessment.modes->frequencies)

@@ -41,6 +41,7 @@ class ModelMaker {
     take_materials();
     take_supports();
     take_loads();
+    if (!diagnostics_.has_errors()) join_bodies();
     return std::move(model_);
   }
 
@@ -180,6 +181,33 @@ class ModelMaker {
       }
   }
 
+  void join_bodies() {
+    std::vector<structure::FixedUnknown> held;
+    std::vector<int> support_of;
+    try {
+      held = structure::part_supports(model_, support_of);
+    } catch (const structure::ModelError& error) {
+      diagnostics_.error(file_.mesh.mark(), error.what());
+      return;
+    }
+    std::optional<double> within;
+    if (file_.join) within = file_.join->within.value;
+    model_.joints = structure::find_part_joints(model_.mesh, held, within);
+    if (!file_.join || !model_.joints.ties.empty()) return;
+    std::vector<std::string> hints;
+    for (const structure::PartMeeting& meeting : model_.joints.meetings)
+      hints.push_back(describe(meeting));
+    if (hints.empty())
+      hints.emplace_back(
+          "only nodes of outer faces that face another body are joined; leave join out if the mesh "
+          "is one body");
+    diagnostics_.error(file_.join->within.mark,
+                       fmt::format("no node of a body lies within {:.6g} mm of another body, so "
+                                   "that nothing is joined",
+                                   1e3 * *within),
+                       hints);
+  }
+
   void take_loads() {
     bool needs_density = false;
     for (const PartLoadInFile& load : file_.loads) {
@@ -245,6 +273,36 @@ class ModelMaker {
 };
 
 }  // namespace
+
+std::string describe(const structure::PartMeeting& meeting) {
+  std::string text =
+      fmt::format("bodies {} and {} face each other across {:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) m",
+                  meeting.bodies[0], meeting.bodies[1], 1e3 * meeting.gap, meeting.place.x(),
+                  meeting.place.y(), meeting.place.z());
+  if (meeting.tied_nodes > 0)
+    text += fmt::format(" and are joined by {} nodes, the largest gap {:.3g} mm",
+                        meeting.tied_nodes, 1e3 * meeting.largest_gap);
+  return text;
+}
+
+std::vector<std::string> list_doubts(const structure::PartModel& model) {
+  constexpr std::size_t most_told = 12;
+  std::vector<std::string> doubts;
+  std::size_t more = 0;
+  for (const structure::PartMeeting& meeting : model.joints.meetings) {
+    if (meeting.tied_nodes > 0) continue;
+    if (doubts.size() == most_told) {
+      ++more;
+      continue;
+    }
+    doubts.push_back(describe(meeting) +
+                     " and are not joined: neither holds the other. If they are fastened there, "
+                     "unite them in the mesh or say join: {within: ...}, a little more than the "
+                     "gap");
+  }
+  if (more > 0) doubts.push_back(fmt::format("{} more pairs of bodies are not joined", more));
+  return doubts;
+}
 
 PartModel make_part_model(const PartFile& file, Diagnostics& diagnostics,
                           const std::optional<structure::SizeField>& sizes) {

@@ -12,7 +12,7 @@ NaturalModes find_part_modes(const PartModel& model, int count) {
   std::vector<int> support_of;
   const std::vector<FixedUnknown> held = part_supports(model, support_of);
   const int rigid = find_rigid_freedom(model, held).count;
-  const PartUnknowns unknowns(model.mesh);
+  const PartUnknowns unknowns(model.mesh, model.joints.ties);
   NaturalModes modes = find_natural_modes(assemble_part_stiffness(model, unknowns),
                                           assemble_part_mass(model, unknowns),
                                           unknowns.to_unknowns(trial_shapes(model.mesh.nodes, 3)),

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "structure/elasticity/part_joints.h"
 #include "structure/formulation/solid_set.h"
 #include "structure/material.h"
 #include "structure/mesh/part_mesh.h"
@@ -58,6 +59,7 @@ struct PartModel {
   std::vector<PartSupport> supports;
   std::vector<SurfaceLoad> surface_loads;
   std::vector<BodyLoad> body_loads;
+  PartJoints joints;  ///< empty: bodies that share no node do not know of each other
 };
 
 /// The solids of a part, each material a law.

@@ -6,34 +6,46 @@
 
 #include "structure/elasticity/part_model.h"
 #include "structure/space/elimination.h"
+#include "structure/system/assembly.h"
 #include "structure/system/linear_solver.h"
 #include "structure/system/sparse_matrix.h"
 
 namespace blocklift::structure {
 
-/// The unknowns of a part in an order of elimination: three of each node that is on a solid.
-/// Freedom 3 n + a is the displacement of node n along axis a, of all nodes. Immutable.
+/// The unknowns of a part in an order of elimination: three of each node that is on a solid, but
+/// for freedoms that follow others. Freedom 3 n + a is the displacement of node n along axis a, of
+/// all nodes. Immutable.
+///
+/// With T the freedoms by the unknowns, u = T q, the stiffness is T' K T, the mass T' M T and the
+/// forces T' f: what acts on a node that follows others acts on these.
 class PartUnknowns {
  public:
-  explicit PartUnknowns(const PartMesh& mesh);
+  explicit PartUnknowns(const PartMesh& mesh, std::vector<PartTie> ties = {});
 
   /// Elements are PartMesh::solids.
   const Elimination& elimination() const { return elimination_; }
   int count() const { return elimination_.count; }
   int freedoms() const { return static_cast<int>(elimination_.place.size()); }
-  /// Unknown of a freedom; -1 for a node of no solid.
+  /// Unknown of a freedom; -1 for a node of no solid and for a freedom that follows others.
   int of(int freedom) const { return elimination_.place[freedom]; }
-  /// Unknowns of a solid, in the order of its stiffness.
-  std::vector<int> of_solid(const PartMesh& mesh, int solid) const;
+  /// A matrix of a solid, its rows three a node, by the unknowns that they are or follow.
+  void take_solid(const PartMesh& mesh, int solid, const Eigen::MatrixXd& matrix,
+                  ElementEntries& entries) const;
 
-  /// Rows by unknowns for rows by freedoms; nodes of no solid are left out.
+  /// Displacements by unknowns of those by freedoms; what follows others is left out.
   Eigen::MatrixXd to_unknowns(const Eigen::Ref<const Eigen::MatrixXd>& by_freedoms) const;
-  /// Rows by freedoms for rows by unknowns; zero at nodes of no solid.
+  /// T' f of forces by freedoms.
+  Eigen::VectorXd forces_on_unknowns(const Eigen::VectorXd& by_freedoms) const;
+  /// T q of displacements by unknowns; zero at nodes of no solid.
   Eigen::MatrixXd to_freedoms(const Eigen::Ref<const Eigen::MatrixXd>& by_unknowns) const;
-  /// The same of what is fixed.
+  /// The unknowns of fixed freedoms, which follow none.
   std::vector<FixedUnknown> to_unknowns(const std::vector<FixedUnknown>& fixed_freedoms) const;
 
  private:
+  std::vector<int> freedoms_of_solid(const PartMesh& mesh, int solid) const;
+
+  std::vector<PartTie> ties_;
+  std::vector<int> tie_of_;  // by freedom, -1: none; empty without ties
   Elimination elimination_;
 };
 

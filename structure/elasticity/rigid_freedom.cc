@@ -105,7 +105,19 @@ std::vector<Piece> find_pieces(const PartMesh& mesh, const std::vector<int>& bod
   return pieces;
 }
 
-/// One body: pieces that share nodes, with what holds them.
+/// connected_bodies, those that ties join being one.
+std::vector<int> joined_bodies(const PartModel& model) {
+  std::vector<int> body_of_node = connected_bodies(model.mesh);
+  Unions unions(body_of_node.size());  // no more bodies than nodes
+  for (const PartTie& tie : model.joints.ties)
+    for (const int followed : tie.followed)
+      unions.unite(body_of_node[tie.freedom / 3], body_of_node[followed / 3]);
+  for (int& body : body_of_node)
+    if (body >= 0) body = unions.root(body);
+  return body_of_node;
+}
+
+/// One body: pieces that share nodes or are tied, with what holds them.
 class Body {
  public:
   Body(const PartMesh& mesh, std::vector<const Piece*> pieces)
@@ -126,10 +138,21 @@ class Body {
     for (const auto& [node, pieces] : pieces_of_node_)
       for (const int piece : pieces)
         for (int axis = 0; axis < 3 && piece != *pieces.begin(); ++axis)
-          add(node, axis, *pieces.begin(), piece);
+          add({{node, axis, *pieces.begin(), 1}, {node, axis, piece, -1}});
   }
 
-  void hold(int node, int axis) { add(node, axis, *pieces_of_node_.at(node).begin(), -1); }
+  void hold(int node, int axis) { add({{node, axis, *pieces_of_node_.at(node).begin(), 1}}); }
+
+  void tie(const PartTie& tie) {
+    std::vector<Term> terms;
+    const auto take = [&](int freedom, double factor) {
+      const int node = freedom / 3;
+      terms.push_back({node, freedom % 3, *pieces_of_node_.at(node).begin(), factor});
+    };
+    take(tie.freedom, -1);
+    for (std::size_t i = 0; i < tie.followed.size(); ++i) take(tie.followed[i], tie.shares[i]);
+    add(terms);
+  }
 
   /// @param several there are other bodies.
   void find(bool several, RigidFreedom& freedom) const {
@@ -165,18 +188,24 @@ class Body {
     return sum / static_cast<double>(piece.solids.size());
   }
 
-  // The displacement of a node along an axis with one piece, less that with another (if any), is
-  // zero.
-  void add(int node, int axis, int piece, int other) {
-    Twist row;
-    row.head<3>() = (mesh_.nodes.col(node) - centre_).cross(Vector3::Unit(axis)) / length_;
-    row.tail<3>() = Vector3::Unit(axis);
-    const Eigen::Matrix<double, 6, 6> square = row * row.transpose();
-    held_.block<6, 6>(6 * piece, 6 * piece) += square;
-    if (other < 0) return;
-    held_.block<6, 6>(6 * other, 6 * other) += square;
-    held_.block<6, 6>(6 * piece, 6 * other) -= square;
-    held_.block<6, 6>(6 * other, 6 * piece) -= square;
+  /// The displacement of a node along an axis with a piece, times a factor.
+  struct Term {
+    int node = 0, axis = 0, piece = 0;
+    double factor = 1;
+  };
+
+  // The sum of all terms is zero.
+  void add(const std::vector<Term>& terms) {
+    std::vector<Twist> rows;
+    for (const Term& term : terms) {
+      Twist& row = rows.emplace_back();
+      const Vector3 along = term.factor * Vector3::Unit(term.axis);
+      row.head<3>() = (mesh_.nodes.col(term.node) - centre_).cross(along) / length_;
+      row.tail<3>() = along;
+    }
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      for (std::size_t j = 0; j < terms.size(); ++j)
+        held_.block<6, 6>(6 * terms[i].piece, 6 * terms[j].piece) += rows[i] * rows[j].transpose();
   }
 
   const PartMesh& mesh_;
@@ -190,7 +219,7 @@ class Body {
 }  // namespace
 
 RigidFreedom find_rigid_freedom(const PartModel& model, const std::vector<FixedUnknown>& fixed) {
-  const std::vector<int> body_of_node = connected_bodies(model.mesh);
+  const std::vector<int> body_of_node = joined_bodies(model);
   const std::vector<Piece> pieces = find_pieces(model.mesh, body_of_node);
   std::map<int, std::vector<const Piece*>> of_body;
   for (const Piece& piece : pieces) of_body[piece.body].push_back(&piece);
@@ -208,6 +237,7 @@ RigidFreedom find_rigid_freedom(const PartModel& model, const std::vector<FixedU
     const int node = unknown.unknown / 3;
     if (body_of_node[node] >= 0) bodies.at(body_of_node[node]).hold(node, unknown.unknown % 3);
   }
+  for (const PartTie& tie : model.joints.ties) bodies.at(body_of_node[tie.freedom / 3]).tie(tie);
   RigidFreedom freedom;
   freedom.bodies = static_cast<int>(bodies.size());
   for (const auto& entry : bodies) entry.second.find(bodies.size() > 1, freedom);

@@ -10,7 +10,7 @@ namespace blocklift::structure {
 /// What supports leave of the rigid motions of a mesh.
 struct RigidFreedom {
   int count = 0;   ///< independent motions
-  int bodies = 0;  ///< parts of the mesh that have no node in common
+  int bodies = 0;  ///< parts of the mesh that have no node in common and no tie
   /// In words: "translation along x", "rotation about the axis along (0, 0, 1) through (1, 2, 0)
   /// m"; of which body where there are several that share no node, of which elements where they
   /// hang on the others by an edge or a point.

@@ -41,6 +41,34 @@ Eigen::VectorXd monomials(const Eigen::Matrix4Xi& exponents, const Vector3& xi) 
   return values;
 }
 
+/// Sides of the element with so many corners: in it side.head<3>() . xi <= side[3].
+const std::vector<Eigen::Vector4d>& sides_of(int corners) {
+  using Sides = std::vector<Eigen::Vector4d>;
+  static const Sides tetrahedron = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {1, 1, 1, 1}};
+  static const Sides pyramid = {
+      {0, 0, -1, 0}, {1, 0, 1, 1}, {-1, 0, 1, 1}, {0, 1, 1, 1}, {0, -1, 1, 1}};
+  static const Sides wedge = {
+      {-1, 0, 0, 0}, {0, -1, 0, 0}, {1, 1, 0, 1}, {0, 0, 1, 1}, {0, 0, -1, 1}};
+  static const Sides hexahedron = {{1, 0, 0, 1},  {-1, 0, 0, 1}, {0, 1, 0, 1},
+                                   {0, -1, 0, 1}, {0, 0, 1, 1},  {0, 0, -1, 1}};
+  return corners == 4 ? tetrahedron : corners == 5 ? pyramid : corners == 6 ? wedge : hexahedron;
+}
+
+/// Orthonormal local directions along all sides that a place lies on and a wanted step would leave
+/// by.
+Eigen::Matrix3Xd free_ways(int corners, const Vector3& xi, const Vector3& wanted) {
+  constexpr double rounding = 1e-9;
+  std::vector<Vector3> held;
+  for (const Eigen::Vector4d& side : sides_of(corners)) {
+    const Vector3 normal = side.head<3>();
+    if (normal.dot(xi) > side[3] - rounding && normal.dot(wanted) > 0) held.push_back(normal);
+  }
+  if (held.empty()) return Eigen::Matrix3d::Identity();
+  Eigen::MatrixXd normals(3, static_cast<Eigen::Index>(held.size()));
+  for (std::size_t i = 0; i < held.size(); ++i) normals.col(static_cast<Eigen::Index>(i)) = held[i];
+  return algebra::left_null_space(normals, rounding);
+}
+
 }  // namespace
 
 ElementShape::ElementShape(const ElementKind& kind) : corners_(kind.corners) {
@@ -113,6 +141,27 @@ double ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place,
   }
   xi = cut_off(xi);
   return (place - nodes * values(xi)).norm();
+}
+
+double ElementShape::nearest(const Eigen::Matrix3Xd& nodes, const Vector3& place,
+                             Vector3& xi) const {
+  constexpr int most_steps = 20;
+  double distance = locate(nodes, place, xi);
+  const double rounding = 1e-12 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
+  for (int step = 0; step < most_steps && std::isfinite(distance); ++step) {
+    const Vector3 miss = place - nodes * values(xi);
+    const Eigen::Matrix3d jacobian = nodes * gradients(xi);
+    const Vector3 wanted = algebra::solve_square(jacobian, miss);
+    const Eigen::Matrix3Xd ways = free_ways(corners_, xi, wanted);
+    if (!wanted.allFinite() || ways.cols() == 0 || ways.cols() == 3) break;
+    const Vector3 change = ways * algebra::least_squares(jacobian * ways, Eigen::MatrixXd(miss));
+    const Vector3 next = cut_off(xi + change);
+    const double nearer = (place - nodes * values(next)).norm();
+    if (!(nearer < distance - rounding)) break;
+    distance = nearer;
+    xi = next;
+  }
+  return distance;
 }
 
 }  // namespace blocklift::structure

@@ -29,6 +29,12 @@ class ElementShape {
   /// @returns how far that is from the place, m: rounding alone inside; infinity if none is found.
   double locate(const Eigen::Matrix3Xd& nodes, const Vector3& place, Vector3& xi) const;
 
+  /// Local coordinates of the element's place that is nearest to a place in space, also beside
+  /// skew elements: from locate on along the sides that hold the search back (Gauss-Newton with an
+  /// active set; Nocedal and Wright 2006, chapters 10 and 16).
+  /// @returns how far that is, m: rounding alone inside; infinity if none is found.
+  double nearest(const Eigen::Matrix3Xd& nodes, const Vector3& place, Vector3& xi) const;
+
  private:
   Vector3 cut_off(const Vector3& xi) const;
 

@@ -92,6 +92,18 @@ VtkField field_of(std::string name, const std::vector<int>& node_of_point,
   return {std::move(name), std::move(at_points), 3};
 }
 
+// *EQUATION: u_freedom - sum shares u_followed = 0. Four terms a line.
+void write_ties(std::ofstream& file, const PartModel& model) {
+  for (const PartTie& tie : model.joints.ties) {
+    fmt::print(file, "*EQUATION\n{}\n{}, {}, -1", tie.followed.size() + 1, tie.freedom / 3 + 1,
+               tie.freedom % 3 + 1);
+    for (std::size_t i = 0; i < tie.followed.size(); ++i)
+      fmt::print(file, "{}{}, {}, {:.12g}", (i + 1) % 4 == 0 ? "\n" : ", ", tie.followed[i] / 3 + 1,
+                 tie.followed[i] % 3 + 1, tie.shares[i]);
+    fmt::print(file, "\n");
+  }
+}
+
 void write_static_step(std::ofstream& file, const PartModel& model) {
   std::vector<int> support_of;
   fmt::print(file, "*STEP\n*STATIC\n*BOUNDARY\n");
@@ -100,8 +112,10 @@ void write_static_step(std::ofstream& file, const PartModel& model) {
                fixed.unknown % 3 + 1, fixed.value);
   fmt::print(file, "*CLOAD\n");
   const Eigen::VectorXd load = part_load(model);
+  // CalculiX reads 20 characters of a field: with more digits a small load loses the end of its
+  // exponent.
   for (Eigen::Index u = 0; u < load.size(); ++u)
-    if (load[u] != 0) fmt::print(file, "{}, {}, {:.15g}\n", u / 3 + 1, u % 3 + 1, load[u]);
+    if (load[u] != 0) fmt::print(file, "{}, {}, {:.13g}\n", u / 3 + 1, u % 3 + 1, load[u]);
   fmt::print(file, "*NODE FILE\nU\n*EL FILE\nS\n*NODE PRINT, NSET=ALL_NODES\nU\n*END STEP\n");
 }
 
@@ -195,6 +209,7 @@ void write_calculix(const std::string& path, const PartModel& model, const PartA
                name_of(material.name), material.youngs_modulus, material.poisson_ratio,
                material.density);
   }
+  write_ties(file, model);
   if (analyses.has_loads) write_static_step(file, model);
   if (analyses.modes > 0) write_frequency_step(file, model, analyses.modes);
   file.close();

@@ -50,7 +50,7 @@ Eigen::VectorXd PadeyeModel::load_vector(const PadeyeLoad& load) const {
 
 PadeyeResult PadeyeModel::solve(const PadeyeLoad& load) const {
   PadeyeResult result;
-  const Eigen::VectorXd loads = load_vector(load), forces = unknowns_->to_unknowns(loads);
+  const Eigen::VectorXd loads = load_vector(load), forces = unknowns_->forces_on_unknowns(loads);
   const Eigen::VectorXd given =
       load.base_displacement.size() > 0
           ? load.base_displacement

@@ -6,7 +6,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,7 +41,8 @@ void require_supported(const PartModel& model, const std::vector<FixedUnknown>& 
     text +=
         "\n    bodies that touch in a CAD file are joined where they are one body there, or cut "
         "one "
-        "another into common faces, as BooleanFragments of Gmsh does";
+        "another into common faces, as BooleanFragments of Gmsh does; other bodies that touch are "
+        "joined by join: {within: 1 mm}";
   throw ModelError(text);
 }
 
@@ -121,6 +124,13 @@ PartGroupResult largest_of(const PartModel& model, const PartSolution& solution,
   return result;
 }
 
+// Each volume of the geometry is a group besides those that the file names (see read_part_mesh).
+bool is_of_geometry(const PartGroup& group) {
+  constexpr std::string_view noun = "volume ";
+  return group.name.starts_with(noun) &&
+         group.name.find_first_not_of("0123456789", noun.size()) == std::string::npos;
+}
+
 void find_maxima(const PartModel& model, const SolidSet& set,
                  const std::vector<StressColumns>& of_solids, PartSolution& solution) {
   SolidError error = estimate_solid_error(set, solution.stress, solution.displacement);
@@ -136,10 +146,15 @@ void find_maxima(const PartModel& model, const SolidSet& set,
   Eigen::Index worst = 0;
   error.squared_error.maxCoeff(&worst);
   solution.worst_point = model.mesh.centre(model.mesh.solids[worst]);
+  std::set<std::vector<int>> listed;
   for (const PartGroup& group : model.mesh.groups) {
     if (group.dimension != 3) continue;
     std::vector<int> solids;
     for (const int element : group.elements) solids.push_back(solid_of_element.at(element));
+    std::vector<int> sorted = solids;
+    std::sort(sorted.begin(), sorted.end());
+    const bool is_first = listed.insert(std::move(sorted)).second;
+    if (!is_first && is_of_geometry(group)) continue;
     solution.groups.push_back(largest_of(model, solution, of_solids, error, group.name, solids));
   }
   solution.squared_error = std::move(error.squared_error);
@@ -278,9 +293,9 @@ PartStress recover_part_stress(const PartModel& model, const Eigen::VectorXd& di
 PartDisplacement find_part_displacement(const PartModel& model,
                                         const std::vector<FixedUnknown>& fixed,
                                         const Eigen::VectorXd& load, const SolverChoice& choice) {
-  const PartUnknowns unknowns(model.mesh);
+  const PartUnknowns unknowns(model.mesh, model.joints.ties);
   const std::vector<FixedUnknown> held = unknowns.to_unknowns(fixed);
-  const Eigen::VectorXd forces = unknowns.to_unknowns(load);
+  const Eigen::VectorXd forces = unknowns.forces_on_unknowns(load);
   PartDisplacement solved;
   bool is_solved = false;
   try {

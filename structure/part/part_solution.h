@@ -69,8 +69,9 @@ struct PartSolution {
   std::vector<Wrench> reactions;  ///< of each support on the part, about the origin
   /// |loads + reactions| over the sum of the magnitudes of both.
   double force_residual = 0;
-  double moment_residual = 0;           ///< the same of moments about the origin
-  std::vector<PartGroupResult> groups;  ///< of solids
+  double moment_residual = 0;  ///< the same of moments about the origin
+  /// Of solids; a volume of the geometry that is a named group as a whole comes by that name alone.
+  std::vector<PartGroupResult> groups;
   PartGroupResult all;
   double strain_energy = 0;               ///< J
   double estimated_error = 0;             ///< of the whole part, as for a group

@@ -51,7 +51,7 @@ Bounds bounds_of(const Mesh& mesh, const BucklingFields& fields, const PlateFiel
 }
 
 /// A panel but for its edges: named after the region that has most of its volume, as thick as the
-/// thinnest plate that has a tenth of its area.
+/// thinnest plate that has a tenth of its area, of the weakest steel of that thickness.
 void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Panel& panel) {
   double volume = 0, area = 0;
   std::map<int, double> of_region;        // volume
@@ -76,9 +76,16 @@ void measure(const Mesh& mesh, const PlateField& field, const Bounds& bounds, Pa
   const Eigen::Vector2d sides = bounds.upper - bounds.lower;
   panel.size = {sides[0], sides[1],
                 thinnest == of_thickness.end() ? of_thickness.begin()->first : thinnest->first};
-  for (const int shell : field.shells)
-    if (mesh.section_of(mesh.shells[shell]).thickness == panel.size.thickness)
-      panel.material = mesh.section_of(mesh.shells[shell]).material;
+  // Of the steels of that thickness the one that yields first, in whatever turn the shells come.
+  bool is_found = false;
+  for (const int shell : field.shells) {
+    const ShellSection& section = mesh.section_of(mesh.shells[shell]);
+    if (section.thickness != panel.size.thickness) continue;
+    const bool is_weaker =
+        mesh.materials[section.material].yield_stress < mesh.materials[panel.material].yield_stress;
+    if (!is_found || is_weaker) panel.material = section.material;
+    is_found = true;
+  }
 }
 
 /// Twice the area that an outline encloses in a panel's plane; holes' are negative.

@@ -90,7 +90,7 @@ struct Panel {
   /// How many fields between stiffeners the sides a and b are wide. Where stiffeners stand is not
   /// known, so that one field is taken to be as wide as their spacing; this need not be whole.
   double fields_a = 1, fields_b = 1;
-  int material = 0;  ///< place in Mesh::materials
+  int material = 0;  ///< place in Mesh::materials, of the weakest steel of that thickness
 };
 
 /// Stiffeners that a plate carries and the mesh does not: they divide each of its panels. Those of

@@ -173,12 +173,30 @@ AreasAbout areas_of(const std::vector<PlateRectangle>& rectangles) {
   return areas;
 }
 
-/// Is a cut the better one? Of two whose rectangles are as large together that with the largest
-/// piece: a mirror image of the plate, whose corners come in another turn, is cut alike.
-bool is_better(const AreasAbout& areas, const AreasAbout& best) {
-  constexpr double rounding = 1e-6;
-  if (areas.sum < best.sum * (1 - rounding)) return true;
-  return areas.sum <= best.sum * (1 + rounding) && areas.largest > best.largest * (1 + rounding);
+/// A cut that is worth its while.
+struct WorthyCut {
+  PlateCut cut;
+  AreasAbout areas;
+  double length = 0;  ///< of its rays together, m
+};
+
+/// The cut whose rectangles are smallest together, of several that with the largest piece, then
+/// that of the shortest rays. Cuts follow shells, so that their figures carry the mesh's grain:
+/// those that differ by less than that count as alike, and mirror images of a plate are cut alike
+/// whatever their meshes and the turn of their corners.
+PlateCut best_of(std::vector<WorthyCut> cuts) {
+  constexpr double grain = 5e-3;
+  const auto keep = [&](const auto& figure_of) {  // the smaller, the better
+    double least = figure_of(cuts.front());
+    for (const WorthyCut& one : cuts) least = std::min(least, figure_of(one));
+    std::erase_if(cuts, [&](const WorthyCut& one) {
+      return figure_of(one) > least + grain * std::abs(least);
+    });
+  };
+  keep([](const WorthyCut& one) { return one.areas.sum; });
+  keep([](const WorthyCut& one) { return -one.areas.largest; });
+  keep([](const WorthyCut& one) { return one.length; });
+  return std::move(cuts.front().cut);
 }
 
 /// The shells of a field in its plane.
@@ -309,18 +327,20 @@ std::optional<PlateCut> find_plate_cut(const Mesh& mesh, const PlateField& field
   const FlatField flat(mesh, field, axes, known);
   const PlateRectangle whole = flat.rectangle();
   if (enclosed > filled * whole.area) return std::nullopt;
-  std::optional<PlateCut> best;
-  AreasAbout least{worth_it * whole.area, 1e300};
+  std::vector<WorthyCut> cuts;
   const CutFinder finder(std::move(outlines));
   for (const CutRays& rays : finder.candidates()) {
     PlateCut cut = flat.cut(rays);
     if (cut.pieces < 2) continue;
     const AreasAbout areas = areas_of(flat.rectangles_about(cut));
-    if (!is_better(areas, least)) continue;
-    least = areas;
-    best = std::move(cut);
+    if (!(areas.sum < worth_it * whole.area)) continue;
+    double length = 0;
+    for (const CutRay& ray : rays) length += ray.length;
+    cuts.push_back({std::move(cut), areas, length});
   }
-  if (best) best->whole_length = whole.longer;
+  if (cuts.empty()) return std::nullopt;
+  PlateCut best = best_of(std::move(cuts));
+  best.whole_length = whole.longer;
   return best;
 }
 

@@ -115,6 +115,15 @@ Format<PartMaterial> part_material_format() {
   return table.format();
 }
 
+Format<PartJoinInFile> join_format() {
+  Table<PartJoinInFile> table(
+      "join", "Bodies that share no node and face each other closely are joined there.");
+  table.required("within", &PartJoinInFile::within,
+                 located(quantity(Dimension::length, Range::positive())),
+                 "largest gap between them that is joined");
+  return table.format();
+}
+
 Format<PartSupportInFile> part_support_format() {
   const std::vector<std::pair<std::string, std::size_t>> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
   Table<PartSupportInFile> table("support", "Components of the displacement that are given.");
@@ -366,6 +375,9 @@ Format<PartFile> part_file_format() {
       .optional("title", &PartFile::title, text(), "for people")
       .required("mesh", &PartFile::mesh, mesh_format(), "the part's mesh")
       .required("materials", &PartFile::materials, named_tables(part_material_format()), "by name")
+      .optional("join", &PartFile::join, join_format(),
+                "bodies of an assembly that touch, whose meshes need not match; without it they "
+                "stay apart, and a warning says where")
       .optional("supports", &PartFile::supports, named_tables(part_support_format()),
                 "by name; loads need them, natural modes do not")
       .optional("loads", &PartFile::loads, named_tables(part_load_format()),

@@ -49,6 +49,11 @@ struct PartMeshInFile {
   const Mark& mark() const { return file ? file->mark : padeye->mark; }
 };
 
+/// How bodies of a part that share no node are joined.
+struct PartJoinInFile {
+  Located<double> within;  ///< largest gap that is joined, m
+};
+
 /// A material of a part with the groups of solids that are of it.
 struct PartMaterial {
   Located<std::string> name;
@@ -134,6 +139,7 @@ struct PartFile {
   std::string title;
   PartMeshInFile mesh;
   std::vector<PartMaterial> materials;
+  std::optional<PartJoinInFile> join;  ///< none: bodies stay apart
   std::vector<PartSupportInFile> supports;
   std::vector<PartLoadInFile> loads;
   std::vector<PartProbeInFile> probes;

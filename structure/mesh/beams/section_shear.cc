@@ -140,13 +140,13 @@ std::optional<double> by_flanges(double area, double moment, const Reach& reach,
 /// lesser second moment, rolled beams and channels up to 0.17 times.
 std::optional<double> web_by_torsion(double area, double upright, double level, double torsion) {
   if (torsion > 0.5 * level) return std::nullopt;
-  const double upright_square = upright / area, level_square = level / area;
+  // Every station of a beam asks: the thousand trials below are products, without powers.
+  const double cube = area * area * area / 12;
+  const double of_flanges = cube * area / (12 * level), of_web = cube * area / upright;
   // J of flanges that have `share` of the area and all of the level moment, and of a web.
   const auto torsion_of = [&](double share) {
-    const double web = 1 - share;
-    return std::pow(area, 3) / 12 *
-           (std::pow(share, 4) / (12 * level_square) +
-            std::pow(web, 3) * (1 - 2 * web / 3) / upright_square);
+    const double web = 1 - share, square = share * share;
+    return of_flanges * square * square + of_web * web * web * web * (1 - 2 * web / 3);
   };
   if (!(torsion_of(1) >= torsion)) return std::nullopt;
   // From above: of several the one with the least web.

@@ -16,6 +16,7 @@
 #include "structure/index.h"
 #include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/beams/section_shear.h"
+#include "structure/mesh/diagnosis/touching_parts.h"
 #include "structure/mesh/shell_shape.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/mesh/spring_motion.h"
@@ -256,6 +257,22 @@ class Doctor {
       add("opposed normals", Severity::warning, mesh_.shells[one.shell].label, place);
   }
 
+  void check_touching_parts(const std::vector<int>& part) {
+    const std::vector<TouchingParts> touching = find_touching_parts(mesh_, part);
+    if (touching.empty()) return;
+    for (const TouchingParts& pair : touching)
+      add("parts that touch", Severity::warning, label(pair.vertex), vertex(pair.vertex));
+    const auto nearest =
+        std::min_element(touching.begin(), touching.end(),
+                         [](const auto& a, const auto& b) { return a.gap < b.gap; });
+    const Vector3& place = vertex(nearest->vertex);
+    say("parts that touch",
+        "{} pairs of parts face each other closely and nothing joins them, the nearest across "
+        "{:.3g} mm at ({:.4g}, {:.4g}, {:.4g}) m, where {} vertices lie beside the other part; a "
+        "vertex of each pair",
+        touching.size(), 1000 * nearest->gap, place.x(), place.y(), place.z(), nearest->vertices);
+  }
+
   void check_parts() {
     const std::vector<int> part = connected_parts(mesh_);
     result_.parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
@@ -282,6 +299,7 @@ class Doctor {
         see(std::max(spring.vertices[0], spring.vertices[1]), spring.label);
       say("unconnected parts", "{} parts hang together with nothing else; a cell of each",
           count("unconnected parts"));
+      check_touching_parts(part);
     }
     for (const PointMass& mass : mesh_.masses)
       if (part[mass.vertex] < 0)

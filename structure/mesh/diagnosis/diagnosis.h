@@ -49,14 +49,14 @@ struct Diagnosis {
 
 /// Looks a mesh over before it is lifted. Kinds of findings:
 ///
-/// "free edges", "unconnected parts", "unused vertices", "duplicated vertices" (closer than the
-/// distance and joined by nothing), "duplicated shells", "duplicated beams", "shells without
-/// thickness", "shells without area", "folded shells", "slender shells", "warped shells", "skewed
-/// shells", "opposed normals" (of two shells that alone share an edge and fold by less than 45
-/// degrees), "vertices free to move" and "vertices free to turn" (nothing that meets there resists
-/// a direction), "beams free to spin", "beams free to slide", "beams by figures" (whose shear
-/// stress is an estimate: is_shear_estimated), "springs to the ground" (a lifted
-/// block has none), "materials without density".
+/// "free edges", "unconnected parts", "parts that touch" (find_touching_parts), "unused vertices",
+/// "duplicated vertices" (closer than the distance and joined by nothing), "duplicated shells",
+/// "duplicated beams", "shells without thickness", "shells without area", "folded shells", "slender
+/// shells", "warped shells", "skewed shells", "opposed normals" (of two shells that alone share an
+/// edge and fold by less than 45 degrees), "vertices free to move" and "vertices free to turn"
+/// (nothing that meets there resists a direction), "beams free to spin", "beams free to slide",
+/// "beams by figures" (whose shear stress is an estimate: is_shear_estimated), "springs to the
+/// ground" (a lifted block has none), "materials without density".
 Diagnosis diagnose(const Mesh& mesh, const DiagnosisOptions& options = {});
 
 }  // namespace blocklift::structure

@@ -12,6 +12,7 @@
 #include "structure/mesh/beams/sections.h"
 #include "structure/mesh/files/abaqus/writer.h"
 #include "structure/mesh/files/nastran/writer.h"
+#include "structure/stress/open_sections.h"
 #include "tests/structure/mesh/files/deck_text.h"
 
 namespace blocklift::structure {
@@ -94,6 +95,33 @@ TEST(ShearCentreOfDecks, TurnsByTheForcesArm) {
         << one.name;
     EXPECT_NEAR(turn_of_end(test::abaqus(to_abaqus(one.deck))), expected, 1e-6 * most) << one.name;
   }
+}
+
+// The channel under a force beside its shear centre is told, for it resists warping; through its
+// shear centre it does not twist. T t / J of the flanges: Timoshenko and Goodier (1970), section
+// 109.
+TEST(ShearCentreOfDecks, TorsionThatGovernsAnOpenSectionIsFound) {
+  const auto twisted_of = [](const Deck& deck) {
+    Mesh mesh = deck.mesh;
+    for (Material& material : mesh.materials) material.yield_stress = 235e6;
+    const ElasticModel model(std::move(mesh), {3, {}});
+    return find_twisted_open_bars(model.space(), solve_deck(model, deck, 1).cases.at(0).motion);
+  };
+  const std::vector<ChannelDeck> decks = channel_decks();
+  EXPECT_TRUE(twisted_of(decks[0].deck).empty());
+  const std::vector<TwistedBars> twisted = twisted_of(decks[1].deck);
+  ASSERT_EQ(twisted.size(), 1U);
+  const double arm = std::abs(upright_channel.section.shear_centre[1]);
+  const double shear = 1000 * arm * 0.012 / upright_channel.section.torsion;
+  EXPECT_NEAR(twisted[0].torsion, std::sqrt(3) * shear, 1e-3 * shear);
+  EXPECT_GT(twisted[0].torsion, 0.5 * twisted[0].von_mises);
+  EXPECT_LT(twisted[0].torsion, twisted[0].von_mises * (1 + 1e-9));
+}
+
+TEST(OpenSections, AreToldByTheirFigures) {
+  EXPECT_TRUE(is_open_section(upright_channel.section));
+  EXPECT_TRUE(is_open_section(angle_bar(0.15, 0.01, 0.09, 0.012).section));
+  EXPECT_FALSE(is_open_section(flat_bar(0.15, 0.01).section));
 }
 
 }  // namespace

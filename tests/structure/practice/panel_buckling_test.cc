@@ -375,13 +375,15 @@ TEST(BlockPanels, AWebRoundACornerIsTwoStrips) {
 }
 
 // Of a web along a side of 3 m and a floor of 4 m either strip may have the corner, with rectangles
-// of one size: it is the longer one, to port as to starboard.
+// of one size: it is the longer one, to port as to starboard, whose mesh is finer.
 TEST(BlockPanels, AMirrorImageIsCutAlike) {
   for (const bool is_mirrored : {false, true}) {
-    WebMesh web(0.2);
-    for (int i = 0; i < 20; ++i)
-      for (int j = 0; j < 15; ++j)
-        if ((is_mirrored ? 19 - i : i) < 3 || j < 3) web.add_square(i, j);
+    const int finer = is_mirrored ? 2 : 1;
+    WebMesh web(0.2 / finer);
+    for (int i = 0; i < 20 * finer; ++i)
+      for (int j = 0; j < 15 * finer; ++j)
+        if ((is_mirrored ? 20 * finer - 1 - i : i) < 3 * finer || j < 3 * finer)
+          web.add_square(i, j);
     const BlockPanels panels = web.panels([&](const Vector3& middle) {
       return middle.y() < 1e-9 || (is_mirrored ? 4 - middle.x() : middle.x()) < 1e-9;
     });

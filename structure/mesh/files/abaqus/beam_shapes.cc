@@ -1,6 +1,7 @@
 // Shapes of beams' sections.
 #include "structure/mesh/files/abaqus/beam_shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -264,6 +265,22 @@ class BeamShapeReader {
     return {abaqus_real(fields, 0, "value", 0.0), abaqus_real(fields, 1, "value", 0.0)};
   }
 
+  /// A section by figures does not tell where it twists; the nodes' line, which a centroid of its
+  /// own leaves, is as likely as the centroid.
+  void remark_on_twist(const SectionBlocks& blocks, const Eigen::Vector2d& centroid) {
+    const auto find = [&](const char* name) {
+      return std::find_if(blocks.details.begin(), blocks.details.end(),
+                          [&](const AbaqusBlock* detail) { return detail->name == name; });
+    };
+    const auto of_centroid = find("CENTROID");
+    if (of_centroid == blocks.details.end() || find("SHEAR CENTER") != blocks.details.end() ||
+        centroid.isZero(0))
+      return;
+    model_.log.remark((*of_centroid)->line,
+                      "*CENTROID without *SHEAR CENTER: the beam twists about its centroid; a "
+                      "*SHEAR CENTER says where else");
+  }
+
   void read_details(const SectionBlocks& blocks, BeamShape& beam, double shear = 0) {
     BeamSection& section = beam.profile.section;
     if (shear == 0) shear = mesh_.materials[beam.material].shear_modulus();
@@ -278,6 +295,7 @@ class BeamShapeReader {
           beam.profile.centroid += place;
       });
     }
+    remark_on_twist(blocks, beam.profile.centroid);
     for (const AbaqusBlock* detail : blocks.details) {
       if (is_about_centroid(*detail)) continue;
       model_.guarded(*detail, [&] {

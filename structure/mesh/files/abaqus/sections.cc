@@ -15,6 +15,7 @@
 #include "structure/mesh/files/abaqus/layers.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/abaqus/orientation.h"
+#include "structure/mesh/files/deck/parted_edges.h"
 #include "structure/mesh/files/deck/plausibility.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/shell_shape.h"
@@ -37,7 +38,8 @@ bool may_precede_detail(const std::string& name) {
 
 class Sections {
  public:
-  explicit Sections(AbaqusModel& model) : model_(model), mesh_(model.deck.mesh) {}
+  explicit Sections(AbaqusModel& model)
+      : model_(model), mesh_(model.deck.mesh), edges_(mesh_, model.log, apart_of_shells) {}
 
   void read() {
     for (const AbaqusScope& scope : model_.scopes)
@@ -380,6 +382,8 @@ class Sections {
         const int middle = element.nodes[count + i];
         at_middles.push_back(model_.place(middle));
         model_.middles.push_back({middle, element.shell, place_of_middle(count, i)});
+        edges_.take({corners[i], corners[(i + 1) % count], middle, element.label,
+                     "*ELEMENT, TYPE=" + element.type, element.line});
       }
       shell.curvature = static_cast<int>(mesh_.curved_shells.size());
       mesh_.curved_shells.push_back(quadratic_points(at_corners, at_middles));
@@ -562,6 +566,7 @@ class Sections {
 
   AbaqusModel& model_;
   Mesh& mesh_;
+  PartedEdges edges_;
   std::map<int, double> thickness_of_;  ///< of nodes, m
   bool is_nodal_by_section_ = false;    ///< does any section ask for it?
   std::map<std::pair<int, double>, int> section_of_thickness_;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "structure/index.h"
+#include "structure/mesh/files/deck/parted_edges.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -79,46 +78,15 @@ void refuse_folded_solids(const Mesh& mesh, const std::vector<GivenSolid>& given
   }
 }
 
-/// Complains of edges whose middle is one node in one solid and another in the next, so that the
-/// solids would part between the ends of the edge.
-void refuse_parted_edges(const Deck& deck, const std::vector<GivenSolid>& given, DeckLog& log) {
-  struct Middle {
-    int vertex = 0;
-    std::size_t solid = 0;  ///< the first that names it
-  };
-  constexpr int most_named = 10;
-  const Mesh& mesh = deck.mesh;
-  const auto label = [&](int vertex) {
-    return mesh.vertex_labels.empty() ? long{vertex} + 1 : mesh.vertex_labels[vertex];
-  };
-  std::map<std::pair<int, int>, Middle> middles;
-  int count = 0;
+void refuse_parted_edges(const Mesh& mesh, const std::vector<GivenSolid>& given, DeckLog& log) {
+  PartedEdges edges(mesh, log);
   for (std::size_t s = 0; s < mesh.solids.size(); ++s) {
     const Solid& solid = mesh.solids[s];
     const SolidTopology& topology = topology_of(solid.shape);
-    for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-      const int own = solid.vertices[at(topology.corners) + e];
-      const std::pair<int, int> ends =
-          std::minmax({solid.vertices[topology.edges[e][0]], solid.vertices[topology.edges[e][1]]});
-      const auto [known, is_new] = middles.try_emplace(ends, Middle{own, s});
-      if (is_new || known->second.vertex == own) continue;
-      const Middle& other = known->second;
-      if (++count > most_named) {
-        log.complain(given[s].line,
-                     fmt::format("{}: one more edge has two nodes in its middle", given[s].card));
-        continue;
-      }
-      log.complain(
-          given[s].line,
-          fmt::format(
-              "{}: element {} has node {} in the middle of the edge from node {} to {}, and "
-              "element {} ({}) has node {} there, so that they would part along the edge; "
-              "it is so where parts become quadratic one by one: merge nodes that lie at "
-              "one place, middles too",
-              given[s].card, solid.label, label(own), label(ends.first), label(ends.second),
-              mesh.solids[other.solid].label, log.place(given[other.solid].line),
-              label(other.vertex)));
-    }
+    for (std::size_t e = 0; e < topology.edges.size(); ++e)
+      edges.take({solid.vertices[topology.edges[e][0]], solid.vertices[topology.edges[e][1]],
+                  solid.vertices[at(topology.corners) + e], solid.label, given[s].card,
+                  given[s].line});
   }
 }
 
@@ -144,7 +112,7 @@ void complete_solids(Deck& deck, const std::vector<GivenSolid>& given, DeckLog& 
                     "negative, and they are turned; their faces keep their numbers",
                     turned, turned == 1 ? "solid is" : "solids are", mesh.solids[first].label));
   refuse_folded_solids(mesh, given, log);
-  refuse_parted_edges(deck, given, log);
+  refuse_parted_edges(mesh, given, log);
 }
 
 }  // namespace blocklift::structure

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "structure/mesh/beams/beam_axes.h"
+#include "structure/mesh/files/deck/parted_edges.h"
 #include "structure/mesh/files/deck/shell_geometry.h"
 #include "structure/mesh/files/nastran/line_loads.h"
 #include "structure/mesh/files/nastran/model.h"
@@ -41,7 +42,8 @@ const std::unordered_map<std::string, ShellLayout>& shell_layouts() {
 
 class Shells {
  public:
-  explicit Shells(NastranModel& model) : model_(model), mesh_(model.deck.mesh) {}
+  explicit Shells(NastranModel& model)
+      : model_(model), mesh_(model.deck.mesh), edges_(mesh_, model.log, apart_of_shells) {}
 
   void read() {
     NastranModel::Handlers handlers;
@@ -75,7 +77,7 @@ class Shells {
     }
     shell.region = nastran_region(model_, property, material_of(shell));
     const auto place = static_cast<int>(mesh_.shells.size());
-    if (!middles.empty()) curve(shell, place, corners, middles);
+    if (!middles.empty()) curve(card, shell, place, corners, middles);
     if (is_folded(mesh_, shell))
       throw CardError{fmt::format(
           "element {} is folded: its corners are not in turn about it, one turns inwards{}",
@@ -124,7 +126,7 @@ class Shells {
     return middles;
   }
 
-  void curve(Shell& shell, int place, const std::vector<int>& corners,
+  void curve(const CardView& card, Shell& shell, int place, const std::vector<int>& corners,
              const std::vector<int>& middles) {
     std::vector<Vector3> at_corners, at_middles;
     for (const int corner : corners) at_corners.push_back(model_.place(corner));
@@ -132,8 +134,10 @@ class Shells {
       at_middles.push_back(
           middles[i] >= 0 ? model_.place(middles[i])
                           : Vector3((at_corners[i] + at_corners[(i + 1) % corners.size()]) / 2));
-      if (middles[i] >= 0)
-        model_.middles.push_back({middles[i], place, place_of_middle(corners.size(), i)});
+      if (middles[i] < 0) continue;
+      model_.middles.push_back({middles[i], place, place_of_middle(corners.size(), i)});
+      edges_.take({corners[i], corners[(i + 1) % corners.size()], middles[i], shell.label,
+                   card.name(), card.line()});
     }
     shell.curvature = static_cast<int>(mesh_.curved_shells.size());
     mesh_.curved_shells.push_back(quadratic_points(at_corners, at_middles));
@@ -188,6 +192,7 @@ class Shells {
   NastranModel& model_;
   Mesh& mesh_;
   std::set<int> without_section_;
+  PartedEdges edges_;
 };
 
 class Bars {

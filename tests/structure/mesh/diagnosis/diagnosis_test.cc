@@ -101,6 +101,31 @@ TEST(Diagnosis, UnconnectedParts) {
   EXPECT_EQ(diagnose(mesh).parts, 1);
 }
 
+// Two plates end to end, 20 mm apart and half a cell aside, as meshes that were to be tied are.
+TEST(Diagnosis, PartsThatTouchAreToldWithPlaceAndGap) {
+  const auto plates_apart = [](double gap) {
+    Mesh mesh = plate(2, 2);
+    const Mesh other = plate(1, 2);
+    for (Shell shell : other.shells) {
+      for (int& v : shell.vertices) v += 9;
+      mesh.shells.push_back(shell);
+    }
+    for (const Vector3& v : other.vertices) mesh.vertices.push_back(v + Vector3(2 + gap, 0.5, 0));
+    return mesh;
+  };
+  Mesh mesh = plates_apart(0.02);
+  const Diagnosis diagnosis = diagnose(mesh);
+  ASSERT_EQ(count(diagnosis, "parts that touch"), 1);
+  const Finding& finding = *diagnosis.find("parts that touch");
+  EXPECT_EQ(finding.severity, Severity::warning);
+  EXPECT_THAT(finding.text, testing::HasSubstr("the nearest across 20 mm at (2"));
+  // Two ends of either lie beside the other, the fourth of six stands out.
+  EXPECT_THAT(finding.text, testing::HasSubstr("where 4 vertices lie beside the other part"));
+  EXPECT_EQ(count(diagnose(plates_apart(0.1)), "parts that touch"), 0);
+  mesh.rigid_links.push_back({.master = 2, .slaves = {9}});
+  EXPECT_EQ(count(diagnose(mesh), "parts that touch"), 0);
+}
+
 TEST(Diagnosis, MiddlesOfQuadraticShellsBelongToThem) {
   Mesh mesh = plate(1, 1);
   Eigen::Matrix3Xd points(3, 9);

@@ -198,6 +198,30 @@ TEST(AbaqusReader, CentroidMayFollowTheShearCentre) {
   expect_near(section.stress_points.at(0), Eigen::Vector2d(0.1, 0.1), 1e-12);
 }
 
+// A centroid of its own without a shear centre: where the beam twists is said.
+TEST(AbaqusReader, ACentroidWithoutAShearCentreIsTold) {
+  const auto remarks_with = [](const std::string& details) {
+    std::string all;
+    for (const auto& remark : abaqus(R"(*NODE
+1, 0., 0., 0.
+2, 2., 0., 0.
+*ELEMENT, TYPE=B31, ELSET=B
+1, 1, 2
+*BEAM GENERAL SECTION, ELSET=B, SECTION=GENERAL, DENSITY=7850.
+.01, 1.e-6, 1.e-7, 4.e-6, 2.e-6
+0., 1., 0.
+206.e9, 80.e9
+)" + details)
+                                  .remarks)
+      all += remark.text + "\n";
+    return all;
+  };
+  const std::string told = "*CENTROID without *SHEAR CENTER";
+  EXPECT_THAT(remarks_with("*CENTROID\n.1, .2\n"), HasSubstr(told));
+  EXPECT_THAT(remarks_with("*CENTROID\n0., 0.\n"), Not(HasSubstr(told)));
+  EXPECT_THAT(remarks_with("*CENTROID\n.1, .2\n*SHEAR CENTER\n.1, .2\n"), Not(HasSubstr(told)));
+}
+
 TEST(AbaqusReader, MassesAndSprings) {
   const Deck deck = abaqus(nodes + R"(*ELEMENT, TYPE=MASS, ELSET=M
 1, 1

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -352,6 +353,36 @@ TEST(SolidDecks, SaysWhichNodesTwoSolidsHaveInTheMiddleOfOneEdge) {
                               "and element 70 ("));
   EXPECT_THAT(said, HasSubstr("deck.inp:18) has node 12 there"));
   EXPECT_THAT(said, HasSubstr("merge nodes that lie at one place, middles too"));
+}
+
+// The same of two quadratic shells side by side, of either deck. Two halves of a pipe have the
+// nodes at their edges' ends in common and middles on opposite sides: that is no fault.
+TEST(ShellDecks, SaysWhichNodesTwoShellsHaveInTheMiddleOfOneEdge) {
+  const auto abaqus_deck = [](const std::string& middle) {
+    return "*NODE\n1,0.,0.,0.\n2,1.,0.,0.\n3,1.,1.,0.\n4,0.,1.,0.\n5,2.,0.,0.\n6,2.,1.,0.\n"
+           "12,.5,0.,0.\n23,1.,.5,0.\n34,.5,1.,0.\n14,0.,.5,0.\n25,1.5,0.,0.\n56,2.,.5,0.\n"
+           "36,1.5,1.,0.\n99,1.,.5,0.\n"
+           "*ELEMENT, TYPE=S8R, ELSET=S\n70,1,2,3,4,12,23,34,14\n80,2,5,6,3,25,56,36," +
+           middle +
+           "\n*SHELL SECTION, ELSET=S, MATERIAL=STEEL\n.01\n"
+           "*MATERIAL, NAME=STEEL\n*ELASTIC\n206e9,.3\n*DENSITY\n7850.\n";
+  };
+  EXPECT_EQ(complaints_of_abaqus(abaqus_deck("23")), "");
+  EXPECT_THAT(complaints_of_abaqus(abaqus_deck("99")),
+              ::testing::AllOf(HasSubstr("element 80 has node 99 in the middle of the edge from "
+                                         "node 2 to 3, and element 70 ("),
+                               HasSubstr("has node 23 there")));
+  const auto nastran_deck = [](const std::string& middle, double z) {
+    return "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
+           "GRID,12,,.5,0.,.2\nGRID,23,,1.,.5,0.\nGRID,34,,.5,1.,.2\nGRID,14,,0.,.5,0.\n" +
+           fmt::format("GRID,98,,.5,0.,{0}\nGRID,99,,.5,1.,{0}\n", z) +
+           "CQUAD8,70,1,1,2,3,4,12,23,\n,34,14\nCQUAD8,80,1,2,1,4,3,98,14,\n," + middle +
+           ",23\nPSHELL,1,7,.01,7\nMAT1,7,206.+9,,.3,7850.\nENDDATA\n";
+  };
+  EXPECT_EQ(complaints_of_nastran(nastran_deck("99", -0.2)), "");  // a pipe
+  EXPECT_THAT(complaints_of_nastran(nastran_deck("99", 0.2)),
+              HasSubstr("element 80 has node 98 in the middle of the edge from node 1 to 2, and "
+                        "element 70 ("));
 }
 
 TEST(SolidDecks, SaysWhatIsWrong) {
