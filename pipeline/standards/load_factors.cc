@@ -174,17 +174,18 @@ std::optional<LoadFactors::Factor> LoadFactors::tilt(const ComputedFactors& comp
                   rule.clause,
                   "not worked: the formula is for the share of one of two hooks or two cranes"};
   const TwoHooks& hooks = *computed.two_hooks;
-  const double span = std::hypot(hooks.span(), hooks.height - hooks.other_height);
-  double angle = rule.angle;
-  if (rule.height && *rule.height < span) angle = std::max(angle, std::asin(*rule.height / span));
-  return Factor{"tilt",
-                tilt_factor(hooks, angle),
-                {},
-                rule.clause,
-                fmt::format("{:.2f} degrees; lift points {:.2f} and {:.2f} m from the centre, "
-                            "{:.2f} and {:.2f} m above it",
-                            angle / degree, hooks.along, hooks.other_along, hooks.height,
-                            hooks.other_height)};
+  const std::optional<double> angle = tilt_angle(hooks, rule.angle, rule.height);
+  std::string formula =
+      angle ? fmt::format("{:.2f} degrees", *angle / degree)
+            : fmt::format("hooks {:.2f} m apart that may differ by {:g} m in height: all of it",
+                          hooks.span(), *rule.height);
+  formula +=
+      fmt::format("; lift points {:.2f} and {:.2f} m from the centre, {:.2f} and {:.2f} m above it",
+                  hooks.along, hooks.other_along, hooks.height, hooks.other_height);
+  if (std::max(hooks.spread.towards, hooks.spread.away) > 0.005)
+    formula += fmt::format(", spread by {:.2f} m below the hook {:.2f} m above them",
+                           hooks.spread.towards + hooks.spread.away, hooks.spread.height);
+  return Factor{"tilt", tilt_factor(hooks, angle), {}, rule.clause, std::move(formula)};
 }
 
 std::optional<LoadFactors::Factor> LoadFactors::yaw(int slings_on_hook) const {

@@ -17,6 +17,7 @@ namespace {
 using test::shipped_rules;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Located<std::string> called(const std::string& name) { return {name, {}}; }
 
@@ -448,6 +449,16 @@ TEST(StandardAssessment, TheStructureTakesCentreTiltAndYawOfItsSlings) {
   const Chain& sling = chain_of(result, "sling R1");
   for (const char* step : {"centre of mass", "tilt", "yaw"})
     EXPECT_EQ(step_of(lug, step).standard, step_of(sling, step).standard) << step;
+}
+
+// 0027/ND 5.4.2 is for two hooks of one crane, too, where the case need not name a tilt.
+TEST(StandardAssessment, TellsThatHooksMayDifferInHeight) {
+  const auto told = HasSubstr("two hooks and the case names no tilt");
+  LiftFacts facts = two_slings();
+  EXPECT_THAT(assess_standard(by_nd_0027(), facts).notes, Not(Contains(told)));
+  facts.hooks.front().computed.two_hooks = TwoHooks{12, 10, 13, 14};
+  EXPECT_THAT(assess_standard(by_nd_0027(), facts).notes, Contains(told));
+  EXPECT_THAT(assess_standard(by_nd_0027_on_two_hooks(), facts).notes, Not(Contains(told)));
 }
 
 // With a box of the centre the largest growth counts: 1.08 of R4. R2 bears a tenth of the others
