@@ -79,13 +79,15 @@ const HoistingClass* LoadFactors::hoisting_class() const {
 const AmplificationRow* LoadFactors::amplification_row() const {
   if (!standard_.setting) return nullptr;
   const auto* table = find_by_name(rules().dynamic_amplification, standard_.setting->value);
-  return table ? &table->row_of(static_hook_load()) : nullptr;
+  return table ? &table->row_of(design_weight()) : nullptr;
 }
 
-double LoadFactors::static_hook_load() const {
+double LoadFactors::design_weight() const {
   const NamedFactor* factor = contingency();
-  return facts_.net_weight * (factor ? factor->value : 1) + facts_.rigging;
+  return facts_.net_weight * (factor ? factor->value : 1);
 }
+
+double LoadFactors::static_hook_load() const { return design_weight() + facts_.rigging; }
 
 double LoadFactors::hoisting_speed() const {
   double speed = 0;
@@ -140,9 +142,10 @@ void LoadFactors::add_amplification(ChainBuilder& chain, std::optional<double> s
   const char* name = "dynamic amplification";
   if (const AmplificationRow* row = amplification_row()) {
     const double load = static_hook_load();
-    chain.times(name, row->at(load), simulated, row->clause,
-                fmt::format("{}, static hook load {:.1f} t", standard_.setting->value,
-                            load / newton_per_tonne));
+    chain.times(
+        name, row->at(load), simulated, row->clause,
+        fmt::format("{}, weight {:.1f} t, static hook load {:.1f} t", standard_.setting->value,
+                    design_weight() / newton_per_tonne, load / newton_per_tonne));
   } else if (const HoistingClass* hoisting = hoisting_class()) {
     chain.times(name, hoisting->at(hoisting_speed), simulated, hoisting->clause,
                 fmt::format("{}: {:g} + {:g} x {:.3f} m/s", hoisting->name.value, hoisting->least,
@@ -269,16 +272,28 @@ void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed)
   add(chain, skew(computed));
 }
 
-void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const {
-  if (!stress.skew_by_rules && !stress.skew_computed) return;
+void LoadFactors::add_diagonal_skew(ChainBuilder& chain, std::optional<double> by_rules,
+                                    std::optional<double> computed, const char* what) const {
+  if (!by_rules && !computed) return;
   const NamedFactor* factor =
       standard_.skew ? find_by_name(rules().skew, standard_.skew->value) : nullptr;
-  chain.times("skew on either diagonal", stress.skew_by_rules,
-              stress.skew_computed ? stress.skew_computed : stress.skew_by_rules,
+  chain.times("skew on either diagonal", by_rules, computed ? computed : by_rules,
               factor ? factor->clause : "",
-              fmt::format("stress with the slings of a diagonal at {} of their load, over that "
+              fmt::format("{} with the slings of a diagonal at {} of their load, over that "
                           "without",
-                          factor ? fmt::format("{:g} times", factor->value) : "the largest"));
+                          what, factor ? fmt::format("{:g} times", factor->value) : "the largest"));
+}
+
+void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const {
+  add_diagonal_skew(chain, stress.skew_by_rules, stress.skew_computed, "stress");
+}
+
+void LoadFactors::add_frame_skew(ChainBuilder& chain, const SpreaderFacts& frame) const {
+  if (frame.skew_by_rules || frame.skew_computed)
+    add_diagonal_skew(chain, frame.skew_by_rules, frame.skew_computed,
+                      "what its sides bear and its corners bend,");
+  else
+    add_skew(chain, frame.computed);
 }
 
 void LoadFactors::add_lift_point_consequence(ChainBuilder& chain) const {
@@ -296,9 +311,9 @@ void LoadFactors::add_load(ChainBuilder& chain, const LoadFacts& load) const {
                         load_text(load.in_motion), when(load.time_in_motion)));
 }
 
-void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
-                          const ComputedFactors& computed, int slings_on_hook,
-                          bool in_motion) const {
+void LoadFactors::add_all_but_skew(ChainBuilder& chain, const LoadFacts& load,
+                                   const ComputedFactors& computed, int slings_on_hook,
+                                   bool in_motion) const {
   add_load(chain, load);
   add_contingency(chain);
   add_centre(chain, computed);
@@ -308,6 +323,12 @@ void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
   }
   add_tilt(chain, computed);
   add_yaw(chain, slings_on_hook);
+}
+
+void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
+                          const ComputedFactors& computed, int slings_on_hook,
+                          bool in_motion) const {
+  add_all_but_skew(chain, load, computed, slings_on_hook, in_motion);
   add_skew(chain, computed);
 }
 
