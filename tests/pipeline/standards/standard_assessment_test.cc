@@ -399,6 +399,25 @@ TEST(StandardAssessment, SkewsTheStructure) {
   EXPECT_NEAR(chain.simulated, 110e6 * 1.1 * 1.1 * 1.3, 1);
 }
 
+// 0027/ND, table 5-1: rows by gross weight, formulae by static hook load. 92 t of class A weigh
+// 96.6 t and their rigging 8 t: the row up to 100 t, 1.07 + 0.05 sqrt(100 / 104.6).
+TEST(StandardAssessment, AmplificationGoesByWeightAndHookLoad) {
+  StandardInCase standard = by_nd_0027();
+  standard.weight_class = called("A");
+  standard.setting = called("inshore");
+  LiftFacts facts = two_slings();
+  facts.net_weight = 92 * newton_per_tonne;
+  facts.rigging = 8 * newton_per_tonne;
+  const StandardAssessment inshore = assess_standard(standard, facts);
+  const Chain& lift = chain_of(inshore, "lift as a whole");
+  EXPECT_NEAR(step_of(lift, "dynamic amplification").standard.value(),
+              1.07 + 0.05 * std::sqrt(100 / 104.6), 1e-12);
+  standard.setting = called("onshore");
+  const StandardAssessment ashore = assess_standard(standard, facts);
+  EXPECT_DOUBLE_EQ(
+      step_of(chain_of(ashore, "lift as a whole"), "dynamic amplification").standard.value(), 1.10);
+}
+
 /// Two hooks with two slings each, 400 kN in each sling; the stress about L1 and elsewhere.
 LiftFacts four_slings_on_two_hooks() {
   LiftFacts facts = two_slings();
