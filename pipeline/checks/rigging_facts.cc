@@ -75,7 +75,8 @@ RiggingEnd RiggingFacts::end_at(const ResolvedPoint& point, Index sample) const 
     case ResolvedPoint::Kind::spreader: {
       const int bar = place_of(lift_.model.spreaders, point.part);
       const auto body = lift_.model.spreaders[bar].body;
-      return {RiggingEnd::Kind::bar, bar, pose_of(body, sample).R * point.point};
+      const Vector3d centre = case_.find_spreader(point.part)->centre();
+      return {RiggingEnd::Kind::bar, bar, pose_of(body, sample).R * (point.point - centre)};
     }
     case ResolvedPoint::Kind::load:
       return {RiggingEnd::Kind::load, -1,
