@@ -9,6 +9,7 @@ dynamics::BodyDefinition spreader_body(const SpreaderInCase& spreader) {
   body.name = spreader.name.value;
   body.joint.kind = dynamics::JointKind::free;
   body.mass = spreader.mass();
+  body.p_BoBcm_B = spreader.centre();
   body.I_BBcm_B = spreader.inertia();
   return body;
 }

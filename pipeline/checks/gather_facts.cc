@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/checks/frame_skew.h"
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/rigging_facts.h"
 #include "pipeline/checks/structure_skew.h"
@@ -205,6 +206,7 @@ class LiftedFacts {
       take_worse(carries->computed, spreader.computed);
       spreader.slings_on_hook = std::max(spreader.slings_on_hook, carries->slings_on_hook);
     }
+    find_frame_skew(in_case, bar, case_, lift_, facts_.slings, spreader);
     facts_.spreaders.push_back(std::move(spreader));
   }
 

@@ -75,7 +75,8 @@ RiggingEnd RiggingFacts::end_at(const ResolvedPoint& point, Index sample) const 
     case ResolvedPoint::Kind::spreader: {
       const int bar = place_of(lift_.model.spreaders, point.part);
       const auto body = lift_.model.spreaders[bar].body;
-      return {RiggingEnd::Kind::bar, bar, pose_of(body, sample).R * point.point};
+      const Vector3d centre = case_.find_spreader(point.part)->centre();
+      return {RiggingEnd::Kind::bar, bar, pose_of(body, sample).R * (point.point - centre)};
     }
     case ResolvedPoint::Kind::load:
       return {RiggingEnd::Kind::load, -1,
@@ -268,6 +269,13 @@ bool RiggingFacts::shares_the_load(std::size_t crane) const {
   return false;
 }
 
+/// Does a sling lead from its hook to a lug, and over nothing between them?
+bool RiggingFacts::leads_straight_to_hook(const LiftRope& sling) const {
+  const RopeInCase& rope = *case_.find_rope(sling.name);
+  return rope.path.size() == 2 && rope.edges.empty() &&
+         rope.path.front().kind == ResolvedPoint::Kind::hook;
+}
+
 std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index sample) const {
   if (hook.empty() || !baskets_.empty()) return {};
   const dynamics::History& history = lift_.static_history;
@@ -277,6 +285,9 @@ std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index s
   struct Group {
     double load = 0;
     Vector3d moment = Vector3d::Zero();
+    std::vector<Vector3d> lugs, hooks;  // of slings that pull, and where their other ends are
+    std::string hook = {};
+    bool holds_to_one_hook = true;  // by slings that lead from lugs straight to it
   };
   std::map<std::string, Group> hooks, cranes;
   for (const SlingEnd& end : find_sling_ends(lift_.model)) {
@@ -287,6 +298,13 @@ std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index s
     for (Group* group : {&hooks[sling.hoist], &cranes[crane_of(sling.hoist)]}) {
       group->load += load;
       group->moment += load * lug;
+      group->holds_to_one_hook = group->holds_to_one_hook && leads_straight_to_hook(sling) &&
+                                 (group->hook.empty() || group->hook == sling.hoist);
+      group->hook = sling.hoist;
+      if (!(load > 0)) continue;
+      group->lugs.push_back(lug);
+      group->hooks.push_back(lug + rigging_rope(end.rope, Vector3d::UnitZ(), sample).length *
+                                       end.pull(history).row(sample).transpose().normalized());
     }
   }
   const bool by_hook = hooks.size() == 2;
@@ -309,6 +327,19 @@ std::optional<TwoHooks> RiggingFacts::two_hooks(const std::string& hook, Index s
   result.other_along = along.dot((to - centre).head<2>());
   result.other_height = to.z() - centre.z();
   if (!(result.along > 0) || !(result.other_along > 0)) return {};
+  const auto spread_of = [&](const Group& group, const Vector3d& middle, double side) {
+    SpreadOfHook spread;
+    if (!group.holds_to_one_hook) return spread;
+    for (std::size_t i = 0; i < group.lugs.size(); ++i) {
+      const double reach = side * along.dot((group.lugs[i] - middle).head<2>());
+      spread.towards = std::max(spread.towards, reach);
+      spread.away = std::max(spread.away, -reach);
+      spread.height += (group.hooks[i].z() - middle.z()) / static_cast<double>(group.lugs.size());
+    }
+    return spread;
+  };
+  result.spread = spread_of(mine, from, 1);
+  result.other_spread = spread_of(other, to, -1);
   return result;
 }
 

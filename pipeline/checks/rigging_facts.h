@@ -55,6 +55,7 @@ class RiggingFacts {
   /// and does nothing else bear any of it at a sample at rest?
   bool bears_all(const std::string& hook_or_crane, Eigen::Index sample) const;
   std::size_t first_tackle() const { return slings_.size() + to_bars_.size(); }
+  bool leads_straight_to_hook(const LiftRope& sling) const;
   std::optional<TwoHooks> two_hooks(const std::string& hook, Eigen::Index sample) const;
   std::string crane_of(const std::string& hook) const { return hook.substr(0, hook.find('.')); }
 

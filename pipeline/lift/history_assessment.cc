@@ -228,7 +228,8 @@ Vector3 principal_direction(const structure::Stress& s) {
 }
 
 // Stress in time of one place, by its unit responses (6 x unit loads, Pa); cycles are counted of
-// the part along `normal`, or along the largest principal stress where none is given.
+// the part along `normal`, or along the largest principal stress where none is given. The
+// concentration raises ranges where the curve is read.
 void fill_in(const Eigen::MatrixXd& unit, const Vector3* normal, const HistoryAssessment& history,
              double concentration, const structure::FatigueCurve& curve, StressHistory& result) {
   const auto von_mises = [&](const Eigen::MatrixXd& stress) {
@@ -282,8 +283,11 @@ StressHistory follow_square(const structure::UnitResponses& responses,
   result.name = name;
   result.point_B = square.centre_B;
   result.part = responses.model().mesh().regions[square.region].name;
+  const structure::Mesh& mesh = responses.model().mesh();
+  const double thickness = mesh.section_of(mesh.shells[square.shell]).thickness;
   fill_in(structure::unit_stress_of_square(checked, number), nullptr, history,
-          history.stress_concentration, history.curve, result);
+          history.stress_concentration * history.curve.thickness_factor(thickness), history.curve,
+          result);
   return result;
 }
 
@@ -364,8 +368,9 @@ StressHistory follow(const structure::UnitResponses& responses, const FollowedHo
     const structure::Shell& shell = space.mesh().shells[cell.shell];
     result.part = space.mesh().regions[shell.region].name;
   }
-  fill_in(structure::hot_spot_stress(unit[0], unit[1]), &followed.spot.direction, history, 1,
-          history.hot_spot_curve, result);
+  fill_in(structure::hot_spot_stress(unit[0], unit[1]), &followed.spot.direction, history,
+          history.hot_spot_curve.thickness_factor(followed.spot.thickness), history.hot_spot_curve,
+          result);
   return result;
 }
 

@@ -8,39 +8,6 @@ namespace {
 
 using structure::PointForce;
 
-SpreaderStrength strength_in_place(const SpreaderInCase& in_its_place,
-                                   const LiftSpreader& spreader) {
-  std::vector<Vector3> points;
-  for (const LiftSpreader::End& end : spreader.ends) points.push_back(end.p_BoQ_B);
-  return {in_its_place, points};
-}
-
-std::vector<PointForce> rope_forces(const LiftSpreader& spreader, const dynamics::History& history,
-                                    Eigen::Index sample) {
-  const Eigen::Matrix3d R_WB = history.bodies[spreader.body - 1].X_WB(sample).R;
-  std::vector<PointForce> forces;
-  for (const LiftSpreader::End& end : spreader.ends) {
-    const dynamics::RopeHistory& rope = history.ropes[end.rope];
-    const Vector3 f_W = (end.last ? rope.last_force : rope.first_force).row(sample);
-    forces.push_back({end.p_BoQ_B, R_WB.transpose() * f_W});
-  }
-  return forces;
-}
-
-/// The factor on the forces at which a spreader bears no more; bisected, since its moments grow
-/// faster than they.
-double growth_to_failure(const SpreaderStrength& strength, const SpreaderForces& forces) {
-  double most = 1;
-  while (strength.utilisation(forces, most) < 1) most *= 2;
-  double least = 0;
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (least + most) / 2;
-    (strength.utilisation(forces, middle) < 1 ? least : most) = middle;
-  }
-  return least;
-}
-
 void add_spreader(const LiftCase& lift_case, const LiftRun& lift, const LiftSpreader& spreader,
                   std::vector<LiftMeasure>& measures) {
   const SpreaderInCase& in_case = *lift_case.find_spreader(spreader.name);
@@ -75,7 +42,7 @@ void add_spreader(const LiftCase& lift_case, const LiftRun& lift, const LiftSpre
     for (LiftMeasure* one : {&compression, &moment, &torsion, &share})
       (one->*series) = Eigen::VectorXd::Zero(history.sample_count());
     for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
-      const SpreaderForces forces = strength.find_forces(rope_forces(spreader, history, i));
+      const SpreaderForces forces = strength.find_forces(forces_on_spreader(spreader, history, i));
       (compression.*series)[i] = forces.front().column.compression;
       for (const structure::MemberForces& one : forces) {
         const structure::ColumnForces& within = one.column;
@@ -95,6 +62,53 @@ void add_spreader(const LiftCase& lift_case, const LiftRun& lift, const LiftSpre
 
 }  // namespace
 
+SpreaderStrength strength_in_place(const SpreaderInCase& in_its_place,
+                                   const LiftSpreader& spreader) {
+  std::vector<Vector3> points;
+  for (const LiftSpreader::End& end : spreader.ends) points.push_back(end.p_BoQ_B);
+  return {in_its_place, points};
+}
+
+std::vector<PointForce> forces_on_spreader(const LiftSpreader& spreader,
+                                           const dynamics::History& history, Eigen::Index sample) {
+  const Eigen::Matrix3d R_WB = history.bodies[spreader.body - 1].X_WB(sample).R;
+  std::vector<PointForce> forces;
+  for (const LiftSpreader::End& end : spreader.ends) {
+    const dynamics::RopeHistory& rope = history.ropes[end.rope];
+    const Vector3 f_W = (end.last ? rope.last_force : rope.first_force).row(sample);
+    forces.push_back({end.p_BoQ_B, R_WB.transpose() * f_W});
+  }
+  return forces;
+}
+
+double growth_to_failure(const SpreaderStrength& strength, const SpreaderForces& forces) {
+  double most = 1;
+  while (strength.utilisation(forces, most) < 1) most *= 2;
+  double least = 0;
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (least + most) / 2;
+    (strength.utilisation(forces, middle) < 1 ? least : most) = middle;
+  }
+  return least;
+}
+
+std::optional<Eigen::Index> worst_instant(const SpreaderInCase& in_its_place,
+                                          const LiftSpreader& spreader,
+                                          const dynamics::History& history) {
+  const SpreaderStrength strength = strength_in_place(in_its_place, spreader);
+  std::optional<Eigen::Index> worst;
+  double largest = 0;
+  for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
+    const double share =
+        strength.utilisation(strength.find_forces(forces_on_spreader(spreader, history, i)), 1);
+    if (!(share > largest)) continue;
+    largest = share;
+    worst = i;
+  }
+  return worst;
+}
+
 double largest_share(const SpreaderInCase& in_its_place, const LiftSpreader& spreader,
                      const LiftRun& lift, double factor) {
   const SpreaderStrength strength = strength_in_place(in_its_place, spreader);
@@ -102,8 +116,8 @@ double largest_share(const SpreaderInCase& in_its_place, const LiftSpreader& spr
   for (const dynamics::History* history : {&lift.static_history, &lift.dynamic_history()})
     for (Eigen::Index i = 0; i < history->sample_count(); ++i)
       largest = std::max(
-          largest,
-          strength.utilisation(strength.find_forces(rope_forces(spreader, *history, i)), factor));
+          largest, strength.utilisation(
+                       strength.find_forces(forces_on_spreader(spreader, *history, i)), factor));
   return largest;
 }
 
@@ -118,20 +132,13 @@ Eigen::VectorXd hung_load(const LiftSpreader& spreader, const dynamics::History&
 
 double borne_load(const SpreaderInCase& in_its_place, const LiftSpreader& spreader,
                   const dynamics::History& history) {
+  const std::optional<Eigen::Index> worst = worst_instant(in_its_place, spreader, history);
+  if (!worst) return 0;
+  const double load = hung_load(spreader, history)[*worst];
+  if (!(load > 0)) return 0;
   const SpreaderStrength strength = strength_in_place(in_its_place, spreader);
-  SpreaderForces worst;
-  double largest = 0;
-  Eigen::Index instant = 0;
-  for (Eigen::Index i = 0; i < history.sample_count(); ++i) {
-    SpreaderForces forces = strength.find_forces(rope_forces(spreader, history, i));
-    const double share = strength.utilisation(forces, 1);
-    if (!(share > largest)) continue;
-    largest = share;
-    worst = std::move(forces);
-    instant = i;
-  }
-  const double load = hung_load(spreader, history)[instant];
-  return largest > 0 && load > 0 ? load * growth_to_failure(strength, worst) : 0;
+  return load * growth_to_failure(
+                    strength, strength.find_forces(forces_on_spreader(spreader, history, *worst)));
 }
 
 double spreader_factor(const CheckSettings& checks) {

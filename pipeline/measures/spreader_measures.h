@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "pipeline/files/rigging/spreader_strength.h"
@@ -9,6 +10,24 @@ namespace blocklift::pipeline {
 
 /// The factor on the forces in spreaders.
 double spreader_factor(const CheckSettings& checks);
+
+/// A spreader, or another of its size in its place, with the points at which ropes pull at it.
+SpreaderStrength strength_in_place(const SpreaderInCase& in_its_place,
+                                   const LiftSpreader& spreader);
+
+/// What ropes do to a spreader at a sample, in its axes, in the order of its ends, N.
+std::vector<structure::PointForce> forces_on_spreader(const LiftSpreader& spreader,
+                                                      const dynamics::History& history,
+                                                      Eigen::Index sample);
+
+/// The factor on the forces at which a spreader bears no more; bisected, since its moments grow
+/// faster than they.
+double growth_to_failure(const SpreaderStrength& strength, const SpreaderForces& forces);
+
+/// The sample of the largest share of the resistance; none where nothing is asked of it.
+std::optional<Eigen::Index> worst_instant(const SpreaderInCase& in_its_place,
+                                          const LiftSpreader& spreader,
+                                          const dynamics::History& history);
 
 /// The most that the ropes of a spreader ask of another of its size in its place at any instant, at
 /// rest and in motion: SpreaderStrength::utilisation with that factor.

@@ -161,7 +161,8 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
   }
   if (!lift_case.spreaders.empty()) {
     list.emplace_back(
-        "Spreaders are rigid in the motion, their mass spread evenly over their bars. As columns "
+        "Spreaders are rigid in the motion, their mass spread evenly over their bars, or so that "
+        "it falls or rises evenly to the centre that is given. As columns "
         "bars and the sides of frames are pinned at their ends, in both planes; what is within a "
         "frame's sides follows from their stiffness, rigidly joined at the corners.");
   }

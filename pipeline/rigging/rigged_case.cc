@@ -145,6 +145,9 @@ YAML::Node rigged_spreaders(const RiggedLift& rigged, const YAML::Node& spreader
     YAML::Node node = YAML::Clone(spreaders[one.name]);
     node.remove("mass");
     if (bar.given_mass) node["mass"] = fmt::format("{:.10g} kg", *bar.given_mass);
+    node.remove("centre_of_mass");
+    if (bar.centre_of_mass)
+      for (const double along : bar.centre()) node["centre_of_mass"].push_back(millimetres(along));
     node["length"] = millimetres(bar.length.value);
     if (bar.is_frame()) node["width"] = millimetres(*bar.width);
     node["section"] = section_node(bar.section.value);

@@ -74,6 +74,10 @@ struct SpreaderFacts {
   /// The load below it that it bears, as a column or by the sides of its frame, by the ropes'
   /// directions where they ask most, N.
   double borne_at_rest = 0, borne_in_motion = 0;
+  /// By how much less a frame bears with its slings shared unevenly on either diagonal, by the
+  /// rules' skew factor and by the slings' tolerances of length; none of bars and where four slings
+  /// do not meet over it.
+  std::optional<double> skew_by_rules = {}, skew_computed = {};
 };
 
 /// Load of a hook over what its load chart allows, derating included, where it is largest.

@@ -79,13 +79,15 @@ const HoistingClass* LoadFactors::hoisting_class() const {
 const AmplificationRow* LoadFactors::amplification_row() const {
   if (!standard_.setting) return nullptr;
   const auto* table = find_by_name(rules().dynamic_amplification, standard_.setting->value);
-  return table ? &table->row_of(static_hook_load()) : nullptr;
+  return table ? &table->row_of(design_weight()) : nullptr;
 }
 
-double LoadFactors::static_hook_load() const {
+double LoadFactors::design_weight() const {
   const NamedFactor* factor = contingency();
-  return facts_.net_weight * (factor ? factor->value : 1) + facts_.rigging;
+  return facts_.net_weight * (factor ? factor->value : 1);
 }
+
+double LoadFactors::static_hook_load() const { return design_weight() + facts_.rigging; }
 
 double LoadFactors::hoisting_speed() const {
   double speed = 0;
@@ -140,9 +142,10 @@ void LoadFactors::add_amplification(ChainBuilder& chain, std::optional<double> s
   const char* name = "dynamic amplification";
   if (const AmplificationRow* row = amplification_row()) {
     const double load = static_hook_load();
-    chain.times(name, row->at(load), simulated, row->clause,
-                fmt::format("{}, static hook load {:.1f} t", standard_.setting->value,
-                            load / newton_per_tonne));
+    chain.times(
+        name, row->at(load), simulated, row->clause,
+        fmt::format("{}, weight {:.1f} t, static hook load {:.1f} t", standard_.setting->value,
+                    design_weight() / newton_per_tonne, load / newton_per_tonne));
   } else if (const HoistingClass* hoisting = hoisting_class()) {
     chain.times(name, hoisting->at(hoisting_speed), simulated, hoisting->clause,
                 fmt::format("{}: {:g} + {:g} x {:.3f} m/s", hoisting->name.value, hoisting->least,
@@ -174,17 +177,18 @@ std::optional<LoadFactors::Factor> LoadFactors::tilt(const ComputedFactors& comp
                   rule.clause,
                   "not worked: the formula is for the share of one of two hooks or two cranes"};
   const TwoHooks& hooks = *computed.two_hooks;
-  const double span = std::hypot(hooks.span(), hooks.height - hooks.other_height);
-  double angle = rule.angle;
-  if (rule.height && *rule.height < span) angle = std::max(angle, std::asin(*rule.height / span));
-  return Factor{"tilt",
-                tilt_factor(hooks, angle),
-                {},
-                rule.clause,
-                fmt::format("{:.2f} degrees; lift points {:.2f} and {:.2f} m from the centre, "
-                            "{:.2f} and {:.2f} m above it",
-                            angle / degree, hooks.along, hooks.other_along, hooks.height,
-                            hooks.other_height)};
+  const std::optional<double> angle = tilt_angle(hooks, rule.angle, rule.height);
+  std::string formula =
+      angle ? fmt::format("{:.2f} degrees", *angle / degree)
+            : fmt::format("hooks {:.2f} m apart that may differ by {:g} m in height: all of it",
+                          hooks.span(), *rule.height);
+  formula +=
+      fmt::format("; lift points {:.2f} and {:.2f} m from the centre, {:.2f} and {:.2f} m above it",
+                  hooks.along, hooks.other_along, hooks.height, hooks.other_height);
+  if (std::max(hooks.spread.towards, hooks.spread.away) > 0.005)
+    formula += fmt::format(", spread by {:.2f} m below the hook {:.2f} m above them",
+                           hooks.spread.towards + hooks.spread.away, hooks.spread.height);
+  return Factor{"tilt", tilt_factor(hooks, angle), {}, rule.clause, std::move(formula)};
 }
 
 std::optional<LoadFactors::Factor> LoadFactors::yaw(int slings_on_hook) const {
@@ -268,16 +272,28 @@ void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed)
   add(chain, skew(computed));
 }
 
-void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const {
-  if (!stress.skew_by_rules && !stress.skew_computed) return;
+void LoadFactors::add_diagonal_skew(ChainBuilder& chain, std::optional<double> by_rules,
+                                    std::optional<double> computed, const char* what) const {
+  if (!by_rules && !computed) return;
   const NamedFactor* factor =
       standard_.skew ? find_by_name(rules().skew, standard_.skew->value) : nullptr;
-  chain.times("skew on either diagonal", stress.skew_by_rules,
-              stress.skew_computed ? stress.skew_computed : stress.skew_by_rules,
+  chain.times("skew on either diagonal", by_rules, computed ? computed : by_rules,
               factor ? factor->clause : "",
-              fmt::format("stress with the slings of a diagonal at {} of their load, over that "
+              fmt::format("{} with the slings of a diagonal at {} of their load, over that "
                           "without",
-                          factor ? fmt::format("{:g} times", factor->value) : "the largest"));
+                          what, factor ? fmt::format("{:g} times", factor->value) : "the largest"));
+}
+
+void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const {
+  add_diagonal_skew(chain, stress.skew_by_rules, stress.skew_computed, "stress");
+}
+
+void LoadFactors::add_frame_skew(ChainBuilder& chain, const SpreaderFacts& frame) const {
+  if (frame.skew_by_rules || frame.skew_computed)
+    add_diagonal_skew(chain, frame.skew_by_rules, frame.skew_computed,
+                      "what its sides bear and its corners bend,");
+  else
+    add_skew(chain, frame.computed);
 }
 
 void LoadFactors::add_lift_point_consequence(ChainBuilder& chain) const {
@@ -295,9 +311,9 @@ void LoadFactors::add_load(ChainBuilder& chain, const LoadFacts& load) const {
                         load_text(load.in_motion), when(load.time_in_motion)));
 }
 
-void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
-                          const ComputedFactors& computed, int slings_on_hook,
-                          bool in_motion) const {
+void LoadFactors::add_all_but_skew(ChainBuilder& chain, const LoadFacts& load,
+                                   const ComputedFactors& computed, int slings_on_hook,
+                                   bool in_motion) const {
   add_load(chain, load);
   add_contingency(chain);
   add_centre(chain, computed);
@@ -307,6 +323,12 @@ void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
   }
   add_tilt(chain, computed);
   add_yaw(chain, slings_on_hook);
+}
+
+void LoadFactors::add_all(ChainBuilder& chain, const LoadFacts& load,
+                          const ComputedFactors& computed, int slings_on_hook,
+                          bool in_motion) const {
+  add_all_but_skew(chain, load, computed, slings_on_hook, in_motion);
   add_skew(chain, computed);
 }
 

@@ -33,6 +33,8 @@ class LoadFactors {
   void add_structure_centre(ChainBuilder& chain, const StressFacts& stress) const;
   /// The same of tilt and yaw.
   void add_structure_tilt(ChainBuilder& chain, const StressFacts& stress) const;
+  /// Of a frame, when either diagonal of its four slings bears more; else as add_skew.
+  void add_frame_skew(ChainBuilder& chain, const SpreaderFacts& frame) const;
   /// Of the structure's stress, when either diagonal of four slings bears more.
   void add_structure_skew(ChainBuilder& chain, const StressFacts& stress) const;
 
@@ -44,6 +46,10 @@ class LoadFactors {
   void add_all(ChainBuilder& chain, const LoadFacts& load, const ComputedFactors& computed,
                int slings_on_hook, bool in_motion = true) const;
 
+  /// The same but skew.
+  void add_all_but_skew(ChainBuilder& chain, const LoadFacts& load, const ComputedFactors& computed,
+                        int slings_on_hook, bool in_motion = true) const;
+
   /// All of them on what the slings at a lug bear together. Each sling has its own factors, and
   /// bears anything between its load and that times them: the sum of the forces is that of the
   /// worst of these sets.
@@ -51,7 +57,10 @@ class LoadFactors {
 
   /// Amplification of the rules; 1 without. @param hoisting_speed where it depends on that, m/s.
   double amplification(double hoisting_speed) const;
-  /// Weight with contingency, and rigging, N.
+  /// Weight with contingency, by which the row of an amplification is chosen (the gross weight of
+  /// 0027/ND, table 5-1), N.
+  double design_weight() const;
+  /// That and rigging, N.
   double static_hook_load() const;
   /// Fastest of the hoists, m/s.
   double hoisting_speed() const;
@@ -77,6 +86,8 @@ class LoadFactors {
   std::vector<const SlingFacts*> slings_that_load(const StressFacts& stress) const;
   void add_largest(ChainBuilder& chain, const StressFacts& stress,
                    const std::function<std::optional<Factor>(const SlingFacts&)>& factor_of) const;
+  void add_diagonal_skew(ChainBuilder& chain, std::optional<double> by_rules,
+                         std::optional<double> computed, const char* what) const;
   const NamedFactor* contingency() const;
   const AmplificationRow* amplification_row() const;
 

@@ -396,7 +396,8 @@ std::vector<Chain> sheave_chains(const LoadFactors& factors, const SheaveInCase&
 
 Chain spreader_chain(const LoadFactors& factors, const SpreaderFacts& spreader) {
   ChainBuilder chain("spreader", spreader.name);
-  factors.add_all(chain, spreader.load, spreader.computed, spreader.slings_on_hook);
+  factors.add_all_but_skew(chain, spreader.load, spreader.computed, spreader.slings_on_hook);
+  factors.add_frame_skew(chain, spreader);
   chain.result(spreader.is_frame ? "load below the frame" : "load below the bar");
   factors.add_lift_point_consequence(chain);
   if (!(spreader.borne_at_rest > 0) || !(spreader.borne_in_motion > 0)) return chain.finish();

@@ -91,6 +91,18 @@ void tell_floor(const std::vector<Chain>& chains, std::vector<std::string>& note
                   " is the floor of the rules: a dynamic analysis cannot lower it.");
 }
 
+/// Hooks that share the load by different heights, of which the case takes no account.
+void tell_tilt(const LoadFactors& factors, std::vector<std::string>& notes) {
+  if (factors.standard().tilt || factors.rules().tilt.empty()) return;
+  const auto share = [](const HookFacts& hook) { return hook.computed.two_hooks.has_value(); };
+  const std::vector<HookFacts>& hooks = factors.facts().hooks;
+  if (std::none_of(hooks.begin(), hooks.end(), share)) return;
+  notes.push_back(fmt::format(
+      "The load hangs on two hooks and the case names no tilt: that the hooks may differ in height "
+      "({}) and yaw are in no chain.",
+      factors.rules().tilt.front().clause));
+}
+
 void tell_gaps(const LoadFactors& factors, std::vector<std::string>& notes) {
   const LiftFacts& facts = factors.facts();
   if (!facts.slings.empty() && !facts.has_rigging_weight)
@@ -145,6 +157,7 @@ StandardAssessment assess_standard(const StandardInCase& standard, const LiftFac
   for (const StressFacts& stress : facts.stresses) chains.push_back(stress_chain(factors, stress));
   tell_motion(facts, chains, factors.amplification(factors.hoisting_speed()), result.notes);
   tell_floor(chains, result.notes);
+  tell_tilt(factors, result.notes);
   tell_gaps(factors, result.notes);
   return result;
 }

@@ -14,7 +14,8 @@ using structure::PadeyeFormula;
 using structure::PadeyeFormulaInput;
 using structure::Vector3;
 
-/// Formulae of a family with its factor: a design factor of ASME BTH-1, on the load elsewhere.
+/// Formulae of a family with its factor: a design factor of ASME BTH-1, on the load elsewhere but
+/// for what EN 1993-1-8 asks in service.
 std::vector<PadeyeFormula> formulae_of(const NamedFactor& family, PadeyeFormulaInput input,
                                        const Vector3& force_P) {
   using Formulae =
@@ -27,7 +28,13 @@ std::vector<PadeyeFormula> formulae_of(const NamedFactor& family, PadeyeFormulaI
     input.design_factor = family.value;
     return structure::padeye_asme_bth_1(input, force_P);
   }
-  return families.at(family.name.value)(input, family.value * force_P);
+  std::vector<PadeyeFormula> formulae =
+      families.at(family.name.value)(input, family.value * force_P);
+  if (family.name.value == "en_1993_1_8") {  // a shackle's pin is replaceable
+    const auto in_service = structure::padeye_en_1993_1_8_replaceable(input, force_P);
+    formulae.insert(formulae.end(), in_service.begin(), in_service.end());
+  }
+  return formulae;
 }
 
 /// The formula of the largest utilisation.

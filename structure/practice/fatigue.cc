@@ -27,18 +27,19 @@ std::vector<double> reversals(const Eigen::VectorXd& history) {
 
 Cycles cycle(double a, double b, double count) { return {std::abs(a - b), (a + b) / 2, count}; }
 
-// DNV-RP-C203 (2011), table 2-1, S-N curves in air: log10 of the constants a of N = a S^-m, S in
-// MPa.
+// DNV-RP-C203 (2016), table 2-1, S-N curves in air: log10 of the constants a of N = a S^-m, S in
+// MPa, and the thickness exponent k.
 struct Tabulated {
   const char* name;
-  double slope, log_constant, log_constant_beyond;
+  double slope, log_constant, log_constant_beyond, thickness_exponent;
 };
-constexpr Tabulated in_air[] = {
-    {"B1", 4, 15.117, 17.146}, {"B2", 4, 14.885, 16.856}, {"C", 3, 12.592, 16.320},
-    {"C1", 3, 12.449, 16.081}, {"C2", 3, 12.301, 15.835}, {"D", 3, 12.164, 15.606},
-    {"E", 3, 12.010, 15.350},  {"F", 3, 11.855, 15.091},  {"F1", 3, 11.699, 14.832},
-    {"F3", 3, 11.546, 14.576}, {"G", 3, 11.398, 14.330},  {"W1", 3, 11.261, 14.101},
-    {"W2", 3, 11.107, 13.845}, {"W3", 3, 10.970, 13.617}};
+constexpr Tabulated in_air[] = {{"B1", 4, 15.117, 17.146, 0},    {"B2", 4, 14.885, 16.856, 0},
+                                {"C", 3, 12.592, 16.320, 0.05},  {"C1", 3, 12.449, 16.081, 0.10},
+                                {"C2", 3, 12.301, 15.835, 0.15}, {"D", 3, 12.164, 15.606, 0.20},
+                                {"E", 3, 12.010, 15.350, 0.20},  {"F", 3, 11.855, 15.091, 0.25},
+                                {"F1", 3, 11.699, 14.832, 0.25}, {"F3", 3, 11.546, 14.576, 0.25},
+                                {"G", 3, 11.398, 14.330, 0.25},  {"W1", 3, 11.261, 14.101, 0.25},
+                                {"W2", 3, 11.107, 13.845, 0.25}, {"W3", 3, 10.970, 13.617, 0.25}};
 constexpr double class_cycles = 2e6;
 
 }  // namespace
@@ -90,6 +91,10 @@ double FatigueCurve::knee_range() const {
   return class_range * std::pow(class_cycles / knee_cycles, 1 / slope);
 }
 
+double FatigueCurve::thickness_factor(double thickness) const {
+  return std::max(1.0, std::pow(thickness / reference_thickness, thickness_exponent));
+}
+
 double FatigueCurve::cycles_to_failure(double range) const {
   if (!(range > 0)) return std::numeric_limits<double>::infinity();
   const double ratio = knee_range() / range;
@@ -111,6 +116,7 @@ FatigueCurve fatigue_curve(const std::string& name) {
     curve.class_range =
         1e6 * std::pow(10, (row.log_constant - std::log10(class_cycles)) / row.slope);
     curve.slope_beyond = 5;
+    curve.thickness_exponent = row.thickness_exponent;
     // Where both lines meet: 10^7 cycles, to the digits of the table.
     const double knee = (row.log_constant_beyond - row.log_constant) / (5 - row.slope);
     curve.knee_cycles = std::pow(10, row.log_constant - row.slope * knee);

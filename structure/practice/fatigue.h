@@ -30,10 +30,17 @@ struct FatigueCurve {
   double slope = 3;          ///< m up to the knee
   double slope_beyond = 5;   ///< m beyond it
   double knee_cycles = 1e7;  ///< N at the knee
+  /// k of plates thicker than the reference thickness t_ref (m): they bear ranges as if these were
+  /// larger by (t / t_ref)^k.
+  double thickness_exponent = 0;
+  double reference_thickness = 0.025;
   std::string source;
 
   /// Range at the knee, Pa.
   double knee_range() const;
+  /// By how much ranges in a plate of a thickness (m) count more: max(1, (t / t_ref)^k).
+  /// Source: DNV-RP-C203 (2016), 2.4.3.
+  double thickness_factor(double thickness) const;
   /// Number of cycles of a range (Pa) until failure; infinity for none.
   double cycles_to_failure(double range) const;
 };
@@ -41,7 +48,8 @@ struct FatigueCurve {
 /// Miner's sum of cycles: sum of count / N(range).
 double damage(const std::vector<Cycles>& cycles, const FatigueCurve& curve);
 
-/// Detail categories of DNV-RP-C203 (in air) B1 to W3, by their name.
+/// Detail categories of DNV-RP-C203 (in air) B1 to W3, by their name, with their thickness exponents
+/// for t_ref = 25 mm.
 /// @throws ModelError if there is none of that name; the message lists those that exist.
 FatigueCurve fatigue_curve(const std::string& name);
 

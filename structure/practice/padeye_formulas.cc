@@ -205,6 +205,19 @@ std::vector<PadeyeFormula> padeye_en_1993_1_8(const PadeyeFormulaInput& input,
           at_most("pin plate: bearing", force, bearing, "N", eurocode)};
 }
 
+std::vector<PadeyeFormula> padeye_en_1993_1_8_replaceable(const PadeyeFormulaInput& input,
+                                                          const Vector3& force_P) {
+  const PadeyeGeometry& g = input.geometry;
+  const double force = force_P.norm(), yield = input.material.yield_stress;
+  const double pin = g.pin_diameter, t = g.bearing_thickness();
+  const double play = g.hole_diameter - pin;
+  const double contact =
+      0.591 * std::sqrt(input.material.youngs_modulus * force * play / (pin * pin * t));
+  return {
+      at_most("replaceable pin: bearing in service", force, 0.6 * t * pin * yield, "N", eurocode),
+      at_most("replaceable pin: contact in service", contact, 2.5 * yield, "Pa", eurocode)};
+}
+
 std::vector<PadeyeFormula> padeye_rules(const PadeyeFormulaInput& input) {
   const PadeyeGeometry& g = input.geometry;
   const double clearance = g.hole_diameter - g.pin_diameter;

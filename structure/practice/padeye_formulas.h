@@ -83,6 +83,13 @@ std::vector<PadeyeFormula> padeye_asme_bth_1(const PadeyeFormulaInput& input,
 std::vector<PadeyeFormula> padeye_en_1993_1_8(const PadeyeFormulaInput& input,
                                               const Vector3& force_P);
 
+/// What the same rules ask besides of a pin that is replaceable, as that of a shackle is, F without
+/// the factors of a design load, the partial factor gamma_M6,ser 1:
+///   bearing  F <= 0.6 T D_p F_y                                           (table 3.10),
+///   contact  0.591 sqrt(E F (D_H - D_p) / (D_p^2 T)) <= 2.5 F_y           (3.13.2(3)).
+std::vector<PadeyeFormula> padeye_en_1993_1_8_replaceable(const PadeyeFormulaInput& input,
+                                                          const Vector3& force_P);
+
 /// Rules of practice for a padeye's measures (GL Noble Denton 0027/ND rev. 11.2, section 12): main
 /// plate's radius >= D_H; hole larger than the pin by 2 mm or 3 %, at most by 6 mm; cheek plate no
 /// thicker than the main plate; plates fill the shackle's jaw to 75 % and enter it.

@@ -65,8 +65,24 @@ void check_walls(const Located<BarSection>& located_section, double yield_stress
                              most)});
 }
 
+/// Nothing but a bar's own steel and what is fastened to it has weight.
+void check_centre(const SpreaderInCase& spreader, Reading& reading) {
+  if (!spreader.centre_of_mass || !spreader.section.value.is_whole()) return;
+  const Vector3& centre = spreader.centre_of_mass->value;
+  const double x = spreader.length.value / 2;
+  const double y = spreader.width.value_or(spreader.section.value.width()) / 2;
+  if (std::abs(centre.x()) <= x && std::abs(centre.y()) <= y) return;
+  reading.error(spreader.centre_of_mass->mark,
+                fmt::format("the centre of mass of {} lies beside it, at x {:g} m, y {:g} m",
+                            reading.owner(), centre.x(), centre.y()),
+                {fmt::format("it is counted from its middle: up to {:g} m along x and {:g} m along "
+                             "y either way",
+                             x, y)});
+}
+
 void check_bars(const SpreaderInCase& spreader, Reading& reading) {
   check_walls(spreader.section, spreader.yield_stress, reading);
+  check_centre(spreader, reading);
   if (!spreader.cross_section) return;
   if (spreader.is_frame())
     check_walls(*spreader.cross_section, spreader.yield_stress, reading);
@@ -139,6 +155,10 @@ double SpreaderInCase::mass() const {
   return bar_density * 2 * (along + cross_member().column.area * *width);
 }
 
+Vector3 SpreaderInCase::centre() const {
+  return centre_of_mass ? centre_of_mass->value : Vector3::Zero();
+}
+
 Eigen::Matrix3d SpreaderInCase::inertia() const {
   // Of a bar along its first axis, over its mass.
   const auto of_bar = [](const structure::Column& bar) {
@@ -209,6 +229,9 @@ Format<SpreaderInCase> spreader_format() {
           "mass", &SpreaderInCase::given_mass, quantity(Dimension::mass, Range::positive()),
           "with all that is fastened to it, spread evenly over its bars; that of these if left "
           "out")
+      .optional("centre_of_mass", &SpreaderInCase::centre_of_mass, located(position_format()),
+                "from its middle in its axes, with all that is fastened to it; its weight then "
+                "falls or rises evenly along it; the middle if left out")
       .by_default("upper_eye", &SpreaderInCase::upper_eye,
                   quantity(Dimension::length, Range::not_negative()), "0 m",
                   "height of the upper eyes over the bars' axes")

@@ -40,9 +40,10 @@ struct SpreaderInCase {
   std::optional<Located<BarSection>> cross_section;  ///< of the sides along y in place of that
   double yield_stress = 0;                           ///< Pa
   structure::BucklingCurve curve = structure::BucklingCurve::c;
-  std::optional<double> given_mass;  ///< kg; none: that of its bars
-  double upper_eye = 0;              ///< height of the upper eyes over the bar's axis, m
-  double lower_eye = 0;              ///< depth of the lower ones below it, m
+  std::optional<double> given_mass;                ///< kg; none: that of its bars
+  std::optional<Located<Vector3>> centre_of_mass;  ///< from its middle, m; none: there
+  double upper_eye = 0;  ///< height of the upper eyes over the bar's axis, m
+  double lower_eye = 0;  ///< depth of the lower ones below it, m
   /// Where it is at the start, a first guess; none: as its slings and the load lead it.
   std::optional<Vector3> position, attitude;
 
@@ -54,7 +55,8 @@ struct SpreaderInCase {
   /// A frame's side along y. @pre is_frame()
   structure::FrameMember cross_member() const;
   double mass() const;              ///< kg
-  Eigen::Matrix3d inertia() const;  ///< about its middle, evenly spread over its bars, kg m^2
+  Vector3 centre() const;           ///< of mass, from its middle, m
+  Eigen::Matrix3d inertia() const;  ///< about that, as if evenly spread over its bars, kg m^2
   /// Names of its eyes: `upper_a` to `lower_b` of a bar, `upper_1` to `lower_4` of a frame.
   std::vector<std::string> eye_names() const;
   /// Place of an eye in its axes; none of another name.

@@ -34,7 +34,7 @@ Format<AmplificationTable> amplification_format() {
   Table<AmplificationRow> row("row of amplification",
                               "factor + root sqrt(100 t / static hook load).");
   row.optional("up_to", &AmplificationRow::up_to, quantity(Dimension::load, Range::positive()),
-               "static hook load; all that is heavier if left out")
+               "weight with contingency, without rigging; all that is heavier if left out")
       .required("factor", &AmplificationRow::factor, number(Range::positive()),
                 "dynamic over static hook load")
       .by_default("root", &AmplificationRow::root, number(Range::not_negative()), "0",

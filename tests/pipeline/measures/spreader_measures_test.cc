@@ -75,6 +75,23 @@ TEST(LargestForces, OfABarsOwnWeight) {
 
 // A free rod pushed sideways at its end: the largest moment, 4/27 F L, lies a third of the way from
 // the other end (Timoshenko and Young, Advanced dynamics).
+// A weight W whose centre lies x_0 beside the middle, plumb ends: the load along the bar is
+// W / L (1 + 12 x_0 x / L^2), the reactions W (1/2 -+ x_0 / L), M(x) what they leave.
+TEST(LargestForces, OfAWeightBesideTheMiddle) {
+  const double W = 12e3, L = 8, h = L / 2, x_0 = 0.5;
+  const auto found = largest_forces(
+      {{{-h, 0, 0}, {0, 0, W * (0.5 - x_0 / L)}}, {{h, 0, 0}, {0, 0, W * (0.5 + x_0 / L)}}}, L);
+  double largest = 0;
+  for (int i = 0; i <= 20; ++i) {
+    const double x = L * (i / 20.0 - 0.5), u = x + h;
+    const double lever = x * (x * x - h * h) / 2 - (x * x * x + h * h * h) / 3;
+    largest = std::max(
+        largest, W * (0.5 - x_0 / L) * u - W / L * u * u / 2 - 12 * W * x_0 / (L * L * L) * lever);
+  }
+  EXPECT_NEAR(found.moments[0], largest, 1e-9 * W);
+  EXPECT_GT(largest, W * L / 8);
+}
+
 TEST(LargestForces, OfARodThatIsAccelerated) {
   const double F = 1e3, L = 6;
   const auto forces = largest_forces({{{L / 2, 0, 0}, {0, F, 0}}}, L);
@@ -120,6 +137,34 @@ TEST(SpreaderMeasures, CompressionFollowsTheMotion) {
 
 // The bar's lower face is 0.1 + 1.5 m over the lugs' pins less half of the pipe, these 0.2 m over
 // the plate's top, and the slings stretch.
+// The bar's centre of mass a metre beside its middle: its end b hangs lower, and about any point the
+// pulls from above balance the weights where they are.
+TEST(SpreaderMeasures, WeightOfABarMayLieBesideItsMiddle) {
+  test::SampleLift parts = test::spreader_lift();
+  parts.lift_case = test::with(parts.lift_case, "    upper_eye: 0.2 m\n",
+                               "    upper_eye: 0.2 m\n    mass: 1000 kg\n"
+                               "    centre_of_mass: [1 m, 0 m, 0 m]\n");
+  const BarLift lift = lift_on_bar(parts);
+  const LiftSpreader& bar = lift.run.model.spreaders.front();
+  const dynamics::History& history = lift.run.static_history;
+  const dynamics::Pose X = history.bodies[bar.body - 1].X_WB(0),
+                       X_load = history.bodies[lift.run.model.load - 1].X_WB(0);
+  EXPECT_LT(X.R(2, 0), -0.01);
+  const Vector3 weight(0, 0, -1000 * gravity), load(0, 0, -10e3 * gravity);
+  Vector3 moment = X.apply(Vector3(1, 0, 0)).cross(weight);
+  moment += X_load.apply(Vector3(2, 0, 0.5)).cross(load);
+  Vector3 force = weight + load;
+  for (const LiftSpreader::End& end : bar.ends) {
+    if (!end.from_above) continue;
+    const dynamics::RopeHistory& rope = history.ropes[end.rope];
+    const Vector3 pull = (end.last ? rope.last_force : rope.first_force).row(0);
+    force += pull;
+    moment += X.apply(end.p_BoQ_B).cross(pull);
+  }
+  EXPECT_LT(force.norm(), 1e-5 * load.norm());
+  EXPECT_LT(moment.norm(), 1e-4 * load.norm());
+}
+
 TEST(SpreaderMeasures, BarKeepsItsDistanceFromTheLoad) {
   const BarLift& lift = plain_lift();
   std::vector<LiftMeasure> measures;

@@ -17,6 +17,7 @@ namespace {
 using test::shipped_rules;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Located<std::string> called(const std::string& name) { return {name, {}}; }
 
@@ -398,6 +399,25 @@ TEST(StandardAssessment, SkewsTheStructure) {
   EXPECT_NEAR(chain.simulated, 110e6 * 1.1 * 1.1 * 1.3, 1);
 }
 
+// 0027/ND, table 5-1: rows by gross weight, formulae by static hook load. 92 t of class A weigh
+// 96.6 t and their rigging 8 t: the row up to 100 t, 1.07 + 0.05 sqrt(100 / 104.6).
+TEST(StandardAssessment, AmplificationGoesByWeightAndHookLoad) {
+  StandardInCase standard = by_nd_0027();
+  standard.weight_class = called("A");
+  standard.setting = called("inshore");
+  LiftFacts facts = two_slings();
+  facts.net_weight = 92 * newton_per_tonne;
+  facts.rigging = 8 * newton_per_tonne;
+  const StandardAssessment inshore = assess_standard(standard, facts);
+  const Chain& lift = chain_of(inshore, "lift as a whole");
+  EXPECT_NEAR(step_of(lift, "dynamic amplification").standard.value(),
+              1.07 + 0.05 * std::sqrt(100 / 104.6), 1e-12);
+  standard.setting = called("onshore");
+  const StandardAssessment ashore = assess_standard(standard, facts);
+  EXPECT_DOUBLE_EQ(
+      step_of(chain_of(ashore, "lift as a whole"), "dynamic amplification").standard.value(), 1.10);
+}
+
 /// Two hooks with two slings each, 400 kN in each sling; the stress about L1 and elsewhere.
 LiftFacts four_slings_on_two_hooks() {
   LiftFacts facts = two_slings();
@@ -448,6 +468,16 @@ TEST(StandardAssessment, TheStructureTakesCentreTiltAndYawOfItsSlings) {
   const Chain& sling = chain_of(result, "sling R1");
   for (const char* step : {"centre of mass", "tilt", "yaw"})
     EXPECT_EQ(step_of(lug, step).standard, step_of(sling, step).standard) << step;
+}
+
+// 0027/ND 5.4.2 is for two hooks of one crane, too, where the case need not name a tilt.
+TEST(StandardAssessment, TellsThatHooksMayDifferInHeight) {
+  const auto told = HasSubstr("two hooks and the case names no tilt");
+  LiftFacts facts = two_slings();
+  EXPECT_THAT(assess_standard(by_nd_0027(), facts).notes, Not(Contains(told)));
+  facts.hooks.front().computed.two_hooks = TwoHooks{12, 10, 13, 14};
+  EXPECT_THAT(assess_standard(by_nd_0027(), facts).notes, Contains(told));
+  EXPECT_THAT(assess_standard(by_nd_0027_on_two_hooks(), facts).notes, Not(Contains(told)));
 }
 
 // With a box of the centre the largest growth counts: 1.08 of R4. R2 bears a tenth of the others

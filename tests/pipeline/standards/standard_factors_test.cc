@@ -41,6 +41,52 @@ TEST(TwoHooks, BearTheWholeWeight) {
   EXPECT_NEAR(tilt_factor({12, 0, 13, 0}, 0.05), 1, 1e-14);
 }
 
+// 0027/ND 5.4.2, B.1.2: arcsin(1.0 / 25) = 2.29 degrees, so that 3 degrees govern; the height does
+// below 19.1 m. Hooks 3.2 m apart: arcsin(1.0 / 3.2) = 18.21 degrees. Lift points at different
+// heights change nothing: L is the distance between the cranes.
+TEST(TwoHooks, TiltByTheLargerOfAngleAndHeight) {
+  const double three = 3 * degree, half_a_digit = 0.005 * degree;
+  EXPECT_DOUBLE_EQ(*tilt_angle({12, 10, 13, 14}, 0, 1.0), std::asin(1.0 / 25));
+  EXPECT_NEAR(*tilt_angle({12, 10, 13, 14}, 0, 1.0), 2.29 * degree, half_a_digit);
+  EXPECT_DOUBLE_EQ(*tilt_angle({12, 10, 13, 14}, three, 1.0), three);
+  EXPECT_DOUBLE_EQ(*tilt_angle({9.6, 2, 9.6, 2}, three, 1.0), three);
+  EXPECT_GT(*tilt_angle({9.5, 2, 9.5, 2}, three, 1.0), three);
+  EXPECT_NEAR(*tilt_angle({1.6, 2, 1.6, 2}, three, 1.0), 18.21 * degree, half_a_digit);
+  EXPECT_NEAR(*tilt_angle({1.6, 2, 1.6, 7}, three, 1.0), 18.21 * degree, half_a_digit);
+  EXPECT_DOUBLE_EQ(*tilt_angle({1.6, 2, 1.6, 2}, three, {}), three);
+  EXPECT_FALSE(tilt_angle({0.4, 2, 0.5, 2}, three, 1.0));
+}
+
+// Ropes do not press. Centre 4 m below lift points 3.2 m apart: at 18.21 degrees the centre lies
+// 4 tan 18.21 = 1.316 m nearer to the higher of them, P/W = 0.5 + 1.316 / 3.2; 5 m below it would
+// lie beyond it, and the formula would have a hook bear more than all.
+TEST(TwoHooks, BearNoMoreThanAll) {
+  const TwoHooks near{1.6, 4, 1.6, 4}, beyond{1.6, 5, 1.6, 5};
+  const double tilt = std::asin(1.0 / 3.2);
+  EXPECT_NEAR(tilt_factor(near, tilt), 1 + 2 * 4 * std::tan(tilt) / 3.2, 1e-12);
+  EXPECT_GT(share_of_hook(beyond, tilt), 1);
+  EXPECT_DOUBLE_EQ(tilt_factor(beyond, tilt), 2);
+  // Lift points so unlike in height that the formula's span has turned over.
+  EXPECT_DOUBLE_EQ(tilt_factor({1.6, 12, 1.6, 1}, tilt), 2);
+  EXPECT_DOUBLE_EQ(tilt_factor({0.3, 2, 0.6, 2}, {}), 1.5);
+}
+
+// Two slings each, 3 m apart along the line between the hooks and 6 m below them, hold the load to
+// the hooks: by statics of one body that hangs from both hooks, 10 m apart and 8 m above its
+// centre, P/W = 1/2 + 8 tan t / 10. From 6 tan t = 1.5 m on one sling of each is slack, and those
+// left end 10 m apart, 2 m above the centre: P/W = (6.5 + 2 tan t) / 10.
+TEST(TwoHooks, TurnAboutHooksBelowWhichSlingsSpread) {
+  const SpreadOfHook slings{6, 1.5, 1.5};
+  const TwoHooks hooks{5, 2, 5, 2, 0, 0, slings, slings};
+  EXPECT_DOUBLE_EQ(share_of_hook(hooks, 0), 0.5);
+  for (const double tilt : {-0.2, -0.05, 0.05, 0.2})
+    EXPECT_NEAR(share_of_hook(hooks, tilt), 0.5 + 0.8 * std::tan(tilt), 1e-14);
+  EXPECT_NEAR(share_of_hook(hooks, 0.3), 0.65 + 0.2 * std::tan(0.3), 1e-14);
+  // Slings that spread across that line leave the load to turn about its lift points.
+  const TwoHooks across{5, 2, 5, 2, 0, 0, {6, 0, 0}, {6, 0, 0}};
+  EXPECT_NEAR(share_of_hook(across, 0.05), 0.5 + 0.2 * std::tan(0.05), 1e-14);
+}
+
 double factor_of(const std::string& material, double environment_share) {
   const StandardRules rules = shipped_rules("nd-0027");
   return sling_factor(*rules.sling, {material, "inspected", "resin_socket", {}, environment_share})
@@ -131,6 +177,22 @@ TEST(PinPlate, IsThatOfTheEurocode) {
   EXPECT_NEAR(formulas[1].limit, 0.067112, 1e-6);
   EXPECT_NEAR(formulas[2].limit, 11.1825e6, 1);
   EXPECT_NEAR(formulas[2].utilisation, 0.178851, 1e-6);
+}
+
+// EN 1993-1-8, table 3.10 and 3.13.2(3), by hand for the same lug and 2 MN in service: 0.6 x 150 mm
+// x 140 mm x 355 MPa = 4.473 MN; 0.591 sqrt(210 GPa x 2 MN x 5 mm / (140 mm)^2 / 150 mm) = 499.486
+// MPa against 2.5 x 355 MPa.
+TEST(PinPlate, HasAReplaceablePinByTheEurocode) {
+  structure::PadeyeFormulaInput input;
+  input.geometry = {0.300, 0.080, 0.145, 0.140, 0.220, 0.035, 0.55, 0.6, 0.6};
+  input.material.youngs_modulus = 210e9;
+  input.material.yield_stress = 355e6;
+  const auto formulas = structure::padeye_en_1993_1_8_replaceable(input, {0, 2e6, 0});
+  ASSERT_EQ(formulas.size(), 2U);
+  EXPECT_NEAR(formulas[0].limit, 4.473e6, 1);
+  EXPECT_NEAR(formulas[0].utilisation, 0.447127, 1e-6);
+  EXPECT_NEAR(formulas[1].demand, 499.486e6, 1e3);
+  EXPECT_NEAR(formulas[1].utilisation, 0.562801, 2e-6);
 }
 
 }  // namespace

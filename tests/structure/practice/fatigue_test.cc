@@ -65,6 +65,18 @@ TEST(FatigueCurve, DnvCurves) {
   }
 }
 
+// DNV-RP-C203 (2016), 2.4.3 and table 2-1: log N = log a - m log(S (t / 25 mm)^k), k = 0.20 of curve
+// D, 0.25 of F, 0 of B1; plates thinner than 25 mm gain nothing. 100 mm of F: sqrt(2).
+TEST(FatigueCurve, CountsRangesInThickPlatesMore) {
+  const FatigueCurve d = fatigue_curve("D"), f = fatigue_curve("F"), b1 = fatigue_curve("B1");
+  EXPECT_NEAR(f.thickness_factor(0.100), std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(std::log10(d.cycles_to_failure(100e6 * d.thickness_factor(0.050))),
+              12.164 - 3 * (2 + 0.20 * std::log10(2)), 1e-9);
+  for (const double thickness : {0.0, 0.012, 0.025})
+    EXPECT_DOUBLE_EQ(d.thickness_factor(thickness), 1);
+  EXPECT_DOUBLE_EQ(b1.thickness_factor(0.100), 1);
+}
+
 TEST(Damage, IsMinersSum) {
   const FatigueCurve d = fatigue_curve("D");
   const std::vector<Cycles> cycles{{100e6, 0, 1}, {10e6, 5e6, 0.5}};

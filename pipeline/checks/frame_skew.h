@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "pipeline/measures/spreader_measures.h"
+#include "pipeline/standards/lift_facts.h"
+
+namespace blocklift::pipeline {
+
+/// By how much less a frame bears when its four slings from above share unevenly: the load below it
+/// at which it fails as they are at rest, over that when the slings of either diagonal reach their
+/// skew and the others give way (diagonal_changes), whichever is less. At its worst instant at
+/// rest. Ropes below it follow their corner, as stiff ropes to a stiff load do, so that its sides
+/// hang through no further. Rigid corners are bent in its plane: of a frame of the width W whose
+/// sides of the length L bear the compression N, a share d more on one diagonal and less on the
+/// other leaves N as it is and bends the corners by d N W / 2.
+/// Source: GL Noble Denton 0027/ND rev. 11.2 (2016), 11.6.1, by which frames have the load cases of
+/// the lifted structure, and 5.6.12.
+/// @param skew_of the factor of a rope by its index in the system.
+/// @returns none for bars, without four slings whose lines meet, and where nothing hangs at one of
+///   their corners.
+std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpreader& frame,
+                                 const dynamics::History& at_rest,
+                                 const std::function<double(int)>& skew_of);
+
+/// The same of a frame, or of another of its size in its place, by the skew factor of the case's
+/// rules and by the slings' tolerances of length.
+/// @param slings of the lift, with their factors.
+void find_frame_skew(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
+                     const LiftCase& lift_case, const LiftRun& lift,
+                     const std::vector<SlingFacts>& slings, SpreaderFacts& facts);
+
+}  // namespace blocklift::pipeline
