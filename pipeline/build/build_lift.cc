@@ -136,7 +136,7 @@ class LiftBuilder {
     for (const BodyDefinition& body : hook_bodies(name, block))
       bodies.push_back(builder.add_body(body));
     const BodyIndex index = bodies.back();
-    note_body(name, index, "hook block", {BoxShape{block.size, {0, 0, 0}, {0, 0, 0}}});
+    note_body(name, index, "hook block", {BoxShape{block.box_size(), {0, 0, 0}, {0, 0, 0}}});
 
     const BodyPoint sheave{body_of_.at(crane.name.value + "." + hoist.body.value), hoist.sheave};
     const double length = crane.find_start(hoist.name.value)->value.value;

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/declaration/text_file.h"
@@ -118,18 +119,23 @@ std::optional<std::string> read_text(const fs::path& path,
   return text;
 }
 
+/// The line of a place, without its end; empty beyond the text.
+std::string line_of(const std::string& text, const YAML::Mark& mark) {
+  std::size_t begin = 0;
+  for (int line = 0; line < mark.line && begin != std::string::npos; ++line) {
+    begin = text.find('\n', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
 /// What the parser says, put so that one knows what to do about it.
 std::vector<std::string> hints_for(const YAML::Exception& exception, const std::string& text) {
   if (exception.msg.starts_with("end of ") && exception.msg.ends_with("flow not found"))
     return {"a bracket in this line or above it is opened and not closed"};
   std::vector<std::string> hints;
-  std::size_t begin = 0;
-  for (int line = 0; line < exception.mark.line && begin != std::string::npos; ++line) {
-    begin = text.find('\n', begin);
-    if (begin != std::string::npos) ++begin;
-  }
-  if (begin == std::string::npos || begin >= text.size()) return hints;
-  const std::string line = text.substr(begin, text.find('\n', begin) - begin);
+  const std::string line = line_of(text, exception.mark);
   const std::size_t first = line.find_first_not_of(' ');
   if (first != std::string::npos && line[first] == '\t') {
     hints.emplace_back("YAML indents with blanks, never with tabs");
@@ -141,10 +147,16 @@ std::vector<std::string> hints_for(const YAML::Exception& exception, const std::
   return hints;
 }
 
-/// Notes where the second of several YAML documents begins.
+/// Notes where the second of several YAML documents begins, and the anchors on the way.
 class SecondDocument : public YAML::EventHandler {
  public:
   const YAML::Mark& mark() const { return mark_; }  ///< null if there is none
+  const std::vector<std::string>& anchors() const { return anchors_; }
+
+  void OnAnchor(const YAML::Mark&, const std::string& name) override {
+    if (std::find(anchors_.begin(), anchors_.end(), name) == anchors_.end())
+      anchors_.push_back(name);
+  }
 
   void OnDocumentStart(const YAML::Mark&) override { ++count_; }
   void OnDocumentEnd() override {}
@@ -171,6 +183,7 @@ class SecondDocument : public YAML::EventHandler {
   }
   int count_ = 0;
   YAML::Mark mark_ = YAML::Mark::null_mark();
+  std::vector<std::string> anchors_;
 };
 
 /// Where a second document begins; null if there is none. YAML::LoadAll is not asked: a lone comma
@@ -183,6 +196,39 @@ YAML::Mark find_second_document(const std::string& text) {
   for (int i = 0; i < 2 && parser.HandleNextDocument(second); ++i) {
   }
   return second.mark();
+}
+
+/// The anchors of a text up to its first fault.
+std::vector<std::string> find_anchors(const std::string& text) {
+  SecondDocument handler;
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(handler);
+  } catch (const YAML::Exception&) {  // it has been complained about
+  }
+  return handler.anchors();
+}
+
+/// Complains about a text that the parser refused. Of an anchor that is missing it knows the place
+/// and not the name.
+void complain_about_yaml(const YAML::Exception& exception, const std::string& text,
+                         const std::shared_ptr<const std::string>& file, Diagnostics& diagnostics) {
+  const Mark mark{file, exception.mark.line + 1, exception.mark.column + 1};
+  if (exception.msg == YAML::ErrorMsg::UNKNOWN_ANCHOR) {
+    const std::string line = line_of(text, exception.mark);
+    const auto column = static_cast<std::size_t>(std::max(exception.mark.column, 0));
+    if (column < line.size() && line[column] == '*') {
+      const std::string name =
+          line.substr(column + 1, line.find_first_of("[]{}, \t\r", column + 1) - column - 1);
+      const std::vector<std::string> anchors = find_anchors(text);
+      diagnostics.error(mark, fmt::format("no anchor \"&{0}\" comes before \"*{0}\"", name),
+                        {anchors.empty() ? fmt::format("\"&{}\" before a value names it", name)
+                                         : names_hint("the anchors before it are", anchors, name)});
+      return;
+    }
+  }
+  diagnostics.error(mark, "this is not YAML: " + exception.msg, hints_for(exception, text));
 }
 
 }  // namespace
@@ -245,8 +291,7 @@ std::optional<Document> load_document(const fs::path& path, Diagnostics& diagnos
                       "lists and keys are nested too deeply");
     return std::nullopt;
   } catch (const YAML::Exception& exception) {
-    diagnostics.error({document.file, exception.mark.line + 1, exception.mark.column + 1},
-                      "this is not YAML: " + exception.msg, hints_for(exception, document.text));
+    complain_about_yaml(exception, document.text, document.file, diagnostics);
     return std::nullopt;
   }
   if (!second.is_null()) {

@@ -16,6 +16,7 @@
 #include "pipeline/build/held_heading.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "pipeline/lift/parallel_baskets.h"
+#include "pipeline/lift/sling_ends.h"
 #include "pipeline/lift/stage_end.h"
 #include "pipeline/lift/stopwatch.h"
 #include "pipeline/lift/worst_instant.h"
@@ -42,16 +43,41 @@ void keep_larger(const BuiltLift& model, double time, const dynamics::LiftWorksp
 }
 
 /// What a search for equilibria or a time integration finds. Where it fails, at whatever instant,
-/// what the case says against equilibria goes with the message.
+/// what the case says against equilibria, or else `otherwise`, goes with the message.
 template <typename Find>
-auto find_or_say_why(const LiftCase& lift_case, const Find& find) {
+auto find_or_say_why(const LiftCase& lift_case, const Find& find,
+                     const std::string& otherwise = {}) {
   try {
     return find();
   } catch (const dynamics::SimulationError& error) {
-    const std::string why = doubt_about_baskets(lift_case);
+    std::string why = doubt_about_baskets(lift_case);
+    if (why.empty()) why = otherwise;
     if (why.empty()) throw;
     throw dynamics::SimulationError(fmt::format("{}. {}", error.what(), why));
   }
+}
+
+/// The first equilibrium in which the load hangs and nothing holds it: a motion from there may lead
+/// anywhere. Empty if there is none.
+std::string tipping_equilibrium(const LiftCase& lift_case, const BuiltLift& model,
+                                const dynamics::History& at_rest,
+                                const Eigen::VectorXd& righting_height) {
+  constexpr double neutral = 1e-3;  // m
+  if (!lift_case.supports.empty() || lift_case.ground_contact) return {};
+  const double weight = model.system.mechanism().body(model.load).inertia.mass * lift_case.gravity;
+  const Eigen::VectorXd borne = load_on_slings(model, at_rest);
+  for (Eigen::Index k = 0; k < righting_height.size(); ++k) {
+    if (!(righting_height[k] < -neutral) || borne[k] < 0.9 * weight) continue;
+    std::string slack;
+    for (const LiftRope& rope : model.ropes)
+      if (!(at_rest.ropes[rope.rope].tension[k] > 0))
+        slack += (slack.empty() ? "; slack there: " : ", ") + rope.name;
+    return fmt::format(
+        "Nothing holds the load in the equilibrium of {:g} s{}: it tips over or "
+        "slides out of its slings once it moves",
+        at_rest.time[k], slack);
+  }
+  return {};
 }
 
 }  // namespace
@@ -118,10 +144,15 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
   }
   settings.surface = model.marched.radiation.get();
   settings.surface_step = model.marched.step;
-  dynamics::IntegrationResult dynamic_result = find_or_say_why(lift_case, [&] {
-    return dynamics::integrate_with_peaks(system, q, Eigen::VectorXd::Zero(system.mechanism().nv()),
-                                          settings);
-  });
+  dynamics::IntegrationResult dynamic_result = find_or_say_why(
+      lift_case,
+      [&] {
+        return dynamics::integrate_with_peaks(
+            system, q, Eigen::VectorXd::Zero(system.mechanism().nv()), settings);
+      },
+      extent.righting_height && extent.rope_forces
+          ? tipping_equilibrium(lift_case, model, static_history, righting_height)
+          : std::string());
   const double dynamic_s = watch.lap();
   return {std::move(model),
           std::move(static_history),

@@ -1,6 +1,7 @@
 #include "pipeline/files/crane/crane_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -63,8 +64,9 @@ Format<HookBlockModel> hook_block_format() {
                   "the same from any side")
       .by_default("wind_coefficient", &HookBlockModel::wind_coefficient,
                   number(Range::not_negative()), "1.2", "of wind pressure")
-      .by_default("size", &HookBlockModel::size, size_format(), "[1 m, 1 m, 2 m]",
-                  "of its box, in the drawing and for clearances")
+      .optional("size", &HookBlockModel::size, size_format(),
+                "of its box, in the drawing and for clearances. Left out it follows from the mass, "
+                "twice as high as wide and of 3.5 t/m^3: [1 m, 1 m, 2 m] of 7 t")
       .optional("turning", &HookBlockModel::turning, turning_block_format(),
                 "that it turns about the vertical; it keeps its direction if left out")
       .rule([](const HookBlockModel& block, Reading& reading, const Mark&) {
@@ -206,6 +208,11 @@ Format<HoistModel> hoist_format() {
 }
 
 }  // namespace
+
+Vector3 HookBlockModel::box_size() const {
+  constexpr double density = 3500;  // kg/m^3
+  return size ? *size : Vector3(std::cbrt(mass / (2 * density)) * Vector3(1, 1, 2));
+}
 
 std::optional<Vector3> TurningBlockModel::horn(const std::string& name) const {
   if (horns > 0 && name == "a") return Vector3(horns / 2, 0, 0);

@@ -38,8 +38,13 @@ struct HookBlockModel {
   double mass = std::numeric_limits<double>::quiet_NaN();  ///< kg
   double wind_area = 0;                                    ///< m^2, from any side
   double wind_coefficient = 0;
-  Vector3 size = Vector3::Zero();            ///< of the box in the drawing, m
+  std::optional<Vector3> size;               ///< of its box, m
   std::optional<TurningBlockModel> turning;  ///< none: it keeps its direction
+
+  /// Size of its box along x, y and z in the drawing and for clearances, m: as given, or else by its
+  /// mass, twice as high as wide and of 3.5 t/m^3. That is an assumption, not quite half of it
+  /// steel: 1 m x 1 m x 2 m of 7 t.
+  Vector3 box_size() const;
 };
 
 /// A line of a load chart: what a hook may carry up to a radius.

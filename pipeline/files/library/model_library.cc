@@ -1,8 +1,11 @@
 #include "pipeline/files/library/model_library.h"
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
+#include <sstream>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -27,14 +30,17 @@ bool is_file(const fs::path& path) {
 }
 
 /// Complains if the file is of another kind than the one that is due.
-bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& diagnostics) {
+/// @param hints who named the file.
+bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& diagnostics,
+                const std::vector<std::string>& hints) {
   if (!document.root.IsMap()) return true;  // the reader will say what is wrong
   const YAML::Node found = document.root["kind"];
   const bool is_case = !found && document.root["case"];
   if (!is_case && (!found || !found.IsScalar() || found.Scalar() == kind)) return true;
   diagnostics.error(document.mark_of(is_case ? document.root["case"] : found),
                     fmt::format("this file describes a {}; a {} is due",
-                                is_case ? "lift case" : found.Scalar(), kind));
+                                is_case ? "lift case" : found.Scalar(), kind),
+                    hints);
   return false;
 }
 
@@ -42,8 +48,9 @@ bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& 
 template <class T>
 std::shared_ptr<T> read_model(const std::optional<Document>& document, const std::string& kind,
                               const Format<T>& format, Diagnostics& diagnostics,
+                              const std::vector<std::string>& named_by = {},
                               const ParameterValues& parameters = {}) {
-  if (!document || !is_of_kind(*document, kind, diagnostics)) return nullptr;
+  if (!document || !is_of_kind(*document, kind, diagnostics, named_by)) return nullptr;
   auto model = std::make_shared<T>();
   Reading reading(*document, diagnostics);
   std::vector<OutsideParameter> outside;
@@ -77,9 +84,26 @@ void forget_columns(RiggingStock& stock) {
   for (StockSheave& sheave : stock.sheaves) sheave.name.mark = without_column(sheave.name.mark);
 }
 
+/// Whether a file has the line `kind: crane` near its beginning. It is not parsed: the folder of a
+/// case may hold many large files.
+bool says_kind(const fs::path& file, const std::string& kind) {
+  constexpr int most_lines = 100;
+  std::ifstream stream(file);
+  std::string line;
+  for (int i = 0; i < most_lines && std::getline(stream, line); ++i) {
+    std::istringstream words(line);
+    std::string key, value;
+    if (line.starts_with("kind:") && words >> key >> value) return value == kind;
+  }
+  return false;
+}
+
 /// The models of a kind in a folder of models: folders that hold `crane.yaml`, and YAML files below
 /// `cranes`.
-void add_models(const fs::path& folder, const std::string& kind, std::vector<std::string>& names) {
+/// @param is_home in the folder of a case models lie as they like: each YAML file counts that says
+///   that it is of the kind.
+void add_models(const fs::path& folder, const std::string& kind, bool is_home,
+                std::vector<std::string>& names) {
   constexpr int deepest = 4;
   constexpr int most_visited = 10000;
   int visited = 0;
@@ -93,7 +117,7 @@ void add_models(const fs::path& folder, const std::string& kind, std::vector<std
     if (relative.extension() != ".yaml") continue;
     if (relative.filename() == kind + ".yaml" && relative.has_parent_path()) {
       names.push_back(relative.parent_path().string());
-    } else if (*relative.begin() == kind + "s") {
+    } else if (*relative.begin() == kind + "s" || (is_home && says_kind(files->path(), kind))) {
       names.push_back((relative.parent_path() / relative.stem()).string());
     }
   }
@@ -183,11 +207,16 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
   }
   std::vector<std::string> hints = {hint_of_name(name.value, kind, beside),
                                     "looked for in " + list_of_names(looked_in)};
-  for (const std::string other : {"crane", "block", "rope", "vessel", "standard"}) {
+  for (const auto& [other, word] : {std::pair<std::string, const char*>("crane", "a crane"),
+                                    {"block", "a block"},
+                                    {"rope", "a rope"},
+                                    {"vessel", "a vessel"},
+                                    {"vessels", "a group of vessels"},
+                                    {"standard", "a standard"}}) {
     if (other == kind) continue;
     const std::vector<std::string> others = names_of_kind(other, beside);
     if (std::find(others.begin(), others.end(), name.value) != others.end())
-      hints.push_back(fmt::format("\"{}\" is a {}", name.value, other));
+      hints.push_back(fmt::format("\"{}\" is {}", name.value, word));
   }
   diagnostics.error(name.mark, fmt::format("there is no {} model \"{}\"", kind, name.value),
                     std::move(hints));
@@ -201,7 +230,17 @@ fs::path ModelLibrary::find_and_note(const Located<std::string>& name, const std
   fs::path& file = places_[key];
   if (file.empty()) file = find(name, kind, beside, diagnostics);
   if (!file.empty() && !find_found(file)) found_.push_back({name.value, file, ""});
+  if (!file.empty()) named_at_.emplace(kind + "\n" + file.string(), name.mark);
   return file;
+}
+
+std::vector<std::string> ModelLibrary::naming_hints(const std::string& kind,
+                                                    const fs::path& file) const {
+  const auto named = named_at_.find(kind + "\n" + file.string());
+  if (named == named_at_.end() || !named->second.file) return {};
+  const Mark& mark = named->second;
+  return {fmt::format("{}:{}:{} names it as the model of a {}", *mark.file, mark.line, mark.column,
+                      kind)};
 }
 
 FoundModel* ModelLibrary::find_found(const fs::path& file) {
@@ -212,6 +251,7 @@ FoundModel* ModelLibrary::find_found(const fs::path& file) {
 
 void ModelLibrary::begin_case() {
   found_.clear();
+  named_at_.clear();
   ++case_;
 }
 
@@ -296,9 +336,9 @@ std::shared_ptr<const Model> ModelLibrary::keep(std::map<std::string, Kept<Model
 std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
                                                      const Folders& beside) const {
   std::vector<std::string> names;
-  for (const fs::path& folder : model_folders_) add_models(folder, kind, names);
+  for (const fs::path& folder : model_folders_) add_models(folder, kind, false, names);
   for (const fs::path& folder : beside)
-    add_models(folder.empty() ? fs::path(".") : folder, kind, names);
+    add_models(folder.empty() ? fs::path(".") : folder, kind, true, names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -325,6 +365,10 @@ std::shared_ptr<const Vessel> ModelLibrary::load_vessel(const Located<std::strin
   const fs::path file = find_and_note(name, "vessel", {beside}, diagnostics);
   if (file.empty()) return nullptr;
   return keep(vessels_, file, diagnostics, [&]() -> std::shared_ptr<const Vessel> {
+    Diagnostics ignored;  // the vessel's reader says the same
+    const std::optional<Document> document = load_document(file, ignored);
+    if (document && !is_of_kind(*document, "vessel", diagnostics, naming_hints("vessel", file)))
+      return nullptr;
     std::optional<Vessel> vessel = read_vessel(file, diagnostics, {beside});
     return vessel ? std::make_shared<const Vessel>(std::move(*vessel)) : nullptr;
   });
@@ -364,8 +408,9 @@ std::shared_ptr<const CraneModel> ModelLibrary::read_crane(const fs::path& file,
   if (const Kept<CraneModel>* known = find_kept(cranes_, key, file))
     if (served_this_case || ropes_of(*known->model) == known->ropes) return known->model;
   const std::size_t errors_before = diagnostics.error_count();
-  const std::shared_ptr<CraneModel> crane = read_model(
-      load(file, diagnostics), "crane", format_once<crane_model_format>(), diagnostics, parameters);
+  const std::shared_ptr<CraneModel> crane =
+      read_model(load(file, diagnostics), "crane", format_once<crane_model_format>(), diagnostics,
+                 naming_hints("crane", file), parameters);
   Ropes ropes;
   if (crane) {
     ropes = ropes_of(*crane);
@@ -382,8 +427,9 @@ std::shared_ptr<const BlockModel> ModelLibrary::read_block(const fs::path& file,
                                                            Diagnostics& diagnostics,
                                                            const std::optional<fs::path>& of_case) {
   return keep(blocks_, file, diagnostics, [&] {
-    std::shared_ptr<BlockModel> block = read_model(load(file, diagnostics), "block",
-                                                   format_once<block_model_format>(), diagnostics);
+    std::shared_ptr<BlockModel> block =
+        read_model(load(file, diagnostics), "block", format_once<block_model_format>(), diagnostics,
+                   naming_hints("block", file));
     if (block) read_block_mesh(*block, file.parent_path(), diagnostics, of_case);
     return block;
   });
@@ -402,7 +448,7 @@ std::shared_ptr<const RopeModel> ModelLibrary::read_rope(const fs::path& file,
                                                          Diagnostics& diagnostics) {
   return keep(ropes_, file, diagnostics, [&] {
     return read_model(load(file, diagnostics), "rope", format_once<rope_model_format>(),
-                      diagnostics);
+                      diagnostics, naming_hints("rope", file));
   });
 }
 
@@ -417,7 +463,7 @@ std::shared_ptr<const StandardRules> ModelLibrary::read_standard(const fs::path&
                                                                  Diagnostics& diagnostics) {
   return keep(standards_, file, diagnostics, [&] {
     return read_model(load(file, diagnostics), "standard", format_once<standard_rules_format>(),
-                      diagnostics);
+                      diagnostics, naming_hints("standard", file));
   });
 }
 

@@ -166,6 +166,9 @@ class ModelLibrary {
   /// What may have been meant by a name that no model of the kind has; empty if nothing is near.
   std::string hint_of_name(const std::string& name, const std::string& kind,
                            const Folders& beside) const;
+  /// Who named a file as a model of that kind first; empty if nobody did.
+  std::vector<std::string> naming_hints(const std::string& kind,
+                                        const std::filesystem::path& file) const;
   FoundModel* find_found(const std::filesystem::path& file);
   /// The changes of a file that was found by its name, as text.
   std::string changes_of(const std::filesystem::path& file) const;
@@ -178,6 +181,7 @@ class ModelLibrary {
   std::map<std::string, std::filesystem::path> places_;  ///< of names, by kind and folders
   std::map<std::filesystem::path, ChangingDocument> changing_;
   std::vector<FoundModel> found_;
+  std::map<std::string, Mark> named_at_;  ///< where a file was named first, by kind and file
   std::vector<KeyChange> changes_;
   int case_ = 0;
   std::map<std::string, Kept<CraneModel>> cranes_;  ///< by file and parameters

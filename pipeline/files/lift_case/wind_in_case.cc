@@ -39,13 +39,16 @@ bool is_sound(const GustInCase& gust) {
 
 void check_shape(const GustInCase& gust, Reading& reading, const Mark& mark) {
   if (gust.table) {
-    for (const auto& [key, given] : {std::pair("magnitude", &gust.magnitude),
-                                     {"start", &gust.start},
-                                     {"duration", &gust.duration}})
-      if (*given)
-        reading.error((*given)->mark,
+    const auto refuse = [&](const char* key, const auto& given) {
+      if (given)
+        reading.error(given->mark,
                       fmt::format("the gust is given twice, by its table and by its {}", key),
-                      {"give either table, or magnitude, start and duration"});
+                      {"give either table, or magnitude, start and duration, and shape if wanted"});
+    };
+    refuse("shape", gust.shape);
+    refuse("magnitude", gust.magnitude);
+    refuse("start", gust.start);
+    refuse("duration", gust.duration);
     if (const auto fault = find_fault(gust.table->value))
       reading.error(gust.table->mark, fault->message, {fault->hint});
     return;
@@ -62,15 +65,14 @@ Format<GustInCase> gust_format() {
                           "adds to the mean speed over time.");
   const auto pair = array_of<Quantity, 2>(quantity_of({Dimension::time, Dimension::speed}));
   table
-      .by_default(
+      .optional(
           "shape", &GustInCase::shape,
-          choice<Shape>({{"one_minus_cosine", Shape::one_minus_cosine},
-                         {"coherent_rise", Shape::coherent_rise},
-                         {"operating", Shape::operating}}),
-          "one_minus_cosine",
-          "up by the magnitude and back, as 1 - cosine; up by half of a cosine, to stay; or "
-          "the operating gust of IEC 61400-1: down by 0.27, up by 0.74 of the magnitude, "
-          "down and back")
+          located(choice<Shape>({{"one_minus_cosine", Shape::one_minus_cosine},
+                                 {"coherent_rise", Shape::coherent_rise},
+                                 {"operating", Shape::operating}})),
+          "up by the magnitude and back, as 1 - cosine, which it is if left out; up by half of a "
+          "cosine, to stay; or the operating gust of IEC 61400-1: down by 0.27, up by 0.74 of the "
+          "magnitude, down and back")
       .optional("magnitude", &GustInCase::magnitude,
                 located(quantity(Dimension::speed, Range::positive())),
                 "of the shape: what it adds at most, of the operating one V_gust of the standard")
@@ -105,7 +107,10 @@ void check_gust(const WindInCase& wind, Reading& reading, const Mark&) {
 }  // namespace
 
 dynamics::WindGust GustInCase::make_gust() const {
-  if (!table) return {shape, magnitude->value, start->value, duration->value};
+  if (!table) {
+    const auto of_shape = shape ? shape->value : dynamics::WindGust::Shape::one_minus_cosine;
+    return {of_shape, magnitude->value, start->value, duration->value};
+  }
   std::vector<double> times, speeds;
   for (const auto& [time, speed] : table->value) {
     times.push_back(time.value);

@@ -13,7 +13,7 @@ namespace blocklift::pipeline {
 
 /// A single gust: by its shape, or by a table over time.
 struct GustInCase {
-  dynamics::WindGust::Shape shape = dynamics::WindGust::Shape::one_minus_cosine;
+  std::optional<Located<dynamics::WindGust::Shape>> shape;             ///< none: one_minus_cosine
   std::optional<Located<double>> magnitude;                            ///< m/s
   std::optional<Located<double>> start;                                ///< s
   std::optional<Located<double>> duration;                             ///< s

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include "algebra/factors.h"
 #include "pipeline/declaration/document.h"
@@ -500,12 +501,28 @@ fs::path StudyFile::case_path() const {
   return fs::exists(beside, ignored) ? beside : fs::path(case_name.value);
 }
 
+namespace {
+
+/// A lift case is named as one, once, rather than held against the keys of a study, which has a
+/// `case`, too.
+bool is_lift_case(const Document& document) {
+  const YAML::Node& root = document.root;
+  return root.IsMap() && !root["study"] && !root["vary"] && root["case"] && root["load"];
+}
+
+}  // namespace
+
 std::optional<StudyFile> read_study_file(const fs::path& path, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();
   std::error_code error;
   const fs::path file = fs::is_directory(path, error) ? path / "study.yaml" : path;
   const std::optional<Document> document = load_document(file, diagnostics);
   if (!document) return std::nullopt;
+  if (is_lift_case(*document)) {
+    diagnostics.error({document->file, 0, 0}, "this file describes a lift case, not a study",
+                      {"blocklift assess runs it; blocklift new study writes a study of a case"});
+    return std::nullopt;
+  }
   StudyFile study;
   study.file = file;
   study.yaml = document->text;

@@ -108,12 +108,21 @@ TEST(DocumentTest, SaysWhereYamlIsBroken) {
       "    a key is followed by one value, or by nothing and its own keys on deeper lines; text "
       "that holds \": \" needs quotes\n1 error\n");
   EXPECT_EQ(
-      complaints_about("a: *missing\n"),
-      "case.yaml:1:4: error: this is not YAML: the referenced anchor is not defined\n1 error\n");
-  EXPECT_EQ(
       complaints_about("a: 1\n---\nb: 2\n"),
       "case.yaml:3:1: error: a second YAML document begins here; one file holds one\n"
       "    is the line before indented like its neighbours, or a \"---\" too many?\n1 error\n");
+}
+
+TEST(DocumentTest, NamesAnAnchorThatIsMissing) {
+  EXPECT_EQ(complaints_about("a: *missing\n"),
+            "case.yaml:1:4: error: no anchor \"&missing\" comes before \"*missing\"\n"
+            "    \"&missing\" before a value names it\n1 error\n");
+  EXPECT_EQ(complaints_about("rope: &sling {length: 4 m}\nother: &chain 1\n"
+                             "list: [{model: *slings, length: 4 m}]\nlate: &slings 2\n"),
+            "case.yaml:3:16: error: no anchor \"&slings\" comes before \"*slings\"\n"
+            "    the anchors before it are sling, chain; did you mean \"sling\"?\n1 error\n");
+  EXPECT_NE(complaints_about("Größe: [*größe]\r\n").find("no anchor \"&größe\""),
+            std::string::npos);
 }
 
 TEST(DocumentTest, SaysThatABracketIsOpen) {

@@ -36,6 +36,20 @@ try {
   assert.deepEqual([0, 15, 20, 25, 35, 50].map((time) => stageAt(stages, time)), ["up", "up", "up", "down", "down", "down"]);
   assert.equal(stageAt([], 3), "");
 
+  // A motion keeps its column when two hooks take turns in its name, and two of one name have a column each.
+  const { followMotions } = await load("modes");
+  const mode = (name, period_s) => ({ name, period_s, kind: "oscillating" });
+  const followed = followMotions([
+    [mode("load: yaw", 5), mode("load and C1.right: roll about x", 1.3), mode("load: bounce", 0.2)],
+    [mode("load: yaw", 4.6), mode("load and C1.left: roll about x against C1.right", 1.2), mode("load: yaw", 0.9)],
+    [mode("load: yaw", 0.8), mode("load: yaw", 4.4), mode("load and C1.right: roll about x", 1.25), mode("load: roll about x", 0.3)]]);
+  assert.deepEqual(followed.map(({ name, modes }) => [name, ...[0, 1, 2].map((row) => modes[row]?.period_s ?? null)]), [
+    ["load: yaw", 5, 4.6, 4.4], ["load: roll about x", 1.3, 1.2, 1.25], ["load: bounce", 0.2, null, null],
+    ["load: yaw", null, 0.9, 0.8], ["load: roll about x", null, null, 0.3]]);
+  assert.deepEqual(followed[1].names, ["load and C1.right: roll about x", "load and C1.left: roll about x against C1.right"]);
+  // Turned by the wind at one instant, it goes on under its name.
+  assert.equal(followMotions([[mode("load: yaw", 5)], [{ name: "load: yaw", kind: "unstable" }]]).length, 1);
+
   // A label gives way to those before it, and stays within the drawing.
   const { placeLabels, ropeLabels } = await load("labels");
   const box = (left, top) => ({ left, right: left + 4, top, bottom: top + 1 });

@@ -106,21 +106,68 @@ function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], pl
   ]));
 }
 
+/** A motion along the operation: its mode at each instant that has it. */
+export interface FollowedMotion { name: string; names: string[]; modes: (NaturalMode | undefined)[] }
+
+/** What the name says behind the bodies: "roll about x" of "load and C1.left: roll about x against C1.right". */
+function motionWords(name: string): string {
+  return name.slice(name.indexOf(": ") + 2).replace(/ against .*$/, "");
+}
+
+/**
+ * Motions followed from instant to instant, each mode in one of them. A mode goes on under its own name and, without such, as
+ * the same kind of motion of about the same period: two hooks with nearly the same part in it take turns in its name. Of several,
+ * the nearest in period goes first.
+ */
+export function followMotions(instants: NaturalMode[][]): FollowedMotion[] {
+  const farthest = Math.log(1.5), far = 1e9;
+  const followed: FollowedMotion[] = [];
+  instants.forEach((modes, instant) => {
+    const last = followed.map(({ modes: before }) => before.filter((mode) => mode).pop()!);
+    const pairs = last.flatMap((before, motion) => modes.map((mode, m) => {
+      const bothKnown = known(before.period_s) && known(mode.period_s);
+      const apart = bothKnown ? Math.abs(Math.log(mode.period_s! / before.period_s!)) : before.kind === mode.kind ? 0 : far;
+      const same = followed[motion].names.includes(mode.name);
+      const alike = apart <= farthest && mode.kind === before.kind && motionWords(mode.name) === motionWords(before.name);
+      return { motion, m, apart, rank: same ? 0 : alike ? 1 : 2 };
+    })).filter(({ rank }) => rank < 2).sort((a, b) => a.rank - b.rank || a.apart - b.apart);
+    const taken = new Set<number>();
+    for (const { motion, m } of pairs) {
+      if (followed[motion].modes[instant] || taken.has(m)) continue;
+      taken.add(m);
+      followed[motion].modes[instant] = modes[m];
+      if (!followed[motion].names.includes(modes[m].name)) followed[motion].names.push(modes[m].name);
+    }
+    modes.forEach((mode, m) => {
+      if (taken.has(m)) return;
+      const motion: FollowedMotion = { name: mode.name, names: [mode.name], modes: [] };
+      motion.modes[instant] = mode;
+      followed.push(motion);
+    });
+  });
+  for (const motion of followed) {
+    if (motion.names.length === 1) continue;
+    const first = motion.names.map((name) => name.split(/, | and |: /)[0]);
+    motion.name = (first.every((one) => one === first[0]) ? first[0] : "several bodies") + ": " + motionWords(motion.name);
+  }
+  return followed;
+}
+
 /** How the load's own periods go along the operation: an instant a row. */
 function overview(data: PageData, load: string, clock: Clock): Child {
   const instants = data.summary.natural_periods ?? [];
   if (instants.length < 2) return null;
-  const names: string[] = [];
-  for (const { modes } of instants) for (const mode of modes) if (isMain(mode, load) && !names.includes(mode.name)) names.push(mode.name);
-  const columns: Column[] = [{ head: "Instant", align: "left" }, { head: "at, s" }, ...names.map((name) => ({ head: name }))];
-  return table("Natural periods along the operation, s", columns, instants.map(({ instant, time_s: time, modes }) => [instant,
+  const motions = followMotions(instants.map(({ modes }) => modes.filter((mode) => isMain(mode, load))));
+  const columns: Column[] = [{ head: "Instant", align: "left" }, { head: "at, s" },
+    ...motions.map(({ name, names }) => ({ head: name, title: names.length > 1 ? names.join("; ") : undefined }))];
+  return table("Natural periods along the operation, s", columns, instants.map(({ instant, time_s: time }, row) => [instant,
     data.scene ? h("button", { class: "time", type: "button", title: "Show this instant in the "
       + "drawing", onclick: () => {
       clock.set(time);
       document.getElementById("lift")?.scrollIntoView({ behavior: "smooth" });
     } }, seconds(time)) : seconds(time),
-    ...names.map((name) => {
-      const mode = modes.find((one) => one.name === name);
+    ...motions.map(({ modes }) => {
+      const mode = modes[row];
       return !mode ? missing : mode.kind === "oscillating" ? period(mode) : mode.turned_by_wind ? "turned by the wind" : mode.kind;
     })]));
 }

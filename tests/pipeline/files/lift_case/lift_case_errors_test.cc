@@ -63,7 +63,24 @@ TEST(LiftCaseErrors, ModelOfAnotherKind) {
   SampleLift lift;
   lift.crane = test::sample_rope;
   EXPECT_EQ(complaints_about(lift),
-            "gantry/crane.yaml:1:7: error: this file describes a rope; a crane is due\n1 error\n");
+            "gantry/crane.yaml:1:7: error: this file describes a rope; a crane is due\n"
+            "    case.yaml:6:12 names it as the model of a crane\n1 error\n");
+}
+
+TEST(LiftCaseErrors, ModelThatLiesBesideTheCase) {
+  const test::TemporaryFolder folder;
+  SampleLift().write(folder);
+  folder.write("hoist.yaml", "# of the yard\nkind: crane  # the small one\n");
+  folder.write("notes.yaml", "kinds: crane\n");
+  folder.write("case.yaml", with(SampleLift().lift_case, "model: gantry", "model: hoists"));
+  Diagnostics diagnostics;
+  ModelLibrary library({});
+  EXPECT_FALSE(read_lift_case("case.yaml", library, diagnostics));
+  EXPECT_EQ(diagnostics.to_text(),
+            "case.yaml:6:12: error: there is no crane model \"hoists\"\n"
+            "    the crane models are gantry, hoist; did you mean \"hoist\"?\n"
+            "    looked for in .\n"
+            "1 error\n");
 }
 
 TEST(LiftCaseErrors, NegativeMass) {

@@ -334,6 +334,8 @@ TEST(MechanismFile, ComplainsAboutGusts) {
               HasSubstr("the gust says neither its table nor all of its shape"));
   EXPECT_THAT(said("{magnitude: 6 m/s, table: [[0 s, 0 m/s], [1 s, 6 m/s]]}"),
               HasSubstr("the gust is given twice, by its table and by its magnitude"));
+  EXPECT_THAT(said("{shape: operating, table: [[0 s, 0 m/s], [1 s, 6 m/s]]}"),
+              HasSubstr("the gust is given twice, by its table and by its shape"));
   EXPECT_THAT(said("{table: [[1 s, 0 m/s], [1 s, 6 m/s]]}"),
               HasSubstr("row 2 of the gust is for 1 s, after 1 s: times must ascend"));
   EXPECT_THAT(said("{table: [[1 s, 0 m/s], [6 m/s, 2 s]]}"),

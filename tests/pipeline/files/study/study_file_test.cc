@@ -39,6 +39,17 @@ TEST(StudyFile, ReadsWhatVaries) {
             "");
 }
 
+TEST(StudyFile, TellsALiftCaseByWhatItIs) {
+  const test::TemporaryFolder folder;
+  folder.write("case.yaml", "case: lift\nload: {model: plate}\n");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_study_file("case.yaml", diagnostics));
+  EXPECT_EQ(diagnostics.to_text(),
+            "case.yaml: error: this file describes a lift case, not a study\n"
+            "    blocklift assess runs it; blocklift new study writes a study of a case\n"
+            "1 error\n");
+}
+
 TEST(StudyFile, RefusesLawsThatMakeNoSense) {
   EXPECT_THAT(complaints_about_spread("law: normal, mean: 3 t"),
               HasSubstr("error: the law lacks its deviation"));
