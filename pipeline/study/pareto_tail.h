@@ -14,6 +14,8 @@ struct ParetoTail {
 
   /// The excess below which a share of them lies.
   double quantile(double share) const;
+  /// The share of them that lies below an excess.
+  double share_below(double excess) const;
 };
 
 /// The likeliest tail of a sample (Grimshaw 1993). Its shape is at least -1/2: below, the largest
