@@ -21,7 +21,9 @@ struct GumbelLaw {
 GumbelLaw fit_gumbel(const std::vector<double>& values);
 
 /// The interval of 95 % of a quantile of the population by its profile likelihood, as
-/// pareto_quantile_interval.
+/// pareto_quantile_interval. Of 400 samples of 30, 60 and 300 values it holds the 99.9 % value in
+/// 95.5 %, 95.3 % and 94.8 %; percentiles of a parametric bootstrap of the same fit hold it in
+/// 90.7 %, 92.0 % and 91.2 % (interval_coverage_test).
 /// @throws std::invalid_argument as fit_gumbel.
 std::pair<double, double> gumbel_quantile_interval(const std::vector<double>& values, double share);
 
