@@ -1,3 +1,4 @@
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -513,6 +514,8 @@ int run_and_report(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that grows beyond `ulimit -f` is an error of writing, as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   return_freed_memory();
   leave_no_files_to_hdf5();
   use_all_of_the_processor(argc, argv);

@@ -301,7 +301,8 @@ int sweep_alone_or_first(const SweepOptions& options) {
     StudyBlocks blocks(study, folder / "members");
     const Member member =
         run_member(study, design.row(*options.whole), *options.whole, blocks, folder / "worst");
-    return member.failure.empty() ? exit_code::done : exit_code::run_failed;
+    if (!member.failure.empty()) throw std::runtime_error(member.failure);
+    return exit_code::done;
   }
   if (options.worker_of) {
     work(options, study, folder);

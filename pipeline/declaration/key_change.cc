@@ -72,7 +72,9 @@ bool descend(const KeyStep& step, const std::string& way, const KeyChange& chang
   diagnostics.error(
       change.mark, fmt::format("there is no {} to change", change.key),
       {node.IsMap() ? names_hint(fmt::format("{} has the keys", place), keys_of(node), step.name)
-                    : fmt::format("{} is no table", place)});
+       : node.IsSequence() && node.size() > 0
+           ? fmt::format("{} is a list: its items are {}[1] to [{}]", place, way, node.size())
+           : fmt::format("{} is no table", place)});
   return false;
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -53,9 +54,13 @@ std::optional<double> number(std::string cell, char separator) {
   return value;
 }
 
+constexpr const char* first_row_hint =
+    "; one line is the header, and others before the first row have to begin with #";
+
 /// Does a logger say so that a value lacks?
 bool says_nothing(const std::string& cell) {
-  constexpr std::array<std::string_view, 6> words{"", "nan", "na", "n/a", "null", "-"};
+  constexpr std::array<std::string_view, 9> words{"",     "nan", "na", "n/a", "#n/a",
+                                                  "null", "-",   "--", "---"};
   return std::find(words.begin(), words.end(), structure::lower(cell)) != words.end();
 }
 
@@ -108,14 +113,16 @@ class SeriesReader {
                               "\" is a number where lines before have instants");
       return *value;
     }
+    const std::string about_first = series_.lines.empty() ? first_row_hint : "";
     if (allowed_ == SeriesCells::numbers)
-      throw SeriesFileError(place_ + "\"" + cell + "\" is not a finite number");
+      throw SeriesFileError(place_ + "\"" + cell + "\" is not a finite number" + about_first);
     if (says_nothing(cell)) return std::numeric_limits<double>::quiet_NaN();
     const std::optional<ClockTime> instant = read_clock_time(cell);
     if (!instant)
       throw SeriesFileError(place_ + "\"" + cell +
                             "\" is neither a finite number nor an instant such as "
-                            "2026-05-04T10:00:00.5Z or 10:00:00.5");
+                            "2026-05-04T10:00:00.5Z or 10:00:00.5" +
+                            about_first);
     const std::vector<double>& before = series_.columns[column];
     if (!kind && std::any_of(before.begin(), before.end(), [](double v) { return !std::isnan(v); }))
       throw SeriesFileError(place_ + "\"" + cell +
@@ -147,17 +154,77 @@ class SeriesReader {
   std::string place_;
 };
 
+/// A character in UTF-8 (RFC 3629).
+void append(char32_t character, std::string& text) {
+  const auto add = [&](char32_t byte) { text += static_cast<char>(byte); };
+  if (character < 0x80) return add(character);
+  if (character < 0x800) {
+    add(0xC0 | (character >> 6));
+  } else if (character < 0x10000) {
+    add(0xE0 | (character >> 12));
+    add(0x80 | ((character >> 6) & 0x3F));
+  } else {
+    add(0xF0 | (character >> 18));
+    add(0x80 | ((character >> 12) & 0x3F));
+    add(0x80 | ((character >> 6) & 0x3F));
+  }
+  add(0x80 | (character & 0x3F));
+}
+
+/// UTF-16 in UTF-8; half of a pair is what does not exist, U+FFFD.
+std::string from_utf16(std::string_view bytes, bool is_little_endian) {
+  constexpr char32_t none = 0xFFFD;
+  std::string text;
+  const auto unit = [&](std::size_t i) -> char32_t {
+    const auto first = static_cast<unsigned char>(bytes[i]),
+               second = static_cast<unsigned char>(bytes[i + 1]);
+    return is_little_endian ? first | char32_t{second} << 8 : second | char32_t{first} << 8;
+  };
+  const auto is_half = [](char32_t one, char32_t from) {
+    return one >= from && one < from + 0x400;
+  };
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    const char32_t one = unit(i);
+    if (is_half(one, 0xD800) && i + 3 < bytes.size() && is_half(unit(i + 2), 0xDC00)) {
+      append(0x10000 + ((one - 0xD800) << 10) + (unit(i + 2) - 0xDC00), text);
+      i += 2;
+    } else {
+      append(is_half(one, 0xD800) || is_half(one, 0xDC00) ? none : one, text);
+    }
+  }
+  return text;
+}
+
+/// The text of a file, by its byte order mark; without one, UTF-16 has a zero in its first
+/// character, which numbers and names in Latin letters have.
+std::string in_utf8(std::string bytes, const std::string& path) {
+  using namespace std::string_view_literals;
+  const std::string_view all = bytes;
+  if (all.starts_with("\xEF\xBB\xBF"sv)) return bytes.substr(3);
+  if (all.starts_with("\xFF\xFE"sv)) return from_utf16(all.substr(2), true);
+  if (all.starts_with("\xFE\xFF"sv)) return from_utf16(all.substr(2), false);
+  if (all.size() > 1 && (all[0] == 0) != (all[1] == 0)) return from_utf16(all, all[1] == 0);
+  if (const std::size_t zero = all.find('\0'); zero != std::string_view::npos)
+    throw SeriesFileError(
+        path + ":" +
+        std::to_string(1 + std::count(bytes.begin(),
+                                      bytes.begin() + static_cast<std::ptrdiff_t>(zero), '\n')) +
+        ": a zero byte, which no text has: the file may be damaged");
+  return bytes;
+}
+
 }  // namespace
 
 SeriesFile read_series_file(const std::filesystem::path& path, SeriesCells allowed) {
-  std::ifstream stream(path);
+  std::ifstream stream(path, std::ios::binary);
   if (!stream) throw SeriesFileError(path.string() + ": the file cannot be read");
+  const std::string text = in_utf8({std::istreambuf_iterator<char>(stream), {}}, path.string());
   SeriesReader reader(path.string(), allowed);
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  std::string line;
-  for (int count = 1; std::getline(stream, line); ++count) {
-    if (count == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
-    reader.take(line, count);
+  int count = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++count) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
+    reader.take(std::string_view(text).substr(begin, end - begin), count);
+    begin = end + (text.compare(end, 2, "\r\n") == 0 ? 2 : 1);
   }
   return reader.finish();
 }

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "algebra/quantile.h"
 #include "pipeline/measurement/measured_tables.h"
+#include "pipeline/measurement/snatches.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -212,17 +215,30 @@ class Judge {
     least_motion_ = is_tension ? 0.02 * std::abs(load) : 0.1 * range(ours);
   }
 
-  std::vector<FaultySamples> faults_among(const std::vector<FaultySamples>& suspects) const {
-    std::vector<FaultySamples> faults;
+  JudgedSamples judge(const std::vector<FaultySamples>& suspects) const {
+    JudgedSamples judged;
+    std::vector<FaultySamples>& faults = judged.faults;
     for (const FaultySamples& one : suspects)
       if (one.fault != Fault::restart && is_common(one) && is_contradicted(one))
         faults.push_back(one);
+    if (is_tension_) {
+      judged.snatches = Snatches(measured_.values, limit_).among(faults);
+      std::erase_if(faults, [&](const FaultySamples& one) {
+        return std::ranges::any_of(judged.snatches, [&](const FaultySamples& snatch) {
+          return snatch.fault == one.fault && snatch.begin == one.begin;
+        });
+      });
+    }
     const std::vector<bool> is_faulty = marked(faults, measured_.size());
-    for (const FaultySamples& one : suspects)
-      if (one.fault == Fault::restart && is_common(one) && is_own_jump(one, is_faulty))
-        faults.push_back(one);
+    const std::vector<FaultySamples> jumps = jumps_of(suspects);
+    for (std::size_t k = 0; k < jumps.size(); ++k) {
+      const std::size_t from = k > 0 ? jumps[k - 1].begin : 0,
+                        to = k + 1 < jumps.size() ? jumps[k + 1].begin : measured_.size();
+      if (is_common(jumps[k]) && is_own_jump(jumps[k], from, to, is_faulty))
+        faults.push_back(jumps[k]);
+    }
     choose_between_jumps(faults, measured_.size());
-    return faults;
+    return judged;
   }
 
  private:
@@ -254,19 +270,41 @@ class Judge {
            !leaps_at_an_end(measured_.values, one, limit_);
   }
 
-  /// Measured less computed jumps as far as the measured quantity does, or half of it at least.
-  bool is_own_jump(const FaultySamples& one, const std::vector<bool>& is_faulty) const {
-    std::vector<double> before, behind;
-    const auto take = [&](std::size_t i, std::vector<double>& side) {
-      if (!is_faulty[i]) side.push_back(measured_.values[i] - scale_ * computed_[i]);
+  static std::vector<FaultySamples> jumps_of(const std::vector<FaultySamples>& suspects) {
+    std::vector<FaultySamples> jumps;
+    std::ranges::copy_if(suspects, std::back_inserter(jumps),
+                         [](const FaultySamples& one) { return one.fault == Fault::restart; });
+    std::ranges::sort(jumps, {}, &FaultySamples::begin);
+    return jumps;
+  }
+
+  /// The level of measured less computed over the first (or the last) samples of [begin, end) that
+  /// are no faults and that were computed; none if there are none.
+  std::optional<double> level(std::size_t begin, std::size_t end, bool at_begin,
+                              const std::vector<bool>& is_faulty) const {
+    std::vector<double> values;
+    for (std::size_t k = begin; k < end && values.size() < samples_of_a_level; ++k) {
+      const std::size_t i = at_begin ? k : begin + end - 1 - k;
+      if (!is_faulty[i] && is_common_[i])
+        values.push_back(measured_.values[i] - scale_ * computed_[i]);
+    }
+    if (values.empty()) return std::nullopt;
+    return algebra::quantile_of(std::move(values), 0.5);
+  }
+
+  /// Measured less computed jumps as far as the measured quantity does, or half of it at least,
+  /// about the jump and for good: over the stretches [from, jump) and [jump, to) as well.
+  bool is_own_jump(const FaultySamples& one, std::size_t from, std::size_t to,
+                   const std::vector<bool>& is_faulty) const {
+    const auto first = level(from, one.begin, true, is_faulty),
+               before = level(from, one.begin, false, is_faulty),
+               behind = level(one.begin, to, true, is_faulty),
+               last = level(one.begin, to, false, is_faulty);
+    if (!first || !before || !behind || !last) return false;
+    const auto is_as_far = [&](double jump) {
+      return jump * one.leap > 0 && std::abs(jump) > std::abs(one.leap) / 2;
     };
-    for (std::size_t i = one.begin; i-- > 0 && before.size() < samples_of_a_level;) take(i, before);
-    for (std::size_t i = one.begin; i < measured_.size() && behind.size() < samples_of_a_level; ++i)
-      take(i, behind);
-    if (before.empty() || behind.empty()) return false;
-    const double jump =
-        algebra::quantile_of(std::move(behind), 0.5) - algebra::quantile_of(std::move(before), 0.5);
-    return jump * one.leap > 0 && std::abs(jump) > std::abs(one.leap) / 2;
+    return is_as_far(*behind - *before) && is_as_far(*last - *first);
   }
 
   const TimeSeries& measured_;
@@ -302,11 +340,16 @@ std::vector<FaultySamples> find_suspects(const TimeSeries& series, bool is_tensi
   return suspects;
 }
 
-std::vector<FaultySamples> find_faults(const TimeSeries& measured, const TimeSeries& computed,
-                                       bool is_tension) {
+JudgedSamples judge_samples(const TimeSeries& measured, const TimeSeries& computed,
+                            bool is_tension) {
   const std::vector<FaultySamples> suspects = find_suspects(measured, is_tension);
   if (suspects.empty()) return {};
-  return Judge(measured, computed, is_tension).faults_among(suspects);
+  return Judge(measured, computed, is_tension).judge(suspects);
+}
+
+std::vector<FaultySamples> find_faults(const TimeSeries& measured, const TimeSeries& computed,
+                                       bool is_tension) {
+  return judge_samples(measured, computed, is_tension).faults;
 }
 
 std::vector<FaultySamples> suspects_as_faults(std::vector<FaultySamples> suspects,
@@ -340,9 +383,25 @@ std::size_t count_left_out(const std::vector<FaultySamples>& faults, std::size_t
   return static_cast<std::size_t>(std::count(is_faulty.begin(), is_faulty.end(), true));
 }
 
+std::string leaps_in_words(const std::vector<FaultySamples>& leaps, const std::string& name,
+                           const std::string& plural, const TimeSeries& series,
+                           const std::string& unit) {
+  const auto [shown, factor] = shown_unit(unit);
+  const FaultySamples& farthest = *std::max_element(
+      leaps.begin(), leaps.end(), [](const FaultySamples& a, const FaultySamples& b) {
+        return std::abs(a.leap) < std::abs(b.leap);
+      });
+  const double leap = factor * farthest.leap;
+  return fmt::format(
+      "{} {} {} at {:.1f} s",
+      leaps.size() == 1 ? fmt::format("a {} of", name)
+                        : fmt::format("{} {}, the farthest of", leaps.size(), plural),
+      std::abs(leap) < 1000 ? fmt::format("{:+.4g}", leap) : fmt::format("{:+.0f}", leap), shown,
+      series.time[farthest.begin]);
+}
+
 std::string faults_in_words(const std::vector<FaultySamples>& faults, const TimeSeries& series,
                             const std::string& unit) {
-  const auto [shown, factor] = shown_unit(unit);
   constexpr std::size_t few = 3;
   std::map<Fault, std::vector<FaultySamples>> by_kind;
   for (const FaultySamples& one : faults) by_kind[one.fault].push_back(one);
@@ -351,16 +410,7 @@ std::string faults_in_words(const std::vector<FaultySamples>& faults, const Time
     const auto from = [&](const FaultySamples& one) { return series.time[one.begin]; };
     text += text.empty() ? "" : "; ";
     if (fault == Fault::spike) {
-      const FaultySamples& farthest = *std::max_element(
-          all.begin(), all.end(), [](const FaultySamples& a, const FaultySamples& b) {
-            return std::abs(a.leap) < std::abs(b.leap);
-          });
-      const double leap = factor * farthest.leap;
-      text += fmt::format(
-          "{} {} {} at {:.1f} s",
-          all.size() == 1 ? "a spike of" : fmt::format("{} spikes, the farthest of", all.size()),
-          std::abs(leap) < 1000 ? fmt::format("{:+.4g}", leap) : fmt::format("{:+.0f}", leap),
-          shown, from(farthest));
+      text += leaps_in_words(all, "spike", "spikes", series, unit);
       continue;
     }
     text += fault == Fault::drop_out ? "it leaps away and back"

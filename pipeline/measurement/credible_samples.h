@@ -30,11 +30,23 @@ struct FaultySamples {
 /// beside them. Spikes stand off from the median of seven samples (Hampel 1974).
 std::vector<FaultySamples> find_suspects(const TimeSeries& series, bool is_tension);
 
+/// Suspects that the computed quantity does not share.
+struct JudgedSamples {
+  std::vector<FaultySamples> faults;
+  /// Leaps that are snatches of the rope (snatches.h) which were not computed: no faults.
+  std::vector<FaultySamples> snatches = {};
+};
+
 /// Those suspects that the computed quantity does not share: it does not move so about them, or
 /// moves on where the measured one stands still, but for a tension near zero that is reached and
 /// left without a leap: such a rope is slack. Of jumps the longest stretch between two stays,
-/// and the others are faults as a whole: which zero is right nobody has measured.
+/// and the others are faults as a whole: which zero is right nobody has measured. A jump that the
+/// computed quantity makes at another time is none: between the beginning of the stretch before it
+/// and the end of the one behind it both have gone as far.
 /// @param measured by the clock of the lift. @param computed not empty.
+JudgedSamples judge_samples(const TimeSeries& measured, const TimeSeries& computed,
+                            bool is_tension);
+/// The faults alone.
 std::vector<FaultySamples> find_faults(const TimeSeries& measured, const TimeSeries& computed,
                                        bool is_tension);
 
@@ -52,5 +64,10 @@ std::size_t count_left_out(const std::vector<FaultySamples>& faults, std::size_t
 /// @param unit SI, of the series.
 std::string faults_in_words(const std::vector<FaultySamples>& faults, const TimeSeries& series,
                             const std::string& unit);
+/// "a snatch of +48 kN at 20.0 s", "3 snatches, the farthest of +48 kN at 20.0 s".
+/// @param leaps at least one.
+std::string leaps_in_words(const std::vector<FaultySamples>& leaps, const std::string& name,
+                           const std::string& plural, const TimeSeries& series,
+                           const std::string& unit);
 
 }  // namespace blocklift::pipeline

@@ -90,6 +90,16 @@ void leave_out(const std::vector<FaultySamples>& faults, HeldChannel& channel,
   channel.measured = without(channel.measured, faults);
 }
 
+/// Says what was measured and not computed.
+void doubt_snatches(const std::vector<FaultySamples>& snatches, const HeldChannel& channel,
+                    std::vector<std::string>& doubts) {
+  if (snatches.empty()) return;
+  doubts.push_back(fmt::format(
+      "{}: {} as of a rope that comes taut with a jerk, which was not computed: not "
+      "left out",
+      channel.name, leaps_in_words(snatches, "leap", "leaps", channel.measured, channel.unit)));
+}
+
 /// Puts every record on the clock of the lift and takes its channels over.
 void take_record(const MeasuredRecord& record, const ResultsReader& results,
                  const std::optional<double>& given, MeasuredLift& lift) {
@@ -120,6 +130,7 @@ void take_record(const MeasuredRecord& record, const ResultsReader& results,
     HeldChannel& channel = channels[k];
     channel.measured = on_clock(std::move(channel.measured), aligned->clock);
     doubt_gaps(channel, lift.doubts);
+    doubt_snatches(aligned->snatches[k], channel, lift.doubts);
     leave_out(aligned->faults[k], channel, lift.doubts);
     lift.channels.push_back(std::move(channel));
   }

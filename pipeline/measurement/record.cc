@@ -197,10 +197,19 @@ class RecordReader {
       diagnostics_.error(row, "the row has no time");
       return;
     }
-    diagnostics_.error(
-        row,
-        fmt::format("the time {:.9g} s does not follow {:.9g} s; time has to rise", time_[i], last),
-        {"sort the rows by their time, and leave one row for each instant"});
+    const std::string hint = "sort the rows by their time, and leave one row for each instant";
+    if (time_[i] == last)
+      diagnostics_.error(row,
+                         fmt::format("the time {:.15g} s is that of an earlier row, as it is too "
+                                     "often: time has to rise",
+                                     last),
+                         {hint, "times with few digits may be rounded to less than a step"});
+    else
+      diagnostics_.error(row,
+                         fmt::format("the time {:.15g} s does not follow {:.15g} s; time has to "
+                                     "rise",
+                                     time_[i], last),
+                         {hint});
   }
 
   void take_rows(const std::vector<std::size_t>& order) {

@@ -49,13 +49,16 @@ std::optional<TimeShift> clock_by_itself(const std::vector<ChannelToAlign>& chan
   return best;
 }
 
-FaultsOfChannels faults_on_clock(const std::vector<ChannelToAlign>& channels,
-                                 const TimeShift& clock) {
-  FaultsOfChannels faults;
-  for (const ChannelToAlign& channel : channels)
-    faults.push_back(find_faults(on_clock(channel.pair.measured, clock), channel.pair.computed,
-                                 channel.is_tension));
-  return faults;
+/// Finds the faults and snatches by a clock.
+void judge_on_clock(const std::vector<ChannelToAlign>& channels, AlignedChannels& aligned) {
+  aligned.faults.clear();
+  aligned.snatches.clear();
+  for (const ChannelToAlign& channel : channels) {
+    JudgedSamples judged = judge_samples(on_clock(channel.pair.measured, aligned.clock),
+                                         channel.pair.computed, channel.is_tension);
+    aligned.faults.push_back(std::move(judged.faults));
+    aligned.snatches.push_back(std::move(judged.snatches));
+  }
 }
 
 }  // namespace
@@ -70,11 +73,11 @@ std::optional<AlignedChannels> align_channels(const std::vector<ChannelToAlign>&
     aligned.clock = *found;
     aligned.is_found = true;
   }
-  aligned.faults = faults_on_clock(channels, aligned.clock);
+  judge_on_clock(channels, aligned);
   if (given || !is_any(aligned.faults)) return aligned;
   if (const std::optional<TimeShift> again = clock_without(channels, aligned.faults)) {
     aligned.clock = *again;
-    aligned.faults = faults_on_clock(channels, aligned.clock);
+    judge_on_clock(channels, aligned);
   }
   return aligned;
 }

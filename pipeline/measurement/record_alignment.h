@@ -17,8 +17,9 @@ struct ChannelToAlign {
 /// A record's channels by the clock of the lift, with what is not credible told apart.
 struct AlignedChannels {
   TimeShift clock;
-  bool is_found = false;                           ///< not given
-  std::vector<std::vector<FaultySamples>> faults;  ///< of each channel, among its own samples
+  bool is_found = false;                             ///< not given
+  std::vector<std::vector<FaultySamples>> faults;    ///< of each channel, among its own samples
+  std::vector<std::vector<FaultySamples>> snatches;  ///< likewise: they were not computed
 };
 
 /// Finds the clock of a record (find_time_shift) and the faults of its channels (find_faults),

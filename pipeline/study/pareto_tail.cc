@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <openturns/DistFunc.hxx>
+#include "pipeline/study/profile_likelihood.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -15,38 +15,6 @@ constexpr double least_shape = -0.5;
 constexpr double largest_shape = 3;
 constexpr double straight = 1e-9;  // shapes nearer to zero are exponential to the last digits
 constexpr double impossible = -std::numeric_limits<double>::infinity();
-
-struct Highest {
-  double place, value;
-};
-
-/// The highest value of a function between two places: the best of a row of them, then by the
-/// golden section between its neighbours.
-template <class Function>
-Highest find_highest(const Function& function, double from, double to) {
-  constexpr int places = 32;
-  constexpr int sections = 30;
-  const double golden = (std::sqrt(5.0) - 1) / 2, step = (to - from) / places;
-  Highest best{from, impossible};
-  for (int i = 0; i <= places; ++i) {
-    const double place = from + step * i;
-    if (const double value = function(place); value > best.value) best = {place, value};
-  }
-  double low = std::max(from, best.place - step), high = std::min(to, best.place + step);
-  const auto at = [&](double share) {
-    const double place = low + share * (high - low);
-    return Highest{place, function(place)};
-  };
-  Highest left = at(1 - golden), right = at(golden);
-  for (int i = 0; i < sections; ++i) {
-    const bool is_right = left.value < right.value;
-    if (const Highest& higher = is_right ? right : left; higher.value > best.value) best = higher;
-    (is_right ? low : high) = is_right ? left.place : right.place;
-    (is_right ? left : right) = is_right ? right : left;
-    (is_right ? right : left) = at(is_right ? golden : 1 - golden);
-  }
-  return best;
-}
 
 /// Quantile of a tail of scale 1.
 double unit_quantile(double shape, double share) {
@@ -92,11 +60,7 @@ class TailLikelihood {
     return find_highest(of_shape, least_shape, largest_shape).value;
   }
 
-  /// By how much a quantile's likelihood may be less than the highest.
-  double allowed_loss() const {
-    const double student = OT::DistFunc::qStudent(count_ - 2, 0.975);
-    return count_ / 2 * std::log1p(student * student / (count_ - 2));
-  }
+  double count() const { return count_; }
 
  private:
   double sum_of_logarithms(double ratio) const {
@@ -119,20 +83,15 @@ class TailLikelihood {
   double count_, largest_ = 0, mean_ = 0;
 };
 
-/// Halves the way from a place that is inside to one that is not; the last that is.
-template <class IsInside>
-double find_end(double inside, double outside, const IsInside& is_inside) {
-  constexpr int halvings = 40;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = (inside + outside) / 2;
-    (is_inside(middle) ? inside : outside) = middle;
-  }
-  return inside;
-}
-
 }  // namespace
 
 double ParetoTail::quantile(double share) const { return scale * unit_quantile(shape, share); }
+
+double ParetoTail::share_below(double excess) const {
+  if (std::abs(shape) < straight) return -std::expm1(-excess / scale);
+  const double inside = 1 + shape * excess / scale;
+  return inside > 0 ? -std::expm1(-std::log(inside) / shape) : 1;
+}
 
 ParetoTail fit_pareto_tail(const std::vector<double>& excesses) {
   return TailLikelihood(excesses).likeliest();
@@ -143,17 +102,13 @@ std::pair<double, double> pareto_quantile_interval(const std::vector<double>& ex
   const TailLikelihood likelihood(excesses);
   const ParetoTail tail = likelihood.likeliest();
   const double value = tail.quantile(share);
-  const double least = likelihood.of(tail) - likelihood.allowed_loss();
+  const double least = likelihood.of(tail) - allowed_loss_of_likelihood(likelihood.count());
   const auto is_inside = [&](double quantile) {
     return likelihood.of_quantile(quantile, share) >= least;
   };
   constexpr double farthest = 1e6;  // times the value: an end that nothing bounds
-  double step = value / 4, inside = value;
-  while (inside < farthest * value && is_inside(inside + step)) {
-    inside += step;
-    step *= 2;
-  }
-  return {find_end(value, 1e-3 * value, is_inside), find_end(inside, inside + step, is_inside)};
+  return {find_end(value, 1e-3 * value, is_inside),
+          find_end_from(value, value / 4, farthest * value, is_inside)};
 }
 
 }  // namespace blocklift::pipeline

@@ -48,6 +48,38 @@ double correlation_over(const std::vector<Eigen::Index>& rows, const Eigen::Matr
   return aa > least && bb > least ? std::clamp(ab / std::sqrt(aa * bb), -1.0, 1.0) : no_index;
 }
 
+/// Indices by the base members of some rows. Samples A and B are alike by chance, which the two
+/// correlations of E take up: least squares of E by both give each its own part (Glen and Isaacs
+/// 2012).
+class PlainIndices {
+ public:
+  PlainIndices(const std::vector<Eigen::Index>& rows, const Eigen::MatrixXd& figures,
+               double smallest)
+      : chance_(correlation_over(rows, figures, 0, 1, smallest)) {
+    for (Eigen::Index v = 0; v < figures.cols() - 2; ++v) {
+      with_a_.push_back(correlation_over(rows, figures, 0, v + 2, smallest));
+      with_b_.push_back(correlation_over(rows, figures, 1, v + 2, smallest));
+    }
+  }
+
+  double first(Eigen::Index v) const { return part_of(with_b_[v], with_a_[v]); }
+  /// Where sample B is all alike there is no chance in it.
+  double total(Eigen::Index v) const {
+    return 1 - (std::isnan(chance_) ? with_a_[v] : part_of(with_a_[v], with_b_[v]));
+  }
+
+ private:
+  double part_of(double own, double other) const {
+    constexpr double least = 1e-6;  // below, the two samples are one
+    const double apart = 1 - chance_ * chance_;
+    // Not a number is not more.
+    return apart > least ? std::clamp((own - other * chance_) / apart, -1.0, 1.0) : no_index;
+  }
+
+  double chance_;  ///< correlation of A and B
+  std::vector<double> with_a_, with_b_;
+};
+
 /// An index with what the bootstrap made of it.
 struct BootstrappedIndex {
   double value = no_index;
@@ -71,18 +103,13 @@ std::vector<IndicesOfVariable> bootstrap_indices(const Eigen::MatrixXd& figures,
   std::vector<IndicesOfVariable> indices(static_cast<std::size_t>(variables));
   std::vector<Eigen::Index> rows;
   for (Eigen::Index row = 0; row < count; ++row) rows.push_back(row);
-  const auto first = [&](Eigen::Index v) {
-    return correlation_over(rows, figures, 1, v + 2, smallest);
-  };
-  const auto total = [&](Eigen::Index v) {
-    return 1 - correlation_over(rows, figures, 0, v + 2, smallest);
-  };
   const auto keep = [](double value, BootstrappedIndex& index) {
     if (!std::isnan(value)) index.again.push_back(value);
   };
+  const PlainIndices all(rows, figures, smallest);
   for (Eigen::Index v = 0; v < variables; ++v) {
-    indices[v].first.value = first(v);
-    indices[v].total.value = total(v);
+    indices[v].first.value = all.first(v);
+    indices[v].total.value = all.total(v);
   }
   // The library's distributions differ between standard libraries; the engine does not.
   std::mt19937_64 engine(1);
@@ -93,9 +120,10 @@ std::vector<IndicesOfVariable> bootstrap_indices(const Eigen::MatrixXd& figures,
   };
   for (int resample = 0; resample < sobol_resamples; ++resample) {
     std::ranges::generate(rows, draw);
+    const PlainIndices drawn(rows, figures, smallest);
     for (Eigen::Index v = 0; v < variables; ++v) {
-      keep(first(v), indices[v].first);
-      keep(total(v), indices[v].total);
+      keep(drawn.first(v), indices[v].first);
+      keep(drawn.total(v), indices[v].total);
     }
   }
   return indices;

@@ -2,121 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 #include <openturns/OT.hxx>
 
 #include "algebra/quantile.h"
+#include "pipeline/study/goodness_of_fit.h"
+#include "pipeline/study/gumbel_law.h"
 #include "pipeline/study/pareto_tail.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 constexpr std::size_t fewest_for_a_fit = 30;
-constexpr int bootstrap_samples = 200;
 constexpr double covered = 0.95;
 
-OT::Sample sample_of(const std::vector<double>& values) {
-  OT::Sample sample(values.size(), 1);
-  for (std::size_t i = 0; i < values.size(); ++i) sample(i, 0) = values[i];
-  return sample;
+ExtremeFit gumbel_fit(const std::vector<double>& values, double share) {
+  const GumbelLaw law = fit_gumbel(values);
+  std::vector<double> shares;
+  for (const double value : values) shares.push_back(law.share_below(value));
+  const auto [low, high] = gumbel_quantile_interval(values, share);
+  return {"Gumbel", share, law.quantile(share),
+          low,      high,  p_of_gumbel_fit(anderson_darling(std::move(shares)))};
 }
 
-/// A law of the family does not fit most samples of itself.
-class UnsteadyFit : public std::runtime_error {
- public:
-  UnsteadyFit() : std::runtime_error("most samples of a law cannot be fitted again") {}
-};
-
-/// The law of a family that fits a sample.
-using FitOfLaw = std::function<OT::Distribution(const OT::Sample&)>;
-
-OT::Distribution gumbel_law(const OT::Sample& sample) { return OT::GumbelFactory().build(sample); }
-
-OT::Distribution pareto_law(const OT::Sample& excesses) {
-  std::vector<double> values;
-  for (OT::UnsignedInteger i = 0; i < excesses.getSize(); ++i) values.push_back(excesses(i, 0));
-  const ParetoTail tail = fit_pareto_tail(values);
-  return OT::GeneralizedPareto(tail.scale, tail.shape, 0);
+/// @param excesses of a share of the figures, `tail`, over a threshold.
+ExtremeFit pareto_fit(const std::vector<double>& excesses, double threshold, double tail,
+                      double share) {
+  const ParetoTail law = fit_pareto_tail(excesses);
+  std::vector<double> shares;
+  for (const double excess : excesses) shares.push_back(law.share_below(excess));
+  const double share_of_tail = 1 - (1 - share) / tail;
+  const auto [low, high] = pareto_quantile_interval(excesses, share_of_tail);
+  return {"generalised Pareto above the 90 % quantile",
+          share,
+          threshold + law.quantile(share_of_tail),
+          threshold + low,
+          threshold + high,
+          p_of_pareto_fit(anderson_darling(std::move(shares)), law.shape)};
 }
 
-/// The value below which the share of the law lies, with its interval over samples that are drawn
-/// from the law and fitted again. As many of these samples as differ more from their own fit than
-/// the given one are the p-value: a law that was fitted to a sample is nearer to it than the tables
-/// of Kolmogorov's statistic have it, which are for a law that is known (Lilliefors 1967). The
-/// library's own test of that kind would draw and fit samples once more.
-/// @throws UnsteadyFit, OT::Exception if there is no such law.
-ExtremeFit fit(const std::string& name, const FitOfLaw& fit_law, const OT::Sample& sample,
-               double share) {
-  const OT::Distribution law = fit_law(sample);
-  ExtremeFit result{name, share, law.computeQuantile(share)[0], 0, 0, 0};
-  const double difference = OT::FittingTest::ComputeKolmogorovStatistics(sample, law);
-  std::vector<double> again;
-  int farther = 0;
-  for (int b = 0; b < bootstrap_samples; ++b) {
-    try {
-      const OT::Sample drawn = law.getSample(sample.getSize());
-      const OT::Distribution refitted = fit_law(drawn);
-      again.push_back(refitted.computeQuantile(share)[0]);
-      farther += int{OT::FittingTest::ComputeKolmogorovStatistics(drawn, refitted) >= difference};
-    } catch (const OT::Exception&) {
-      continue;  // a sample that no law of the family fits
-    }
-  }
-  if (2 * again.size() < std::size_t{bootstrap_samples}) throw UnsteadyFit();
-  std::sort(again.begin(), again.end());
-  // The given sample is one of them.
-  result.p_value = (1.0 + farther) / (1.0 + static_cast<double>(again.size()));
-  const auto at = [&](double part) {
-    return again[static_cast<std::size_t>(part * static_cast<double>(again.size() - 1))];
-  };
-  result.low = at((1 - covered) / 2);
-  result.high = at((1 + covered) / 2);
-  return result;
-}
-
+/// @param values of which some differ by more than rounding.
 std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
-  std::vector<ExtremeFit> fits;
-  if (values.size() < fewest_for_a_fit) return fits;
-  if (!values_vary(values)) return fits;
+  constexpr double share = 0.999, tail = 0.1;
+  if (values.size() < fewest_for_a_fit || !values_vary(values)) return {};
   std::sort(values.begin(), values.end());
-  OT::RandomGenerator::SetSeed(1);  // of the bootstrap
-  constexpr double share = 0.999;
-  // A law that cannot be fitted is not shown.
-  const auto try_to = [](const auto& add_fit) {
-    try {
-      add_fit();
-    } catch (const UnsteadyFit&) {
-      return;
-    } catch (const OT::Exception&) {
-      return;
-    } catch (const std::invalid_argument&) {
-      return;
-    }
-  };
-  try_to([&] { fits.push_back(fit("Gumbel", gumbel_law, sample_of(values), share)); });
-  constexpr double tail = 0.1;
+  std::vector<ExtremeFit> fits{gumbel_fit(values, share)};
   const auto first = static_cast<std::size_t>((1 - tail) * static_cast<double>(values.size()));
   if (values.size() - first < fewest_for_a_fit) return fits;
   const double threshold = values[first - 1];
   std::vector<double> excesses;
   for (std::size_t i = first; i < values.size(); ++i) excesses.push_back(values[i] - threshold);
-  try_to([&] {
-    const double share_of_tail = 1 - (1 - share) / tail;
-    ExtremeFit above = fit("generalised Pareto above the 90 % quantile", pareto_law,
-                           sample_of(excesses), share_of_tail);
-    // The bootstrap's percentiles are far too narrow here.
-    const auto [low, high] = pareto_quantile_interval(excesses, share_of_tail);
-    above.share = share;
-    above.value += threshold;
-    above.low = low + threshold;
-    above.high = high + threshold;
-    fits.push_back(std::move(above));
-  });
+  if (values_vary(excesses)) fits.push_back(pareto_fit(excesses, threshold, tail, share));
   return fits;
 }
 

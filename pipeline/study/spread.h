@@ -18,10 +18,10 @@ struct Quantile {
 struct ExtremeFit {
   std::string law;       ///< "Gumbel", "generalised Pareto above the 90 % quantile"
   double share = 0.999;  ///< of the figures on the better side of the value: below, mostly
-  /// With the interval of 95 %: of Gumbel's law by the parametric bootstrap, of Pareto's by its
-  /// profile likelihood (pareto_tail.h).
+  /// With the interval of 95 % by the profile likelihood (gumbel_law.h, pareto_tail.h).
   double value = 0, low = 0, high = 0;
-  double p_value = 0;  ///< Kolmogorov and Smirnov's: below 0.05 the law does not fit
+  double p_value =
+      0;  ///< Anderson and Darling's (goodness_of_fit.h): below 0.05 the law does not fit
 };
 
 /// What is taken for rounding between values of a figure: a thousandth of a millionth of the

@@ -22,9 +22,11 @@ std::string value_text(const StudyVariable& variable, double value, int digits =
 std::string unit_text(const StudyVariable& variable);
 
 /// Sobol' indices of a figure: how much of its variance each variable has by itself, and with all
-/// others together. With y of sample A, of B, and of A with the variable's column of B (E): first =
-/// corr(yB, yE), total = 1 - corr(yA, yE) (Martinez 2011, "Analyse de sensibilite globale par
-/// decomposition de la variance"). A variable that does nothing has the total 0.
+/// others together. With y of sample A, of B, and of A with the variable's column of B (E), less
+/// their means and over their deviations: yE = first yB + (1 - total) yA by least squares, which
+/// takes off what A and B have in common by chance (Glen and Isaacs 2012). Without that the indices
+/// would be Martinez' corr(yB, yE) and 1 - corr(yA, yE) (2011). A variable that does nothing has
+/// both indices 0.
 ///
 /// The intervals of 95 % are those between the percentiles of a bootstrap of base members (Archer,
 /// Saltelli and Sobol 1997), so that they lie where a correlation can. An index, or an end of its

@@ -152,14 +152,14 @@ std::string extremes_table(const StudyResults& results) {
   }
   if (rows.empty()) return "";
   return "<h2>Extremes</h2>\n<div class=\"scroll\"><table>\n" +
-         cells({"figure", "law", "share of better", "value", "p of Kolmogorov-Smirnov"}, "th") +
+         cells({"figure", "law", "share of better", "value", "p of Anderson-Darling"}, "th") +
          rows +
          "</table></div>\n<p class=\"note\">A law of extremes that was fitted to the members, and "
          "the "
          "value that so many lifts stay on the better side of by it; in brackets the interval of "
-         "95 %, by the bootstrap and of Pareto's law by its profile likelihood. p: how often a "
-         "sample of the law itself differs as much from its "
-         "own fit. Where p is small the law does not hold. A law knows nothing of what bounds a "
+         "95 % by its profile likelihood. p: how often a sample of the law itself differs as much "
+         "from its own fit. Where p is small the law does not hold. A law knows nothing of what "
+         "bounds a "
          "figure, such as the weight of the load.</p>\n";
 }
 

@@ -114,6 +114,8 @@ TEST(KeyChange, SaysWhatIsThereInPlaceOfTheKey) {
   EXPECT_THAT(changed_by("moves[3].by=3 m"), HasSubstr("case.yaml: moves has 2 items"));
   EXPECT_THAT(changed_by("mass[1]=3 m"), HasSubstr("case.yaml: mass is no list"));
   EXPECT_THAT(changed_by("mass.value=3 m"), HasSubstr("case.yaml: mass is no table"));
+  EXPECT_THAT(changed_by("moves.1.by=3 m"),
+              HasSubstr("case.yaml: moves is a list: its items are moves[1] to [2]"));
   EXPECT_THAT(changed_by("ropes=3 m"), HasSubstr("ropes is a table"));
   EXPECT_THAT(changed_by("moves=3 m"), HasSubstr("moves is a list"));
 }

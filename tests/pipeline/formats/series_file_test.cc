@@ -46,6 +46,44 @@ TEST_F(SeriesFiles, AreReadWhateverSetsTheirNumbersApart) {
   }
 }
 
+/// Latin text as UTF-16.
+std::string utf16_of(const std::string& text, bool is_little_endian) {
+  std::string bytes;
+  for (const char one : text) {
+    if (!is_little_endian) bytes += '\0';
+    bytes += one;
+    if (is_little_endian) bytes += '\0';
+  }
+  return bytes;
+}
+
+// As spreadsheets and loggers of Windows save them, and those of a machine of old.
+TEST_F(SeriesFiles, AreReadAsUtf16AndByAnyEndOfLine) {
+  const std::string text = "a,b\r\n0,1.5\r\n# pause\r\n1,-2e3\r\n";
+  for (const std::string& bytes :
+       {"\xFF\xFE" + utf16_of(text, true), "\xFE\xFF" + utf16_of(text, false), utf16_of(text, true),
+        utf16_of(text, false), std::string("a,b\r0,1.5\r# pause\r1,-2e3")}) {
+    const SeriesFile series = read(bytes);
+    EXPECT_THAT(series.names, ElementsAre("a", "b"));
+    ASSERT_EQ(series.columns.size(), 2u);
+    EXPECT_THAT(series.columns[1], ElementsAre(1.5, -2000));
+    EXPECT_THAT(series.lines, ElementsAre(2, 4));
+  }
+  // "ä€" and a character beyond the first plane, in the bytes of UTF-16.
+  const std::string name("\xE4\0\xAC\x20\x3D\xD8\x00\xDE", 8);
+  EXPECT_THAT(read("\xFF\xFE" + name + utf16_of("\n1\n", true)).names,
+              ElementsAre("\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80"));
+}
+
+TEST_F(SeriesFiles, SayWhatStandsBeforeTheFirstRow) {
+  EXPECT_THAT(refusal_of("time,R1\ns,kN\n0,1\n", SeriesCells::of_loggers),
+              HasSubstr("series.csv:2: \"s\" is neither a finite number nor an instant such as "
+                        "2026-05-04T10:00:00.5Z or 10:00:00.5; one line is the header, and others "
+                        "before the first row have to begin with #"));
+  EXPECT_THAT(refusal_of(std::string("a,b\n0,1\n0\0,2\n", 14)),
+              HasSubstr("series.csv:3: a zero byte"));
+}
+
 // A comma that sets numbers apart is none in a number.
 TEST_F(SeriesFiles, TellTheLineOfWhatTheyCannotHold) {
   EXPECT_THAT(refusal_of("a,b\n0,1\n\n# pause\n1,2,5\n"),

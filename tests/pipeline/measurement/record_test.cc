@@ -76,6 +76,8 @@ TEST_F(MeasuredRecords, SayAllThatIsWrongWithTheirPlaces) {
               HasSubstr("is there twice"));
   EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(9, ",1") + "3,1\n"),
               HasSubstr("record.csv:11:1: error: the time 3 s does not follow 8 s"));
+  EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(9, ",1") + "8,1\n"),
+              HasSubstr("record.csv:11:1: error: the time 8 s is that of an earlier row"));
   EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(3, ",1") + "3,x\n"),
               HasSubstr("record.csv:5:1: error: \"x\" is neither a finite number nor an instant"));
   EXPECT_THAT(refusal_of("time [s],ropes.R1 [N]\n" + rows(3, ",1")), HasSubstr("3 rows"));

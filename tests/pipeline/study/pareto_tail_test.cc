@@ -53,8 +53,8 @@ TEST(ParetoTail, RefusesWhatHasNone) {
 }
 
 // 95 % of the intervals of samples should hold what they are of: of 200 a share within 3 % of that,
-// but once in twenty times; and 30 excesses are few for what holds of many. These hold 91 %, those
-// by percentiles of the bootstrap of the same fit held 76 %.
+// but once in twenty times; and 30 excesses are few for what holds of many. These hold 91 %;
+// interval_coverage_test has more samples, and the bootstrap beside them.
 TEST(ParetoTail, NineOfTenIntervalsHoldTheQuantileOfThePopulation) {
   std::mt19937_64 engine(1);
   constexpr int samples = 200;

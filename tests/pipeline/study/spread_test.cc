@@ -160,8 +160,8 @@ TEST(Spread, GumbelOfItsOwnSample) {
   EXPECT_GT(fit.high, inverse(0.999));
 }
 
-// Kolmogorov's own table, for a law that is known, says 0.23 of these values and the Gumbel law
-// that was fitted to them.
+// Kolmogorov's own table, for a law that is known, says 0.23 of these values and a Gumbel law that
+// was fitted to them: tables of known laws do not hold.
 TEST(Spread, GumbelDoesNotFitWhatIsSpreadEvenly) {
   const Spread spread = find_spread("x", even_sample(100, [](double share) { return share; }),
                                     numbers(100), Eigen::MatrixXd(100, 0));

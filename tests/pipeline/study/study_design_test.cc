@@ -157,13 +157,15 @@ TEST(StudyDesign, SobolIndicesOfIshigami) {
 }
 
 // What does nothing has no index, however few the members; a figure that stays has none at all.
-TEST(StudyDesign, InertVariablesHaveNoTotalIndex) {
+TEST(StudyDesign, InertVariablesHaveNoIndex) {
   const StudyFile study =
       study_of(StudyDesign::sensitivity, 32, {uniform_length(0, 1), uniform_length(0, 1)});
   const Eigen::MatrixXd design = make_design(study);
   const Eigen::VectorXd figure = (1000 + design.col(0).array().square()).matrix();
   const Sensitivity found = find_sensitivity(design, figure, *study.members);
   EXPECT_NEAR(found.total[1], 0, 1e-9);
+  EXPECT_NEAR(found.first[1], 0, 1e-9);
+  EXPECT_NEAR(found.total[0], 1, 1e-9);
   EXPECT_NEAR(found.first[0], 1, 1e-9);
   const Eigen::VectorXd still = Eigen::VectorXd::Constant(design.rows(), 3);
   EXPECT_TRUE(find_sensitivity(design, still, *study.members).total.array().isNaN().all());
