@@ -11,7 +11,7 @@
 namespace blocklift::structure {
 
 /// Where the beams of a mesh run: between their vertices, along the curved edge of a shell or solid
-/// if they are its ends, else straight. Elements have it so (Space), and so have masses and lengths.
+/// if they are its ends, else straight. Elements have it so (Space), and masses and lengths.
 class BeamLines {
  public:
   explicit BeamLines(const Mesh& mesh);
