@@ -41,7 +41,7 @@ std::vector<double> lagrange_slopes(int degree, double x) {
 
 /// Axes 1, 2, 3 of a beam at a point, in rows: those of the beam, but that axis 1 is the tangent
 /// where it runs along a curved edge.
-Eigen::Matrix3d axes_at(const Mesh& mesh, const Beam& beam, const Vector3& tangent) {
+Eigen::Matrix3d axes_along_tangent(const Mesh& mesh, const Beam& beam, const Vector3& tangent) {
   constexpr double straight = 1e-9;
   Eigen::Matrix3d axes = beam_axes(mesh, beam);
   const bool is_straight = tangent.cross(Vector3(axes.row(0))).norm() <= straight * tangent.norm();
@@ -150,7 +150,7 @@ BeamPoint beam_point(const Space& space, int cell, double xi) {
     tangent += slopes[i] * space.nodes().col(located.nodes[i]);
     point.place += values[i] * space.nodes().col(located.nodes[i]);
   }
-  const Eigen::Matrix3d axes = axes_at(space.mesh(), beam, tangent);
+  const Eigen::Matrix3d axes = axes_along_tangent(space.mesh(), beam, tangent);
   const double stretch = tangent.norm();
   point.weight = stretch;
   point.strain.resize(6, 6 * static_cast<Eigen::Index>(values.size()));
