@@ -39,6 +39,15 @@ std::vector<double> lagrange_slopes(int degree, double x) {
   return slopes;
 }
 
+/// Axes 1, 2, 3 of a beam at a point, in rows: those of the beam, but that axis 1 is the tangent
+/// where it runs along a curved edge.
+Eigen::Matrix3d axes_along_tangent(const Mesh& mesh, const Beam& beam, const Vector3& tangent) {
+  constexpr double straight = 1e-9;
+  Eigen::Matrix3d axes = beam_axes(mesh, beam);
+  const bool is_straight = tangent.cross(Vector3(axes.row(0))).norm() <= straight * tangent.norm();
+  return is_straight ? axes : axes_along(tangent, axes.row(1));
+}
+
 /// Stiffness of a beam's cell as if both ends passed everything on.
 Eigen::MatrixXd whole_stiffness(const Space& space, int cell) {
   const Eigen::Index size = 6 * (space.beams()[cell].degree + 1);
@@ -128,7 +137,6 @@ Eigen::MatrixXd motion_with_releases(const Eigen::MatrixXd& stiffness,
 BeamPoint beam_point(const Space& space, int cell, double xi) {
   const BeamCell& located = space.beams()[cell];
   const Beam& beam = space.mesh().beams[located.beam];
-  const Eigen::Matrix3d axes = beam_axes(space.mesh(), beam);
   const auto values = lagrange_values(located.degree, xi);
   const auto slopes = lagrange_slopes(located.degree, xi);
   const double share = located.origin + located.size * xi;
@@ -142,6 +150,7 @@ BeamPoint beam_point(const Space& space, int cell, double xi) {
     tangent += slopes[i] * space.nodes().col(located.nodes[i]);
     point.place += values[i] * space.nodes().col(located.nodes[i]);
   }
+  const Eigen::Matrix3d axes = axes_along_tangent(space.mesh(), beam, tangent);
   const double stretch = tangent.norm();
   point.weight = stretch;
   point.strain.resize(6, 6 * static_cast<Eigen::Index>(values.size()));

@@ -22,7 +22,8 @@ struct BeamPoint {
 /// Timoshenko: with the centroid's displacement u_c = u + theta x r, r its offset from the nodes'
 /// line,
 ///   (stretch, shears) = d u_c / ds + t x theta,  (twist, curvatures) = d theta / ds
-/// in the beam's axes, t being its unit tangent.
+/// in the beam's axes, t being its unit tangent. Along a curved edge (BeamLines) axis 1 is the
+/// tangent at the point, and axis 2 what of the beam's own lies across it.
 BeamPoint beam_point(const Space& space, int cell, double xi);
 
 /// Section forces about the centroid (N, Q_2, Q_3, M_1, M_2, M_3) for the strains of BeamPoint:

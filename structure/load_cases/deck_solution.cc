@@ -139,9 +139,11 @@ double size_of(const Space& space) {
 /// against the larger of both, with the deck's size as the arm.
 /// Loads count beside the reactions: of loads that are in balance by themselves (a strip pulled at
 /// both ends, heat that nothing holds) the reactions are rounding.
-void sum_up(const Space& space, const Eigen::VectorXd& load, DeckCaseSolution& solution) {
+/// @param rounding_force as of require_balance, N
+void sum_up(const Space& space, const Eigen::VectorXd& load, double rounding_force,
+            DeckCaseSolution& solution) {
   solution.applied = resultant(space, load);
-  double forces = 0, moments = 0;
+  double forces = rounding_force, moments = 0;
   for (Eigen::Index row = 0; row < load.size(); row += 6) {
     forces += load.segment<3>(row).norm();
     moments += load.segment<3>(row + 3).norm();
@@ -228,10 +230,13 @@ void add(std::vector<SupportReaction>& reactions, const SupportReaction& one) {
 /// What is stiffened by nothing but a stiffness that keeps it at rest (assemble_stiffness) takes
 /// loads away from the supports. Loads may balance one another: what is missing is held against all
 /// forces and moments there are, with the deck's size as the arm.
+/// @param rounding_force what the rounding of motions that supports enforce exerts, N: where they
+/// move the whole as a rigid body there is nothing else.
 void require_balance(const Space& space, const Eigen::Ref<const Eigen::VectorXd>& load,
-                     const DeckCaseSolution& solution, const DeckLoadCase& load_case) {
+                     double rounding_force, const DeckCaseSolution& solution,
+                     const DeckLoadCase& load_case) {
   constexpr double most = 1e-3;  // rounding leaves 1e-6 where plates are thin
-  double forces = 0, moments = 0;
+  double forces = rounding_force, moments = 0;
   for (Eigen::Index row = 0; row < load.size(); row += 6) {
     forces += load.segment<3>(row).norm();
     moments += load.segment<3>(row + 3).norm();
@@ -303,6 +308,8 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
   const Eigen::MatrixXd unknowns = system.solve(acting);
   const Eigen::VectorXd unloaded = system.solve(Eigen::VectorXd::Zero(acting.rows()));
   const bool is_moved = !unloaded.isZero(0);
+  constexpr double rounding = 1e-9;  // of what an unknown's enforced motion alone would exert
+  const double rounding_force = rounding * unloaded.cwiseAbs().cwiseProduct(diagonal).maxCoeff();
   const Eigen::MatrixXd forces = system.reactions(unknowns, acting);
   const Eigen::MatrixXd motions = space.expand(unknowns);
   for (std::size_t c = 0; c < cases.size(); ++c) {
@@ -325,8 +332,8 @@ void solve_supported(const ElasticModel& model, const Deck& deck, const std::vec
                    refuse_loose(space, deck.load_cases[cases[c]],
                                 most_moved_freedom(space, solution.motion));
                  });
-    sum_up(space, loads.col(column), solution);
-    require_balance(space, loads.col(column), solution, deck.load_cases[cases[c]]);
+    sum_up(space, loads.col(column), rounding_force, solution);
+    require_balance(space, loads.col(column), rounding_force, solution, deck.load_cases[cases[c]]);
   }
   result.times.solve += watch.lap();
 }

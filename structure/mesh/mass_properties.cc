@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "structure/mesh/beam_lines.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -114,16 +115,11 @@ std::vector<MassSum> sums_by_group(const Mesh& mesh) {
           sum.add(mass, point + section.offset * normal);
         });
   }
-  for (const Beam& beam : mesh.beams) {
-    const Vector3 from = mesh.vertices[beam.vertices[0]] + beam.offset[0];
-    const Vector3 line = mesh.vertices[beam.vertices[1]] + beam.offset[1] - from;
-    const double half = 0.5 / std::sqrt(3.0);
-    for (const double place : {0.5 - half, 0.5 + half}) {
-      const BeamSection section = section_at(mesh, beam, place);
+  const BeamLines lines(mesh);
+  for (const Beam& beam : mesh.beams)
+    for (const BeamLines::Part& part : lines.centroid_parts(beam))
       of_region(beam.region)
-          .add(mass_per_length(mesh, section) * line.norm() / 2, from + place * line);
-    }
-  }
+          .add(mass_per_length(mesh, section_at(mesh, beam, part.share)) * part.length, part.place);
   for (const Solid& solid : mesh.solids) {
     const ElementKind& kind = topology_of(solid.shape).kind;
     const Eigen::Matrix3Xd places = places_of(mesh, solid);

@@ -23,8 +23,8 @@ double mass_per_area(const Mesh& mesh, const Shell& shell, double thickness);
 double mass_per_length(const Mesh& mesh, const BeamSection& section);
 
 /// Mass of a mesh: plates over their mid-surfaces (Gauss' rule, exact for flat plates), beams along
-/// the lines of their centroids, point masses. What lies across a plate or a beam's line (t^2 / 12
-/// and the like) is left out of the inertia. Shells without section weigh nothing.
+/// the lines of their centroids (BeamLines), point masses. What lies across a plate or a beam's
+/// line (t^2 / 12 and the like) is left out of the inertia. Shells without section weigh nothing.
 MeshMass mass_properties(const Mesh& mesh);
 
 /// The same of each group; the last entry is the point masses.

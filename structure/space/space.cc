@@ -15,6 +15,7 @@
 #include "structure/error.h"
 #include "structure/index.h"
 #include "structure/large_pages.h"
+#include "structure/mesh/beam_lines.h"
 #include "structure/mesh/fields/shell_edges.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/edge_nodes.h"
@@ -296,10 +297,9 @@ void Space::make_beams(const Resolution& resolution) {
     }
     return located;
   };
+  const BeamLines lines(*mesh_);
   const auto point_on = [&](const BeamCell& cell, double xi) -> Vector3 {
-    const auto& ends = mesh_->beams[cell.beam].vertices;
-    const Vector3 a = mesh_->vertices[ends[0]], b = mesh_->vertices[ends[1]];
-    return a + (cell.origin + cell.size * xi) * (b - a);
+    return lines.point_at(mesh_->beams[cell.beam], cell.origin + cell.size * xi).place;
   };
   const auto edges = edges_of_shells(*mesh_);
   const auto is_on_edge = [&](const BeamCell& cell) {

@@ -29,6 +29,14 @@ int own_unknown(const Space& space, int freedom) {
   return end - begin == 1 && begin->weight == 1 ? begin->unknown : -1;
 }
 
+/// Points on one line: what lies across it is held at the other end, and the turn about it here.
+std::vector<HeldComponent> hold_line(int here, int there, const Vector3& along) {
+  int axis = 0;  // that lies most nearly along the line
+  along.cwiseAbs().maxCoeff(&axis);
+  return {{here, 0},       {here, 1}, {here, 2}, {there, (axis + 1) % 3}, {there, (axis + 2) % 3},
+          {here, 3 + axis}};
+}
+
 }  // namespace
 
 std::vector<int> free_nodes(const Space& space) {
@@ -42,6 +50,7 @@ std::vector<int> free_nodes(const Space& space) {
 
 std::vector<HeldComponent> hold_points(const Eigen::Matrix3Xd& points) {
   if (points.cols() < 3) throw ModelError("the mesh has too few nodes to be held");
+  constexpr double on_line = 1e-6;  // of the length: nine digits of a deck leave 1e-8
   const Vector3 middle = points.rowwise().mean();
   std::array<Eigen::Index, 3> point{};
   (points.colwise() - middle).colwise().squaredNorm().maxCoeff(&point[0]);
@@ -54,7 +63,8 @@ std::vector<HeldComponent> hold_points(const Eigen::Matrix3Xd& points) {
           .colwise()
           .norm()
           .maxCoeff(&point[2]);
-  if (!(distance > 1e-9 * length)) throw ModelError("all nodes of the mesh lie on one line");
+  if (!(distance > on_line * length))
+    return hold_line(static_cast<int>(point[0]), static_cast<int>(point[1]), along);
 
   Eigen::Matrix<double, 6, 6> rows;
   for (int axis = 0; axis < 3; ++axis) rows.row(axis) = rigid_row(Vector3::Zero(), axis, length);
@@ -86,8 +96,13 @@ std::vector<FixedUnknown> statically_determinate_support(const Space& space) {
   for (std::size_t i = 0; i < candidates.size(); ++i)
     places.col(i) = space.nodes().col(candidates[i]);
   std::vector<FixedUnknown> support;
-  for (const HeldComponent& held : hold_points(places))
-    support.push_back({own_unknown(space, 6 * candidates[held.point] + held.axis), 0});
+  for (const HeldComponent& held : hold_points(places)) {
+    const int unknown = own_unknown(space, 6 * candidates[held.point] + held.axis);
+    if (unknown < 0)
+      throw ModelError(
+          "all nodes of the mesh lie on one line, and nothing resists a turn about it");
+    support.push_back({unknown, 0});
+  }
   return support;
 }
 

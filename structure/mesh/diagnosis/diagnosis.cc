@@ -14,6 +14,7 @@
 
 #include "algebra/decompositions.h"
 #include "structure/index.h"
+#include "structure/mesh/beam_lines.h"
 #include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/beams/section_shear.h"
 #include "structure/mesh/diagnosis/touching_parts.h"
@@ -179,8 +180,8 @@ class Doctor {
         add("warped shells", Severity::warning, shell.label, centre(shell));
       }
     }
-    for (const Beam& beam : mesh_.beams)
-      result_.beam_length += (vertex(beam.vertices[1]) - vertex(beam.vertices[0])).norm();
+    const BeamLines lines(mesh_);
+    for (const Beam& beam : mesh_.beams) result_.beam_length += lines.length(beam);
     say("folded shells",
         "{} shells are folded: their corners are not in turn about them, or one turns inwards",
         count("folded shells"));

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -124,6 +126,68 @@ TEST(Beam, TimoshenkosCantilever) {
                 close * w_z);
     EXPECT_NEAR(tip_motion(mesh, degree, unit(3, force))[3], force * length / (g * s.torsion),
                 close * w_z);
+  }
+}
+
+// A quarter of a ring of a metre, along the curved edges of four shells that are next to nothing,
+// clamped at one end and pulled outwards at the other. By Castigliano, with the centroids on a
+// radius r: w = pi / 4 F r (r^2 / E I + 1 / E A + 1 / G A_s). Turned as a rigid body the bar stores
+// nothing, since its nodes lie on the curve, as those of the shells do that they move with. Four
+// parabolas leave 7e-5 of w, and straight lines for the arms to their centroids 4e-3.
+TEST(Beam, AQuarterOfARingAlongCurvedEdges) {
+  constexpr int count = 4;
+  const auto on_ring = [](double share, double z) {
+    const double angle = share * std::numbers::pi / 2;
+    return Vector3(std::cos(angle), std::sin(angle), z);
+  };
+  for (const auto& [inwards, tolerance] : {std::pair(0.0, 3e-4), std::pair(0.1, 8e-3)}) {
+    Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+    mesh.materials.push_back(testing::plain_steel());
+    mesh.materials.back().youngs_modulus *= 1e-9;
+    mesh.shell_sections[0].material = 1;
+    mesh.beam_sections = {sample_section()};
+    for (int i = 0; i <= count; ++i)
+      for (const double z : {1.0, 0.0}) mesh.vertices.push_back(on_ring(1.0 * i / count, z));
+    for (int i = 0; i < count; ++i) {
+      Shell shell;
+      shell.vertices = {2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 3};
+      shell.curvature = i;
+      mesh.shells.push_back(shell);
+      Eigen::Matrix3Xd points(3, 9);
+      for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+          points.col(3 * row + column) = on_ring((i + 0.5 * column) / count, 1 - 0.5 * row);
+      mesh.curved_shells.push_back(points);
+      Beam beam;
+      beam.vertices = {2 * i + 1, 2 * i + 3};
+      beam.axis_2 = Vector3::UnitZ();
+      for (int end = 0; end < 2; ++end)
+        beam.offset[static_cast<std::size_t>(end)] = -inwards * on_ring(1.0 * (i + end) / count, 0);
+      mesh.beams.push_back(beam);
+    }
+    const Space space(mesh, {2, {}});
+    const Vector3 turn(0.3, -0.2, 0.5);
+    for (std::size_t cell = 0; cell < space.beams().size(); ++cell) {
+      const Eigen::MatrixXd stiffness = beam_stiffness(space, static_cast<int>(cell));
+      Eigen::VectorXd motion(stiffness.rows());
+      for (std::size_t i = 0; i < space.beams()[cell].nodes.size(); ++i) {
+        const Vector3 place = space.nodes().col(space.beams()[cell].nodes[i]);
+        motion.segment<6>(6 * static_cast<Eigen::Index>(i)) << turn.cross(place), turn;
+      }
+      EXPECT_LT((stiffness * motion).norm(), 1e-12 * stiffness.norm());
+    }
+    std::vector<FixedUnknown> fixed;
+    clamp(space, on_ring(0, 0), fixed);
+    Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
+    const int tip = space.node_of_vertex(2 * count + 1);
+    loads[6 * tip + 1] = force;
+    const BeamSection s = sample_section();
+    const Material m = testing::plain_steel();
+    const double e = m.youngs_modulus, r = 1 - inwards;
+    const double expected = std::numbers::pi / 4 * force * r *
+                            (r * r / (e * s.second_moment_2) + 1 / (e * s.area) +
+                             1 / (m.shear_modulus() * s.shear_area_3));
+    EXPECT_NEAR(testing::solve(space, loads, fixed)[6 * tip + 1], expected, tolerance * expected);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -77,6 +78,26 @@ TEST(EnforcedMotion, ReplacesTheConstraintsOwn) {
       "SPC,1,2,2,0.005\nSPC1,1,23456,3\nSPCD,9,2,2,-0.001\nFORCE,3,3,,1000.,1.,0.,0.\nENDDATA\n");
   // The grid's y axis is against x.
   expect_bar(deck, {{0.001, 0}, {-0.005, 1000}});
+}
+
+// The usual trial of a deck: turned by its one support it follows as a rigid body, and there is no
+// force but rounding, which need not be in balance.
+TEST(EnforcedMotion, OfARigidBodyExertsNothing) {
+  const Deck deck = test::nastran(
+      subcases("9") +
+      "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,1.,0.\nGRID,4,,0.,1.,0.\n"
+      "CQUAD4,1,1,1,2,3,4\nPSHELL,1,1,.01,1,,1\nMAT1,1,2.+11,,0.3,7850.\nSPC1,1,123456,1\n"
+      "SPCD,9,1,3,0.002,1,5,0.001\nSPCD,9,1,6,0.0007\nENDDATA\n");
+  Mesh mesh = deck.mesh;
+  mesh.materials[0].yield_stress = 235e6;
+  const ElasticModel model(std::move(mesh), {1, {}});
+  const DeckSolution solution = solve_deck(model, deck, 1);
+  ASSERT_EQ(solution.cases.size(), 1U);
+  const Vector3 place(2, 1, 0), shift(0, 0, 0.002), turn(0, 0.001, 0.0007);
+  const Vector3 moved = solution.cases[0].motion.segment<3>(6L * model.space().node_of_vertex(2));
+  EXPECT_LT((moved - shift - turn.cross(place)).norm(), 1e-12);
+  EXPECT_LT(solution.cases[0].force_residual, 1e-3);
+  EXPECT_LT(solution.cases[0].moment_residual, 1e-3);
 }
 
 TEST(EnforcedMotion, OfWhatIsFreeIsRefused) {

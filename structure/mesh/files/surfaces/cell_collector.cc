@@ -69,9 +69,9 @@ class Collector {
   void add_curve(int curve, int region) {
     for_each_element(1, curve, [&](std::size_t tag, const std::size_t* nodes, CellKind kind) {
       const int first = vertex(nodes[0]), last = vertex(nodes[1]);
-      // Along a straight edge of a shell a beam bends with all of it, and not at three nodes alone.
-      const bool is_whole = kind.nodes == 2 || (edge_middles_.contains(nodes[2]) &&
-                                                is_straight(nodes[0], nodes[2], nodes[1]));
+      // Along the edge of a shell a beam bends with all of it (BeamLines), and not at three nodes
+      // alone.
+      const bool is_whole = kind.nodes == 2 || edge_middles_.contains(nodes[2]);
       const int middle = is_whole ? last : vertex(nodes[2]);
       add_beam(tag, first, middle, region, curve);
       if (middle != last) add_beam(tag, middle, last, region, curve);
@@ -144,12 +144,6 @@ class Collector {
       throw ModelError(fmt::format("an element names node {}, which does not exist", tag));
     const double* of_node = places_.data() + 3 * known->second;
     return length_ * Vector3(of_node[0], of_node[1], of_node[2]);
-  }
-
-  /// Does a node lie in the middle between two others?
-  bool is_straight(std::size_t from, std::size_t middle, std::size_t to) const {
-    const Vector3 begin = place(from), end = place(to);
-    return (place(middle) - (begin + end) / 2).norm() <= straight * (end - begin).norm();
   }
 
   int vertex(std::size_t tag) {

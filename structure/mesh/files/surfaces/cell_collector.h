@@ -16,9 +16,9 @@ struct EntityRegions {
 /// order, to a deck as shells and beams without sections (-1), and the nodes that they use.
 ///
 /// Second-order cells whose edges are straight become plain ones; a second-order line along a
-/// shell's straight edge becomes one beam. Else it becomes two, and where it lies on a shell's
-/// curved edge, its middle is fastened to that. Physical groups of any dimension become sets.
-/// Numbers are those of Gmsh's nodes and elements.
+/// shell's edge becomes one beam, curved as the edge is, else two. Where one ends in the middle of
+/// a shell's curved edge, that middle is fastened to it. Physical groups of any dimension become
+/// sets. Numbers are those of Gmsh's nodes and elements.
 /// @param length of the unit of the model's coordinates, m.
 /// @throws ModelError naming kinds of elements beyond these.
 void collect_cells(const EntityRegions& entities, double length, Deck& deck);

@@ -14,7 +14,8 @@ void give_thickness(Mesh& mesh, const std::string& group, double thickness, int 
 /// Gives the beams of a group that have no section a profile, which stands towards a direction.
 ///
 /// Its foot is on the faces of the plates along whose edges the beams lie and whose normal is
-/// within 45 degrees of that direction; else its origin is on the nodes.
+/// within 45 degrees of that direction; else its origin is on the nodes. Where two beams of the
+/// group meet at less than 46 degrees, so do the lines of their centroids.
 /// @param towards none, of round profiles alone: they have their middle on the nodes.
 /// @throws ModelError naming a beam that runs along the direction.
 void give_profile(Mesh& mesh, const std::string& group, const Profile& profile,

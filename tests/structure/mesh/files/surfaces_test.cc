@@ -225,7 +225,8 @@ TEST_F(Surfaces, ABoxFromStepWeighsAsThatOfPlates) {
 }
 
 // Frames within and without a pipe of flat shells: each piece stands on its shell's face, along its
-// normal, where one direction for all would leave most of them lying aslant.
+// normal, where one direction for all would leave most of them lying aslant. Their centroids lie on
+// a polygon of its own, whose sides are as long as its distance from the axis has it.
 TEST(FrameAxis, RingFramesStandTowardsTheAxisOrAwayFromIt) {
   constexpr int count = 12;
   const double radius = 2, thickness = 0.01, height = 0.15;
@@ -261,8 +262,16 @@ TEST(FrameAxis, RingFramesStandTowardsTheAxisOrAwayFromIt) {
           (mesh.vertices[beam.vertices[0]] + mesh.vertices[beam.vertices[1]]) / 2 - foot;
       const Vector3 radial = Vector3(middle.x(), middle.y(), 0).normalized();
       EXPECT_LT((beam.axis_2 - side * radial).norm(), 1e-12);
-      for (const Vector3& offset : beam.offset)
-        EXPECT_LT((offset - side * (thickness / 2 + height / 2) * radial).norm(), 1e-12);
+      const double away = side * (thickness / 2 + height / 2), half = std::numbers::pi / count;
+      Vector3 ends[2];
+      for (std::size_t end = 0; end < 2; ++end) {
+        EXPECT_NEAR(beam.offset[end].dot(radial), away, 1e-12);
+        ends[end] = mesh.vertices[beam.vertices[end]] + beam.offset[end];
+        const Vector3 from_axis = ends[end] - foot - Vector3(0, 0, 1);
+        EXPECT_NEAR(from_axis.norm(), radius + away / std::cos(half), 1e-12);
+      }
+      EXPECT_NEAR((ends[1] - ends[0]).norm(),
+                  2 * std::sin(half) * radius + 2 * std::tan(half) * away, 1e-12);
     }
     check_mesh(mesh);
   }
