@@ -84,13 +84,16 @@ void forget_columns(RiggingStock& stock) {
   for (StockSheave& sheave : stock.sheaves) sheave.name.mark = without_column(sheave.name.mark);
 }
 
-/// Whether a file has the line `kind: crane` near its beginning. It is not parsed: the folder of a
-/// case may hold many large files.
+/// Whether a file has the line `kind: crane` near its beginning. No more of it is read: the folder
+/// of a case may hold many large files, and pipes.
 bool says_kind(const fs::path& file, const std::string& kind) {
-  constexpr int most_lines = 100;
-  std::ifstream stream(file);
-  std::string line;
-  for (int i = 0; i < most_lines && std::getline(stream, line); ++i) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;
+  std::string beginning(10000, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  std::istringstream lines(beginning.substr(0, static_cast<std::size_t>(stream.gcount())));
+  for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string key, value;
     if (line.starts_with("kind:") && words >> key >> value) return value == kind;

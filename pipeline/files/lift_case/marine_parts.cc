@@ -334,9 +334,11 @@ class LineChecker {
           std::find(known_.begin(), known_.end(), body) != known_.end()) {
         continue;
       }
+      std::vector<std::string> known = {"world"};
+      known.insert(known.end(), known_.begin(), known_.end());
       diagnostics_.error(point->body.mark,
                          fmt::format("{} ends at body \"{}\", which does not exist", line, body),
-                         {names_hint("the bodies are \"world\" and", known_, body)});
+                         {names_hint("the bodies are", known, body)});
     }
     if (!from.body.value.empty() && from.body.value == to.body.value) {
       diagnostics_.error(from.body.mark, fmt::format("{} has both ends on one body", line));

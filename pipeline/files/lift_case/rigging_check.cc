@@ -141,7 +141,9 @@ void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
     if (rope.winch && rope.winch->range[0].value >= rope.winch->range[1].value) {
       diagnostics.error(
           rope.name.mark,
-          fmt::format("the range of the winch of rope {} does not ascend", rope.name.value));
+          fmt::format(
+              "the range of the winch of rope {} does not ascend: {:g} m comes before {:g} m",
+              rope.name.value, rope.winch->range[0].value, rope.winch->range[1].value));
     }
   }
   if (all_known && !lift_case.ropes.empty() && !load_hangs) {

@@ -75,14 +75,12 @@ class PointResolver {
   }
 
   void fail_body(const Located<std::string>& body) {
-    const std::string kinds =
-        "a body is \"world\", \"load\", a vessel, a spreader, or crane and body, for example "
-        "C1.gantry";
-    std::vector<std::string> known = names_of(case_.vessels);
+    std::vector<std::string> known = {"world", "load"};
+    for (const std::string& vessel : names_of(case_.vessels)) known.push_back(vessel);
     for (const SpreaderInCase& bar : case_.spreaders) known.push_back(bar.name.value);
     fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
-         known.empty() ? kinds
-                       : names_hint(kinds + "; the vessels and spreaders are", known, body.value));
+         names_hint("a body is crane and body, for example C1.gantry, or one of", known,
+                    body.value));
   }
 
   std::optional<ResolvedPoint> resolve_eye(const Located<std::string>& name,

@@ -549,6 +549,8 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
               HasSubstr("would float at a draught of 7 m"));
   EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: B2"),
               HasSubstr("tugger line T1 ends at body \"B2\", which does not exist"));
+  EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: wold"),
+              HasSubstr("did you mean \"world\"?"));
   EXPECT_THAT(complaints_of_change("length: 35 m, stiffness: 100 kN/m", "stiffness: 100 kN/m"),
               HasSubstr("neither what tension it holds nor how it stretches"));
   EXPECT_THAT(
