@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -17,6 +16,7 @@
 #include "structure/mesh/fields/shell_edges.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/bilinear_shear.h"
+#include "structure/stress/place_grid.h"
 #include "structure/stress/square_about.h"
 #include "structure/stress_tensor.h"
 
@@ -99,43 +99,6 @@ std::vector<double> starts_along(double length, double size) {
   return starts;
 }
 
-/// Numbered places in cubes, found by the box that holds them.
-class PlaceGrid {
- public:
-  explicit PlaceGrid(double cube) : cube_(cube) {}
-
-  void add(const Vector3& place, int number) { cubes_[cube_of(place)].push_back(number); }
-  /// Visits all places in the box, and more about it.
-  template <typename Visit>
-  void visit(const Vector3& lower, const Vector3& upper, const Visit& visit_one) const {
-    const Cube first = cube_of(lower), last = cube_of(upper);
-    for (long x = first[0]; x <= last[0]; ++x)
-      for (long y = first[1]; y <= last[1]; ++y)
-        for (long z = first[2]; z <= last[2]; ++z) {
-          const auto found = cubes_.find({x, y, z});
-          if (found == cubes_.end()) continue;
-          for (const int number : found->second) visit_one(number);
-        }
-  }
-
- private:
-  using Cube = std::array<long, 3>;
-  struct Hash {
-    std::size_t operator()(const Cube& cube) const {
-      std::size_t hash = 0;
-      for (const long i : cube) hash = hash * 1000003 + static_cast<std::size_t>(i);
-      return hash;
-    }
-  };
-  Cube cube_of(const Vector3& place) const {
-    return {std::lround(std::floor(place.x() / cube_)), std::lround(std::floor(place.y() / cube_)),
-            std::lround(std::floor(place.z() / cube_))};
-  }
-
-  double cube_;
-  std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
-};
-
 /// The squares of one field.
 class SquarePlacer {
  public:
@@ -145,9 +108,7 @@ class SquarePlacer {
   /// The square with its centre nearest to a place, from a shell of its field on; see square_about.
   std::optional<Square> about(const PlateField& field, int start_shell,
                               const Vector3& place) const {
-    const FieldEdge& first = field.outlines.front().front();
-    const Vector3 along =
-        position_of(place_of(first, first.length)) - position_of(place_of(first, 0));
+    const Vector3 along = first_direction(field, start_shell);
     std::optional<Square> nearest;
     double smallest = 2 * size_ * (1 + 1e-9);
     ShellPlace start{start_shell, {0.5, 0.5}};
@@ -181,6 +142,49 @@ class SquarePlacer {
 
   Vector3 position_of(const ShellPlace& place) const {
     return position(mesh_, mesh_.shells[place.shell], place.xi);
+  }
+
+  Vector3 way_along(const FieldEdge& edge) const {
+    return position_of(place_of(edge, edge.length)) - position_of(place_of(edge, 0));
+  }
+
+  /// Has an outline two corners? A closed tank has none, and a pipe's ends where it begins.
+  bool has_corner(const PlateField& field) const {
+    if (field.outlines.empty()) return false;
+    const FieldEdge& first = field.outlines.front().front();
+    return way_along(first).norm() > 1e-6 * first.length;
+  }
+
+  /// From the outline's first corner to the next one; without them along a shell's first side.
+  Vector3 first_direction(const PlateField& field, int shell) const {
+    if (has_corner(field)) return way_along(field.outlines.front().front());
+    return tangents(mesh_, shell, {0.5, 0.5}).col(0);
+  }
+
+  /// Where nothing carries a lattice squares lie in the middles of shells, or of parts of large
+  /// ones, as far apart as on a lattice. The shells are those of the mesh, whatever divides them.
+  void over_shells(const PlateField& field) {
+    PlaceGrid placed(largest_spacing);
+    for (const int shell : field.shells) {
+      const double longest = longest_edge(mesh_, mesh_.shells[shell]);
+      const int parts = std::max(1, static_cast<int>(std::ceil(longest / largest_spacing)));
+      for (int row = 0; row < parts; ++row)
+        for (int i = 0; i < parts; ++i)
+          add_apart({shell, Eigen::Vector2d(i + 0.5, row + 0.5) / parts}, placed);
+    }
+  }
+
+  void add_apart(const ShellPlace& place, PlaceGrid& placed) {
+    const Square square = laid(place, tangents(mesh_, place.shell, place.xi).col(0));
+    const Vector3 around = Vector3::Constant(largest_spacing);
+    bool is_near = false;
+    placed.visit(square.centre_B - around, square.centre_B + around, [&](int other) {
+      const Vector3& known = squares_[static_cast<std::size_t>(other)].centre_B;
+      is_near = is_near || (known - square.centre_B).norm() < 0.8 * largest_spacing;
+    });
+    if (is_near || !lies_inside(square)) return;
+    placed.add(square.centre_B, static_cast<int>(squares_.size()));
+    squares_.push_back(square);
   }
 
   /// A square with its centre at a place, its first side as nearly along e_1 as the plate lets it.
@@ -257,13 +261,11 @@ class SquarePlacer {
   }
 
   void between(const PlateField& field) {
+    if (!has_corner(field)) return over_shells(field);
     // A lattice that hangs on the first corner of the outline.
-    const FieldEdge& first = field.outlines.front().front();
-    const ShellPlace origin = place_of(first, 0);
-    const Vector3 begin = position(mesh_, mesh_.shells[origin.shell], origin.xi);
-    const ShellPlace next = place_of(first, first.length);
-    Vector3 e_1 = position(mesh_, mesh_.shells[next.shell], next.xi) - begin;
-    const Vector3 normal = normal_of(mesh_, origin);
+    const ShellPlace origin = place_of(field.outlines.front().front(), 0);
+    const Vector3 begin = position_of(origin), normal = normal_of(mesh_, origin);
+    Vector3 e_1 = first_direction(field, origin.shell);
     e_1 = (e_1 - normal * normal.dot(e_1)).normalized();
     if (!e_1.allFinite()) return;
     const Vector3 e_2 = normal.cross(e_1);

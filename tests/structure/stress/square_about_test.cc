@@ -1,10 +1,17 @@
 // Squares of the checked stress about chosen places.
 #include "structure/stress/square_about.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/stress/squares.h"
+#include "tests/structure/hull_block.h"
 
 namespace blocklift::structure {
 namespace {
@@ -71,6 +78,52 @@ TEST(SquareAbout, HasTheStressOfThePlaceAskedFor) {
     ASSERT_TRUE(square.has_value());
     const CheckedStress checked(model, u, {*square});
     EXPECT_NEAR(checked.von_mises(Eigen::VectorXd::Ones(1))[0], 206e9 * k * place.y(), 1e-3);
+  }
+}
+
+// A closed tank has no outline, and that of a pipe no corners: their squares lie over the shells.
+// Here they do on a ring of 2 m that is a pipe of 0.4 m, closed or cut across, and no place of it
+// is farther than a spacing of 0.5 m and some from one.
+TEST(SquareAbout, ClosedPlatingHasSquares) {
+  constexpr int around = 24, across = 12;
+  const auto place = [](double i, double j) {
+    const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across;
+    const double radius = 2 + 0.4 * std::cos(b);
+    return Vector3(radius * std::cos(a), radius * std::sin(a), 0.4 * std::sin(b));
+  };
+  for (const int used : {around, around / 2}) {
+    Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+    for (int i = 0; i < around; ++i)
+      for (int j = 0; j < across; ++j) mesh.vertices.push_back(place(i, j));
+    const auto vertex = [&](int i, int j) { return i % around * across + j % across; };
+    for (int i = 0; i < used; ++i)
+      for (int j = 0; j < across; ++j) {
+        Shell shell;
+        shell.vertices = {vertex(i, j), vertex(i + 1, j), vertex(i, j + 1), vertex(i + 1, j + 1)};
+        shell.curvature = static_cast<int>(mesh.curved_shells.size());
+        mesh.shells.push_back(shell);
+        Eigen::Matrix3Xd points(3, 9);
+        for (int row = 0; row < 3; ++row)
+          for (int column = 0; column < 3; ++column)
+            points.col(3 * row + column) = place(i + 0.5 * column, j + 0.5 * row);
+        mesh.curved_shells.push_back(points);
+      }
+    const PlateFields fields = find_fields(mesh);
+    ASSERT_EQ(fields.fields.size(), 1U);
+    EXPECT_EQ(fields.fields[0].outlines.size(), used == around ? 0U : 2U);
+    const FieldWalker walker(mesh, fields);
+    const std::vector<Square> squares = place_squares(mesh, fields, walker, asked_side);
+    for (int i = 0; i <= used; ++i)
+      for (int j = 0; j < across; ++j) {
+        double nearest = 1e300;
+        for (const Square& square : squares)
+          nearest = std::min(nearest, (square.centre_B - place(i, j)).norm());
+        EXPECT_LT(nearest, 0.7) << i << " " << j;
+      }
+    const Vector3 wanted = place(5.5, 3.2);
+    const auto square = square_about(mesh, fields, walker, wanted, asked_side);
+    ASSERT_TRUE(square.has_value());
+    EXPECT_LT((square->centre_B - wanted).norm(), 0.01);
   }
 }
 

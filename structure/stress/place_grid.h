@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "structure/mesh/mesh.h"
+
+namespace blocklift::structure {
+
+/// Numbered places in cubes, found by the box that holds them.
+class PlaceGrid {
+ public:
+  explicit PlaceGrid(double cube) : cube_(cube) {}
+
+  void add(const Vector3& place, int number) { cubes_[cube_of(place)].push_back(number); }
+  /// Visits all places in the box, and more about it.
+  template <typename Visit>
+  void visit(const Vector3& lower, const Vector3& upper, const Visit& visit_one) const {
+    const Cube first = cube_of(lower), last = cube_of(upper);
+    for (long x = first[0]; x <= last[0]; ++x)
+      for (long y = first[1]; y <= last[1]; ++y)
+        for (long z = first[2]; z <= last[2]; ++z) {
+          const auto found = cubes_.find({x, y, z});
+          if (found == cubes_.end()) continue;
+          for (const int number : found->second) visit_one(number);
+        }
+  }
+
+ private:
+  using Cube = std::array<long, 3>;
+  struct Hash {
+    std::size_t operator()(const Cube& cube) const {
+      std::size_t hash = 0;
+      for (const long i : cube) hash = hash * 1000003 + static_cast<std::size_t>(i);
+      return hash;
+    }
+  };
+  Cube cube_of(const Vector3& place) const {
+    return {std::lround(std::floor(place.x() / cube_)), std::lround(std::floor(place.y() / cube_)),
+            std::lround(std::floor(place.z() / cube_))};
+  }
+
+  double cube_;
+  std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
+};
+
+}  // namespace blocklift::structure
