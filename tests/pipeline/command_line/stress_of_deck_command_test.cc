@@ -19,6 +19,7 @@ using test::Outcome;
 using test::text_of_file;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Outcome stress(const std::string& arguments) { return test::run_blocklift("stress " + arguments); }
 
@@ -171,6 +172,25 @@ TEST_F(StressOfDeck, LoadsThatAreAllLeftOutAreNamed) {
                                  HasSubstr("strip.bdf:" + std::to_string(line) +
                                            ": ACCEL: 0 of 1 "
                                            "used; left out: ")));
+}
+
+// What comes behind a title that ends in a comma does not go on with it.
+TEST_F(StressOfDeck, TitlesEndWithTheirLine) {
+  change("SUBCASE 1\n  SUBTITLE = pull\n", "SUBCASE 1\n  SUBTITLE = pull, port,\n");
+  EXPECT_EQ(stress("strip.yaml -o out").exit_code, 0);
+  const auto summary = nlohmann::json::parse(text_of_file("out/summary.json"));
+  ASSERT_EQ(summary["cases"].size(), 2U);
+  EXPECT_EQ(summary["cases"][0]["label"], 1);
+}
+
+// PS of GRID holds as SPC1 does, and nothing says that the case lacks it.
+TEST_F(StressOfDeck, ConstraintsOfGridsHold) {
+  change("GRID,11,,0.,0.,0.", "GRID,11,,0.,0.,0.,,123456");
+  change("SPC1,1,123456,11,14", "SPC1,1,123456,14");
+  const Outcome outcome = stress("strip.yaml -o out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, Not(HasSubstr("lack")));
+  EXPECT_THAT(text_of_file("out/reactions.csv"), HasSubstr("\n1,11,"));
 }
 
 TEST_F(StressOfDeck, OptionsOfPartsAreRefused) {

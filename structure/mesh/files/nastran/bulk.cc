@@ -48,6 +48,11 @@ bool is_begin(std::string_view line) {
   return begins_with(line, "BEGIN") && line.size() > 5 && (line[5] == ' ' || line[5] == '\t');
 }
 
+/// Titles of case control end with their line, also those that end in a comma.
+bool is_title(std::string_view line) {
+  return begins_with(line, "TITLE") || begins_with(line, "SUBTITLE") || begins_with(line, "LABEL");
+}
+
 class Splitter {
  public:
   Splitter(DeckFiles& files, DeckLog& log) : files_(files), log_(log) {}
@@ -120,7 +125,7 @@ class Splitter {
         begin_bulk(text);
       else if (!is_continued_)
         bulk_.case_control.push_back({place, text});
-      is_continued_ = text.ends_with(',');
+      is_continued_ = text.ends_with(',') && !is_title(text);
     } else if (begins_with(text, "ENDDATA")) {
       section_ = Section::end;
     } else if (is_begin(text)) {

@@ -383,6 +383,9 @@ class CaseControl {
       model_.deck.title = std::string(value);
     } else if (is_same(key, "SUBTITLE") || is_same(key, "LABEL")) {
       choice.title = std::string(value);
+    } else if (is_nastran_mass_factor(line.text)) {
+      model_.log.read("case control PARAM WTMASS", line.line);
+      model_.log.use("case control PARAM WTMASS");
     } else if (starts_combination(key)) {
       const std::string name = "case control " + upper(key);
       model_.log.read(name, line.line);

@@ -10,6 +10,8 @@ namespace blocklift::structure {
 
 namespace {
 
+constexpr const char* permanent_constraints = "GRID (PS)";
+
 struct Grid {
   long label = 0, input = 0;
   Vector3 given = Vector3::Zero();
@@ -82,6 +84,8 @@ class Grids {
     input_ = card.integer(1, "input system", 0);
     output_ = card.integer(5, "output system", 0);
     held_ = std::string(card.text(6));
+    if (!held_.empty() && held_ != "0")
+      held_by_default_ = card.components(6, "permanent constraint");
   }
 
   // GRID ID CP X1 X2 X3 CD PS SEID
@@ -105,19 +109,14 @@ class Grids {
     model_.output_system.push_back(output);
     const std::string held = card.has(6) ? std::string(card.text(6)) : held_;
     if (!held.empty() && held != "0") {
-      model_.log.leave_out("GRID", "constraints of the grids themselves (PS), as other supports");
+      // Beside GRID in the ledger: a deck's own cases have these supports, a lift has not.
+      model_.log.read(permanent_constraints, card.line());
+      model_.log.use(permanent_constraints);
       Support support;
       support.vertex = vertex;
-      support.held = card.has(6) ? card.components(6, "permanent constraint") : digits(held);
+      support.held = card.has(6) ? card.components(6, "permanent constraint") : held_by_default_;
       permanent_.push_back(support);
     }
-  }
-
-  static std::array<bool, 6> digits(const std::string& text) {
-    std::array<bool, 6> held{};
-    for (const char c : text)
-      if (c >= '1' && c <= '6') held[c - '1'] = true;
-    return held;
   }
 
   void place_all() {
@@ -140,8 +139,21 @@ class Grids {
   std::vector<Grid> grids_;
   std::vector<Support> permanent_;
   long input_ = 0, output_ = 0;
-  std::string held_;
+  std::string held_;  ///< PS of GRDSET
+  std::array<bool, 6> held_by_default_{};
 };
+
+/// Case control may have parameters, too: PARAM,WTMASS,0.00259.
+void read_parameters_of_case_control(NastranModel& model) {
+  for (const CaseControlLine& line : model.bulk.case_control) {
+    if (!is_nastran_mass_factor(line.text)) continue;
+    const auto value = to_real(trimmed(line.text.substr(line.text.find_last_of(", \t=") + 1)));
+    if (value && *value > 0)
+      model.mass_factor = *value;
+    else
+      model.log.complain(line.line, "case control PARAM: the value of WTMASS must be positive");
+  }
+}
 
 /// PARAM NAME VALUE: one of them changes the model.
 void read_parameter(NastranModel& model, const CardView& card) {
@@ -155,6 +167,13 @@ void read_parameter(NastranModel& model, const CardView& card) {
 
 }  // namespace
 
+bool is_nastran_mass_factor(std::string_view case_control) {
+  const std::string text = upper(case_control);
+  if (!text.starts_with("PARAM")) return false;
+  const auto name = text.find_first_not_of(", \t", 5);
+  return name != std::string::npos && name > 5 && text.compare(name, 6, "WTMASS") == 0;
+}
+
 void read_nastran_grids(NastranModel& model) {
   NastranModel::Handlers systems;
   for (const char* letter : {"R", "C", "S"}) {
@@ -166,6 +185,7 @@ void read_nastran_grids(NastranModel& model) {
     };
   }
   systems["PARAM"] = [&](const CardView& card) { read_parameter(model, card); };
+  read_parameters_of_case_control(model);
   model.for_each(systems);
   Grids(model).read();
 }

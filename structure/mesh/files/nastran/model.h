@@ -119,6 +119,8 @@ struct NastranModel {
   long new_element(const CardView& card);
 };
 
+/// Whether a line of case control is PARAM,WTMASS.
+bool is_nastran_mass_factor(std::string_view case_control);
 /// Coordinate systems, grids, PARAM WTMASS, and where materials and properties stand.
 void read_nastran_grids(NastranModel& model);
 /// CQUAD4 and so on, CBAR and so on, with their properties.

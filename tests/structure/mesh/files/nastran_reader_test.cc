@@ -339,6 +339,10 @@ TEST(NastranReader, UnitsAndTheirPlausibility) {
   EXPECT_THAT(complaints_of_nastran(inches, "in-lbf"), HasSubstr("or does it give weights?"));
   const Deck weighed = nastran("PARAM,WTMASS,.00259\n" + inches, "in-lbf");
   EXPECT_NEAR(weighed.mesh.materials[0].density, 7860, 10);
+  const std::string of_case = "CEND\nPARAM, WTMASS , .00259\nBEGIN BULK\n" + inches + "ENDDATA\n";
+  EXPECT_NEAR(nastran(of_case, "in-lbf").mesh.materials[0].density, 7860, 10);
+  EXPECT_THAT(complaints_of_nastran("CEND\nPARAM,WTMASS,x\nBEGIN BULK\n" + inches, "in-lbf"),
+              HasSubstr("the value of WTMASS must be positive"));
   EXPECT_THROW(unit_system("cm"), ModelError);
   EXPECT_DOUBLE_EQ(unit_system("m-t-kN").mass(), 1e3);
   EXPECT_DOUBLE_EQ(unit_system("m-kt-MN").stress(), 1e6);

@@ -218,17 +218,21 @@ TEST(Preprocessors, OptiStructOffsets) {
               HasSubstr("\"SURF\" as offset"));
 }
 
-// Constraints in the grids' own field are left out as others are, and that is said.
+// Constraints in the grids' own field are supports as those of other cards are, with an entry of
+// their own: a deck's own cases have them.
 TEST(Preprocessors, ConstraintsOfGrids) {
   const std::string bar =
       "CBAR,1,5,1,2,0.,0.,1.\nPBAR,5,7,.01,1.-6,1.-6,2.-6\n"
       "MAT1,7,206.+9,,.3,7850.\n";
   const Deck deck = nastran("GRID,1,,0.,0.,0.,,345\nGRID,2,,1.,0.,0.\n" + bar);
-  EXPECT_THAT(entry(deck, "GRID").left_out, HasSubstr("constraints of the grids themselves"));
+  EXPECT_EQ(entry(deck, "GRID").left_out, "");
+  EXPECT_EQ(entry(deck, "GRID (PS)").used, 1);
+  EXPECT_EQ(entry(deck, "GRID (PS)").left_out, "");
   ASSERT_EQ(deck.support_sets.size(), 1U);
   EXPECT_THAT(deck.support_sets[0].supports.at(0).held,
               ElementsAre(false, false, true, true, true, false));
-  EXPECT_EQ(entry(nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n" + bar), "GRID").left_out, "");
+  EXPECT_THAT(complaints_of_nastran("GRDSET,,,,,,,34X\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n" + bar),
+              HasSubstr("\"34X\" as permanent constraint"));
   EXPECT_THAT(complaints_of_nastran("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,1,5,1,2\n"
                                     "PBAR,5,7,.01,1.-6,1.-6,2.-6\nMAT1,7,206.+9,,.3,7850.\n"),
               HasSubstr("CBAR 1 has neither a vector nor a grid that orients it"));
