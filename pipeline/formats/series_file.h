@@ -36,8 +36,8 @@ enum class SeriesCells {
 
 /// Reads rows of numbers set apart by commas, semicolons or tabulators; a first line that is no row
 /// of numbers is the header. Between semicolons or tabulators a comma may stand for the decimal
-/// point. Empty lines and lines that begin with # are passed over, and so is a byte order mark. Text
-/// is UTF-8, any that ASCII is part of, or UTF-16; lines end by \n, \r\n or \r.
+/// point. Empty lines and lines that begin with # are passed over, and so is a byte order mark.
+/// Text is UTF-8, any that ASCII is part of, or UTF-16; lines end by \n, \r\n or \r.
 /// @throws SeriesFileError if the file cannot be read, has no rows, rows of different length, or a
 ///   value that is not a finite number, nor what else cells may hold.
 SeriesFile read_series_file(const std::filesystem::path& path,

@@ -12,8 +12,8 @@ namespace blocklift::pipeline {
 ///   - the rope was slack before it and bears behind it, and had not leapt to its zero, as a line
 ///     does that breaks, or
 ///   - the load dances on the rope behind it: tensions lie on both sides of their median by turns,
-///     farther than they do elsewhere, and less and less (what an amplifier has swallowed comes back
-///     from one side).
+///     farther than they do elsewhere, and less and less (what an amplifier has swallowed comes
+///     back from one side).
 /// Leaps that follow a snatch while the load dances belong to it.
 class Snatches {
  public:

@@ -30,8 +30,8 @@ ParetoTail fit_pareto_tail(const std::vector<double>& excesses);
 /// mean of as many normal values in place of the limit for many, 1.92: n/2 ln(1 + t^2 / (n - 2)),
 /// t being Student's 97.5 % value of n - 2 degrees.
 ///
-/// Of 400 samples of 300 figures, 30 of which are beyond the threshold, it holds the 99.9 % value of
-/// the figures in 93.8 % where these are exponential, in 97.0 % where their shape is -0.3 and in
+/// Of 400 samples of 300 figures, 30 of which are beyond the threshold, it holds the 99.9 % value
+/// of the figures in 93.8 % where these are exponential, in 97.0 % where their shape is -0.3 and in
 /// 94.0 % where it is 0.2. Percentiles of a parametric bootstrap of the same fit hold it in 70.0 %,
 /// 66.0 % and 76.5 % (interval_coverage_test).
 /// @throws std::invalid_argument as fit_pareto_tail.

@@ -48,8 +48,8 @@ struct FatigueCurve {
 /// Miner's sum of cycles: sum of count / N(range).
 double damage(const std::vector<Cycles>& cycles, const FatigueCurve& curve);
 
-/// Detail categories of DNV-RP-C203 (in air) B1 to W3, by their name, with their thickness exponents
-/// for t_ref = 25 mm.
+/// Detail categories of DNV-RP-C203 (in air) B1 to W3, by their name, with their thickness
+/// exponents for t_ref = 25 mm.
 /// @throws ModelError if there is none of that name; the message lists those that exist.
 FatigueCurve fatigue_curve(const std::string& name);
 

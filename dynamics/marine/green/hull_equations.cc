@@ -366,8 +366,8 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency,
   return parts;
 }
 
-// Potentials and velocities are constant on the clusters. Equations hold at the middles of those that are flat,
-// but for the waves' smooth share, and in the mean over others. Cells stay.
+// Potentials and velocities are constant on the clusters. Equations hold at the middles of those
+// that are flat, but for the waves' smooth share, and in the mean over others. Cells stay.
 MatrixXcd HullEquations::solve_coarser(std::size_t part, const MatrixXcd& matrix,
                                        const MatrixXcd& right, const MatrixXd& velocities) const {
   const Eigen::VectorXd areas = model_.body_areas();

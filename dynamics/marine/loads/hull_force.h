@@ -39,11 +39,11 @@ enum class WaveLoading {
 ///
 ///   mean of rho int a dV,   a the acceleration of the wave's water, over the hull below the wave,
 ///
-/// which is one of the parts of the mean force of second order (Pinkster 1980, ch. III: the relative
-/// elevation at the water line, the pressure's gradient along the motion). The momentum of the waves
-/// far away holds all of these parts together (Maruo 1960), so that SlowDrift would count this one
-/// twice, and near a resonance of roll it is the larger. To the first order the force that is left
-/// out is that of the wave on the hull at rest, which DiffractionForce has then
+/// which is one of the parts of the mean force of second order (Pinkster 1980, ch. III: the
+/// relative elevation at the water line, the pressure's gradient along the motion). The momentum of
+/// the waves far away holds all of these parts together (Maruo 1960), so that SlowDrift would count
+/// this one twice, and near a resonance of roll it is the larger. To the first order the force that
+/// is left out is that of the wave on the hull at rest, which DiffractionForce has then
 /// (FroudeKrylovPart::along_water).
 class HullForce {
  public:

@@ -63,10 +63,10 @@ class MorisonMember {
 ///   F_i = -s (b_i V_i + c_i |V_i| V_i),   s = min(1, displaced volume / reference volume),
 ///
 /// so that a hull out of the water is not damped. Power is only taken out relative to the current:
-/// whoever drifts with the water is not held back, whatever frame that is seen from, and a hull that
-/// lies still in a current is pulled by the linear part as well. What radiated waves damp is not in
-/// it: their memory brakes no steady motion (RadiatedWater).
-/// Source: Himeno (1981), equivalent linear and quadratic roll damping.
+/// whoever drifts with the water is not held back, whatever frame that is seen from, and a hull
+/// that lies still in a current is pulled by the linear part as well. What radiated waves damp is
+/// not in it: their memory brakes no steady motion (RadiatedWater). Source: Himeno (1981),
+/// equivalent linear and quadratic roll damping.
 class QuadraticDamping {
  public:
   using Vector6 = Eigen::Matrix<double, 6, 1>;

@@ -41,8 +41,8 @@ struct HookBlockModel {
   std::optional<Vector3> size;               ///< of its box, m
   std::optional<TurningBlockModel> turning;  ///< none: it keeps its direction
 
-  /// Size of its box along x, y and z in the drawing and for clearances, m: as given, or else by its
-  /// mass, twice as high as wide and of 3.5 t/m^3. That is an assumption, not quite half of it
+  /// Size of its box along x, y and z in the drawing and for clearances, m: as given, or else by
+  /// its mass, twice as high as wide and of 3.5 t/m^3. That is an assumption, not quite half of it
   /// steel: 1 m x 1 m x 2 m of 7 t.
   Vector3 box_size() const;
 };

@@ -25,7 +25,8 @@ struct NetcdfVariable {
 /// their own specification (Unidata, "NetCDF classic format specification"). Texts are strings, or
 /// characters along a last dimension of their own, as classic files must have them. Complex numbers
 /// that are compounds of r and i, as h5py and h5netcdf write them, have their parts along a last
-/// dimension "complex", the real one first. All functions throw ResultsError that names the file and the variable.
+/// dimension "complex", the real one first. All functions throw ResultsError that names the file
+/// and the variable.
 class NetcdfFile {
  public:
   explicit NetcdfFile(const std::filesystem::path& path);
