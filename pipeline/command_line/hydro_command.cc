@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -77,6 +79,21 @@ void say_doubts_about_sizes(const HydrodynamicProblem& problem) {
   }
 }
 
+/// A hull that floats by its weight inclines until it balances, without end if need be.
+std::string doubt_about_inclination(const std::string& name, const dynamics::Matrix3& R_WB) {
+  constexpr double acceptable = 5.0;  // degrees
+  constexpr double degree = std::numbers::pi / 180.0;
+  const double list = std::atan2(R_WB(2, 1), R_WB(2, 2)) / degree;
+  const double trim = std::asin(std::clamp(-R_WB(2, 0), -1.0, 1.0)) / degree;
+  if (std::max(std::abs(list), std::abs(trim)) <= acceptable) return {};
+  return fmt::format(
+      "vessel {} floats with a list of {:.1f} and a trim of {:.1f} degrees (about x and y), and "
+      "its "
+      "figures are those of the hull as it lies: its centre of mass is not over the middle of what "
+      "it displaces, or too high",
+      name, list, trim);
+}
+
 /// Of each body once, at its deepest: draughts ascend.
 void say_doubts_about_hulls(const HydrodynamicProblem& problem,
                             const std::vector<HydrodynamicState>& states) {
@@ -89,7 +106,8 @@ void say_doubts_about_hulls(const HydrodynamicProblem& problem,
                                body.body.mass)
             : std::string();
     for (const std::string& doubt :
-         {mass, doubt_about_keel(body.name, body.hull, X_WB, problem.water.depth)}) {
+         {mass, doubt_about_inclination(body.name, X_WB.R),
+          doubt_about_keel(body.name, body.hull, X_WB, problem.water.depth)}) {
       if (!doubt.empty()) say_warning(doubt);
     }
   }

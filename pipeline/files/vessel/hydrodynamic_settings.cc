@@ -1,5 +1,6 @@
 #include "pipeline/files/vessel/hydrodynamic_settings.h"
 
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -11,6 +12,8 @@ namespace blocklift::pipeline {
 namespace {
 
 void check_range(const FrequencyRange& range, Reading& reading, const Mark& mark) {
+  // Of what could not be read nothing more is said.
+  if (!std::isfinite(range.lowest) || !std::isfinite(range.highest)) return;
   if (range.count == 1 ? range.lowest == range.highest : range.lowest < range.highest) return;
   reading.error(mark,
                 fmt::format("{} frequencies from {} rad/s to {} rad/s", range.count, range.lowest,

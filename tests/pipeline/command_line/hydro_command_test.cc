@@ -381,6 +381,31 @@ TEST_F(HydroCommand, DoubtsAMeshInMillimetresBeforeItIsRefused) {
               HasSubstr("the file may have millimetres (then 4 m long)"));
 }
 
+// GM = KB + BM - KG, 1 m off the middle: a barge of 20 x 10 m that draws 2 m lies over by
+// atan(1/(1 + 100/24 - 2)) = 17.5 degrees, wall-sided: tan (GM + BM/2 tan^2) = 1 gives 17.0.
+TEST_F(HydroCommand, SaysHowAVesselLies) {
+  const auto outcome_of = [&](const std::string& y, const std::string& draughts) {
+    folder_.write("barge/vessel.yaml",
+                  "kind: vessel\nhull: {barge: {length: 20 m, breadth: 10 m, depth: 8 m}}\n"
+                  "panel_size: 4 m\nmass: 410 t\ncentre_of_mass: [0 m, " +
+                      y +
+                      ", 2 m]\nradii_of_gyration: [3 m, 5 m, 5 m]\n"
+                      "hydrodynamics: {headings: [0 deg]" +
+                      draughts +
+                      ",\n  frequencies: {lowest: 0.8 rad/s, highest: 1 rad/s, count: 2}}\n");
+    return run("barge -o barge.h5");
+  };
+  const Outcome upright = outcome_of("0 m", "");
+  EXPECT_EQ(upright.exit_code, 0) << upright.err;
+  EXPECT_THAT(upright.out, Not(HasSubstr("floats with a list")));
+  const Outcome listed = outcome_of("1 m", "");
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  EXPECT_THAT(listed.out, HasSubstr("warning: vessel barge floats with a list of"));
+  const Outcome sunk = outcome_of("0 m", ", draughts: [9 m]");
+  EXPECT_EQ(sunk.exit_code, 2) << sunk.out;
+  EXPECT_THAT(sunk.err, HasSubstr("no hull reaches the water's surface"));
+}
+
 // A box of 4 x 4 x 4 m, half in the water, displaces 32.8 t.
 TEST_F(HydroCommand, DoubtsAMassThatIsNotDisplaced) {
   const auto said_of = [&](const std::string& mass) {
