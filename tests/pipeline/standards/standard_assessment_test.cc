@@ -10,62 +10,20 @@
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/standards/shipped_rules.h"
+#include "tests/pipeline/standards/worked_chains.h"
 
 namespace blocklift::pipeline {
 namespace {
 
+using test::by_nd_0027;
+using test::called;
+using test::chain_of;
 using test::shipped_rules;
+using test::step_of;
+using test::two_slings;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-Located<std::string> called(const std::string& name) { return {name, {}}; }
-
-StandardInCase by_nd_0027() {
-  StandardInCase standard;
-  standard.rules = shipped_rules("nd-0027");
-  standard.weight_class = called("B");
-  standard.setting = called("onshore");
-  standard.skew = called("matched");
-  standard.wear = called("inspected");
-  return standard;
-}
-
-/// 1,000 kN on one hook by two slings; R1 has 400 kN at rest and 460 in motion.
-LiftFacts two_slings() {
-  LiftFacts facts;
-  facts.net_weight = 1000e3;
-  facts.at_rest = 1000e3;
-  facts.in_motion = 1040e3;
-  SlingFacts sling;
-  sling.name = "R1";
-  sling.lug = "L1";
-  sling.hook = "C1.main";
-  sling.load = {400e3, 460e3, 10, 12, 1.04, 460.0 / 400 / 1.04};
-  sling.breaking_load = 2000e3;
-  sling.material = "steel";
-  sling.termination = "resin_socket";
-  sling.slings_on_hook = 2;
-  facts.slings.push_back(sling);
-  facts.pulls.push_back({"L1", sling.load, {{"R1", {}, 2, {0, 0, 400e3}}}});
-  HookFacts hook;
-  hook.name = "C1.main";
-  hook.crane = "C1";
-  hook.load = {1030e3, 1071.2e3, 10, 12, 1.04, 1};
-  hook.hook_block = 30e3;
-  hook.rigging = 20e3;
-  hook.hoisting_speed = 0.2;
-  hook.capacity = 1500e3;
-  facts.hooks.push_back(hook);
-  return facts;
-}
-
-const Chain& chain_of(const StandardAssessment& standard, const std::string& object) {
-  const auto found = std::find_if(standard.chains.begin(), standard.chains.end(),
-                                  [&](const Chain& chain) { return chain.object == object; });
-  if (found == standard.chains.end()) throw std::out_of_range(object);
-  return *found;
-}
 
 // 400 kN x 1.10 (weight B) x 1.10 (centre) x 1.05 (DAF of 112 t ashore) x 1.25 (skew) = 635.25 kN;
 // in motion 400 x 1.10 x 1.10 x 460/400 x 1.25 = 695.75 kN; 2,000 kN / (1.3 x 1.3 x 1.5) = 788.95
@@ -185,13 +143,6 @@ TEST(StandardAssessment, HoldsShacklesAgainstStaticAndDynamicLoad) {
   // 400 x 1.1 x 1.1 x 1.25 = 605 of 650 kN at rest; 635.25 of min(650 x 1.05, 3,900 / 3) in motion.
   EXPECT_NEAR(chain_of(result, "shackle L1 at rest").standard_utilisation(), 605.0 / 650, 1e-9);
   EXPECT_NEAR(*chain_of(result, "shackle L1").limit, 682.5e3, 1e-6);
-}
-
-const ChainStep& step_of(const Chain& chain, const std::string& name) {
-  const auto found = std::find_if(chain.steps.begin(), chain.steps.end(),
-                                  [&](const ChainStep& step) { return step.name == name; });
-  if (found == chain.steps.end()) throw std::out_of_range(name);
-  return *found;
 }
 
 /// Two slings at L1 whose forces of 300 and 400 kN meet at a right angle: 500 kN.
@@ -378,160 +329,6 @@ TEST(StandardAssessment, TakesTheRulesFactorWhereTheBoxIsNotWorked) {
   facts.slings[0].computed.centre_box = 1.02;
   const Chain by_box = chain_of(assess_standard(standard, facts), "sling R1");
   EXPECT_NEAR(by_box.standard, 635.25e3 / 1.10 * 1.02, 1e-6);
-}
-
-// Stress at rest 100 MPa, by weight class 1.1, centre 1.1, 1.05 onshore, 1.2 on a diagonal by the
-// rules, 1.3 as computed. The two slings' lugs have no box that could be worked.
-TEST(StandardAssessment, SkewsTheStructure) {
-  LiftFacts facts = two_slings();
-  StressFacts stress;
-  stress.name = stress.material = "S355";
-  stress.at_rest = 100e6;
-  stress.in_motion = 110e6;
-  stress.yield = 355e6;
-  stress.skew_by_rules = 1.2;
-  stress.skew_computed = 1.3;
-  facts.yield_factor = 1.5;
-  facts.stresses = {stress};
-  const StandardAssessment result = assess_standard(by_nd_0027(), facts);
-  const Chain& chain = chain_of(result, "structure S355");
-  EXPECT_NEAR(chain.standard, 100e6 * 1.1 * 1.1 * 1.05 * 1.2, 1);
-  EXPECT_NEAR(chain.simulated, 110e6 * 1.1 * 1.1 * 1.3, 1);
-}
-
-// 0027/ND, table 5-1: rows by gross weight, formulae by static hook load. 92 t of class A weigh
-// 96.6 t and their rigging 8 t: the row up to 100 t, 1.07 + 0.05 sqrt(100 / 104.6).
-TEST(StandardAssessment, AmplificationGoesByWeightAndHookLoad) {
-  StandardInCase standard = by_nd_0027();
-  standard.weight_class = called("A");
-  standard.setting = called("inshore");
-  LiftFacts facts = two_slings();
-  facts.net_weight = 92 * newton_per_tonne;
-  facts.rigging = 8 * newton_per_tonne;
-  const StandardAssessment inshore = assess_standard(standard, facts);
-  const Chain& lift = chain_of(inshore, "lift as a whole");
-  EXPECT_NEAR(step_of(lift, "dynamic amplification").standard.value(),
-              1.07 + 0.05 * std::sqrt(100 / 104.6), 1e-12);
-  standard.setting = called("onshore");
-  const StandardAssessment ashore = assess_standard(standard, facts);
-  EXPECT_DOUBLE_EQ(
-      step_of(chain_of(ashore, "lift as a whole"), "dynamic amplification").standard.value(), 1.10);
-}
-
-/// Two hooks with two slings each, 400 kN in each sling; the stress about L1 and elsewhere.
-LiftFacts four_slings_on_two_hooks() {
-  LiftFacts facts = two_slings();
-  const SlingFacts sling = facts.slings[0];
-  facts.slings.clear();
-  for (int i = 1; i <= 4; ++i) {
-    SlingFacts& one = facts.slings.emplace_back(sling);
-    one.name = "R" + std::to_string(i);
-    one.lug = "L" + std::to_string(i);
-    one.hook = i < 3 ? "C1.main" : "C2.main";
-    one.computed.two_hooks = i < 3 ? TwoHooks{12, 10, 13, 14} : TwoHooks{13, 14, 12, 10};
-  }
-  StressFacts stress;
-  stress.name = stress.material = "S355";
-  stress.at_rest = 100e6;
-  stress.in_motion = 110e6;
-  stress.yield = 355e6;
-  facts.stresses = {stress, stress};
-  facts.stresses[1].name = "about lug L1";
-  facts.stresses[1].material.clear();
-  facts.stresses[1].is_at_lug = true;
-  facts.stresses[1].lug = "L1";
-  return facts;
-}
-
-StandardInCase by_nd_0027_on_two_hooks() {
-  StandardInCase standard = by_nd_0027();
-  standard.skew = called("determinate");
-  standard.tilt = called("same_vessel");
-  return standard;
-}
-
-// Tilt of 3 degrees: 1.047654 on the first hook, 1.052498 on the second one,
-// (10 sin 3 + 12 cos 3) / (25 cos 3 - 4 sin 3) / 0.48. A lug's surroundings take that of their own
-// sling, as its load does, other places the larger one; centre 1.10 and yaw 1.05 everywhere,
-// members about lugs 1.15 (0027/ND, table 11-1). Motion contains tilt and yaw.
-TEST(StandardAssessment, TheStructureTakesCentreTiltAndYawOfItsSlings) {
-  const StandardAssessment result =
-      assess_standard(by_nd_0027_on_two_hooks(), four_slings_on_two_hooks());
-  const double common = 100e6 * 1.1 * 1.1 * 1.05 * 1.05;
-  const Chain& field = chain_of(result, "structure S355");
-  EXPECT_NEAR(field.standard, common * 1.052498, 100);
-  EXPECT_NEAR(field.simulated, 110e6 * 1.1 * 1.1, 1);
-  EXPECT_THAT(step_of(field, "tilt").formula, HasSubstr("as R3: 3.00 degrees"));
-  const Chain& lug = chain_of(result, "structure about lug L1");
-  EXPECT_NEAR(lug.standard, common * 1.047654 * 1.15, 100);
-  EXPECT_NEAR(lug.simulated, 110e6 * 1.1 * 1.1 * 1.15, 1);
-  const Chain& sling = chain_of(result, "sling R1");
-  for (const char* step : {"centre of mass", "tilt", "yaw"})
-    EXPECT_EQ(step_of(lug, step).standard, step_of(sling, step).standard) << step;
-}
-
-// 0027/ND 5.4.2 is for two hooks of one crane, too, where the case need not name a tilt.
-TEST(StandardAssessment, TellsThatHooksMayDifferInHeight) {
-  const auto told = HasSubstr("two hooks and the case names no tilt");
-  LiftFacts facts = two_slings();
-  EXPECT_THAT(assess_standard(by_nd_0027(), facts).notes, Not(Contains(told)));
-  facts.hooks.front().computed.two_hooks = TwoHooks{12, 10, 13, 14};
-  EXPECT_THAT(assess_standard(by_nd_0027(), facts).notes, Contains(told));
-  EXPECT_THAT(assess_standard(by_nd_0027_on_two_hooks(), facts).notes, Not(Contains(told)));
-}
-
-// With a box of the centre the largest growth counts: 1.08 of R4. R2 bears a tenth of the others
-// and grows by half, which does not count, about its own lug neither. A sling to a spreader does
-// not pull at the structure.
-TEST(StandardAssessment, TheStructureTakesTheBoxOfSlingsThatBear) {
-  StandardInCase standard = by_nd_0027_on_two_hooks();
-  standard.centre_box = Vector3(0.1, 0.1, 0.1);
-  LiftFacts facts = four_slings_on_two_hooks();
-  for (SlingFacts& sling : facts.slings) sling.computed.centre_box = 1.04;
-  facts.slings[1].load.at_rest = 40e3;
-  facts.slings[1].computed.centre_box = 1.5;
-  facts.slings[3].computed.centre_box = 1.08;
-  SlingFacts above = facts.slings[0];
-  above.name = "R5";
-  above.lug.clear();
-  above.is_at_load = false;
-  above.computed.centre_box = 1.3;
-  facts.slings.push_back(above);
-  const auto centre = [&](const char* object) {
-    return *step_of(chain_of(assess_standard(standard, facts), object), "centre of mass").standard;
-  };
-  EXPECT_DOUBLE_EQ(centre("structure S355"), 1.08);
-  EXPECT_DOUBLE_EQ(centre("structure about lug L1"), 1.04);
-  facts.stresses[1].lug = "L2";
-  EXPECT_DOUBLE_EQ(centre("structure about lug L1"), 1.08);
-  // Without slings, as in a load table, the rules' factor stands and nothing is said of a hook.
-  facts.slings.clear();
-  EXPECT_DOUBLE_EQ(centre("structure S355"), 1.10);
-}
-
-// Class rules: 1.70 of the field's allowable in squares of 50 mm near corners, 1.50 beside welds.
-TEST(StandardAssessment, AllowsMoreNearCorners) {
-  StandardInCase standard = by_nd_0027();
-  standard.rules.add(shipped_rules("iacs-csr"));
-  LiftFacts facts = two_slings();
-  facts.yield_factor = 1.5;
-  for (const structure::SquareSite site : structure::square_sites) {
-    StressFacts stress;
-    stress.name = structure::words_of(site);
-    stress.at_rest = stress.in_motion = 100e6;
-    stress.yield = 355e6;
-    stress.site = site;
-    facts.stresses.push_back(stress);
-  }
-  const StandardAssessment result = assess_standard(standard, facts);
-  const auto chain = [&](const char* site) {
-    return chain_of(result, std::string("structure ") + site);
-  };
-  EXPECT_NEAR(*chain("away from corners").limit, 355e6 / 1.5, 1);
-  EXPECT_EQ(chain("away from corners").limit_clause, "checks.yield_factor");
-  EXPECT_NEAR(*chain("at corners").limit, 1.7 * 355e6 / 1.5, 1);
-  EXPECT_NEAR(*chain("at corners beside welds").limit, 1.5 * 355e6 / 1.5, 1);
-  EXPECT_THAT(chain("at corners beside welds").limit_clause, HasSubstr("IACS CSR part 1"));
 }
 
 // A shackle that is pulled 3 degrees out of its plane at rest and 30 in motion bears all of its
