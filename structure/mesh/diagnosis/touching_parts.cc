@@ -18,21 +18,21 @@ namespace {
 
 constexpr double close_by = 0.05;  // of a plate's size, as Abaqus has it for *TIE
 
-/// Plates, and the faces of solids as plates, on the mesh's vertices.
+/// Plates, and the outer faces of solids as plates, on the mesh's vertices.
 Mesh faces_of(const Mesh& mesh) {
   Mesh faces;
   faces.vertices = mesh.vertices;
   faces.shells = mesh.shells;
   faces.curved_shells = mesh.curved_shells;
-  for (const Solid& solid : mesh.solids)
-    for (const std::vector<int>& corners : topology_of(solid.shape).faces) {
-      const auto corner = [&](std::size_t i) { return solid.vertices[at(corners[i])]; };
-      Shell face;
-      const bool is_triangle = corners.size() == 3;
-      face.vertices = {corner(0), corner(1), corner(is_triangle ? 2 : 3), corner(2)};
-      face.label = solid.label;
-      faces.shells.push_back(face);
-    }
+  for (const SolidFace& outer : outer_faces(mesh)) {
+    const Solid& solid = mesh.solids[outer.solid];
+    const auto corner = [&](std::size_t i) { return solid.vertices[at(outer.corners[i])]; };
+    Shell face;
+    const bool is_triangle = outer.corners.size() == 3;
+    face.vertices = {corner(0), corner(1), corner(is_triangle ? 2 : 3), corner(2)};
+    face.label = solid.label;
+    faces.shells.push_back(face);
+  }
   return faces;
 }
 
