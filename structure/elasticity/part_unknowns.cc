@@ -1,5 +1,6 @@
 #include "structure/elasticity/part_unknowns.h"
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -79,9 +80,15 @@ void PartUnknowns::take_solid(const PartMesh& mesh, int solid, const Eigen::Matr
                               ElementEntries& entries) const {
   const std::vector<int> freedoms = freedoms_of_solid(mesh, solid);
   std::vector<int> unknowns;
+  if (std::none_of(freedoms.begin(), freedoms.end(),
+                   [&](int freedom) { return !ties_.empty() && tie_of_[freedom] >= 0; })) {
+    for (const int freedom : freedoms) unknowns.push_back(of(freedom));
+    take_entries(unknowns, matrix, entries);
+    return;
+  }
   std::vector<Eigen::Triplet<double>> shares;  // of T: rows freedoms, columns unknowns
   for (std::size_t i = 0; i < freedoms.size(); ++i) {
-    const int row = static_cast<int>(i), tie = ties_.empty() ? -1 : tie_of_[freedoms[i]];
+    const int row = static_cast<int>(i), tie = tie_of_[freedoms[i]];
     const auto add = [&](int freedom, double share) {
       shares.emplace_back(row, static_cast<int>(unknowns.size()), share);
       unknowns.push_back(of(freedom));
@@ -89,10 +96,6 @@ void PartUnknowns::take_solid(const PartMesh& mesh, int solid, const Eigen::Matr
     if (tie < 0) add(freedoms[i], 1);
     for (std::size_t j = 0; tie >= 0 && j < ties_[tie].followed.size(); ++j)
       add(ties_[tie].followed[j], ties_[tie].shares[j]);
-  }
-  if (unknowns.size() == freedoms.size() && ties_.empty()) {
-    take_entries(unknowns, matrix, entries);
-    return;
   }
   Eigen::SparseMatrix<double> T(static_cast<Eigen::Index>(freedoms.size()),
                                 static_cast<Eigen::Index>(unknowns.size()));
