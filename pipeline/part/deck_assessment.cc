@@ -124,6 +124,7 @@ DeckAssessment assess_deck(std::shared_ptr<const BlockModel> block, const std::s
 std::vector<std::string> remarks_on_torsion(const DeckAssessment& assessment) {
   std::vector<std::string> sentences;
   const structure::Deck& deck = assessment.deck();
+  if (assessment.model->space().beams().empty()) return sentences;
   for (const structure::DeckCaseSolution& solution : assessment.solution.cases) {
     const auto heat = structure::heat_of(*assessment.model, deck, {solution.load_case});
     for (const structure::TwistedBars& bars : structure::find_twisted_open_bars(

@@ -66,9 +66,8 @@ std::vector<TwistedBars> find_twisted_open_bars(const Space& space, const Eigen:
     if (beam.is_rod || !is_open_section(section_at(mesh, beam, share))) continue;
     const double torsion = stress_of_torsion(space, largest, motion, heat);
     if (torsion < 0.5 * largest.von_mises) continue;
-    const Vector3 from = mesh.vertices[beam.vertices[0]], to = mesh.vertices[beam.vertices[1]];
-    twisted.push_back(
-        {mesh.groups[group].name, largest.von_mises, torsion, from + share * (to - from)});
+    twisted.push_back({mesh.groups[group].name, largest.von_mises, torsion,
+                       beam_point(space, largest.cell, largest.xi).place});
   }
   return twisted;
 }

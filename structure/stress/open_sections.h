@@ -20,7 +20,7 @@ struct TwistedBars {
   std::string group;
   double von_mises = 0;  ///< the group's largest, Pa
   double torsion = 0;    ///< sqrt(3) times the shear stress of Saint-Venant's torsion there, Pa
-  Vector3 place = Vector3::Zero();  ///< where, m
+  Vector3 place = Vector3::Zero();  ///< where, on the line of centroids, m
 };
 
 /// Looks for groups of bars whose largest von Mises stress is that of torsion for half or more and
