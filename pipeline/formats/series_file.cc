@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "pipeline/formats/clock_time.h"
@@ -71,9 +72,11 @@ class SeriesReader {
 
   void take(std::string_view line, int count) {
     const std::string_view content = trimmed(line);
-    if (content.empty() || content.front() == '#') return;
+    if (content.empty()) return;
     const char separator = separator_of(line);
     std::vector<std::string> cells = cells_of(line, separator);
+    // #N/A in the first cell makes no remark of a row.
+    if (content.front() == '#' && !says_nothing(cells.front())) return;
     if (series_.columns.empty() && series_.names.empty() && !number(cells.front(), separator)) {
       series_.names = std::move(cells);
       return;
@@ -216,6 +219,9 @@ std::string in_utf8(std::string bytes, const std::string& path) {
 }  // namespace
 
 SeriesFile read_series_file(const std::filesystem::path& path, SeriesCells allowed) {
+  // Of a folder the stream opens, and what reads it throws a word without its name.
+  if (std::error_code error; std::filesystem::is_directory(path, error))
+    throw SeriesFileError(path.string() + ": this is a folder; a file of rows of numbers is due");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw SeriesFileError(path.string() + ": the file cannot be read");
   const std::string text = in_utf8({std::istreambuf_iterator<char>(stream), {}}, path.string());

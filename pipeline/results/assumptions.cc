@@ -251,7 +251,8 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
         "the vessel as it floats freely in regular waves (Maruo's formula, or those of the "
         "database "
         "that the case names). In surge, sway and yaw the waves' first-order force is that on the "
-        "hull at rest, so that nothing is counted twice.",
+        "hull at rest. What it has in the mean as the vessel moves is taken off Maruo's surge and "
+        "sway; in yaw, and beside a database that the case names, it comes on top.",
         drifting));
   }
   if (!linear.empty()) {

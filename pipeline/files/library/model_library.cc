@@ -29,6 +29,11 @@ bool is_file(const fs::path& path) {
   return !error && fs::exists(status) && !fs::is_directory(status);
 }
 
+/// "a crane", "a group of vessels".
+std::string kind_in_words(const std::string& kind) {
+  return kind == "vessels" ? "a group of vessels" : "a " + kind;
+}
+
 /// Complains if the file is of another kind than the one that is due.
 /// @param hints who named the file.
 bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& diagnostics,
@@ -37,10 +42,11 @@ bool is_of_kind(const Document& document, const std::string& kind, Diagnostics& 
   const YAML::Node found = document.root["kind"];
   const bool is_case = !found && document.root["case"];
   if (!is_case && (!found || !found.IsScalar() || found.Scalar() == kind)) return true;
-  diagnostics.error(document.mark_of(is_case ? document.root["case"] : found),
-                    fmt::format("this file describes a {}; a {} is due",
-                                is_case ? "lift case" : found.Scalar(), kind),
-                    hints);
+  diagnostics.error(
+      document.mark_of(is_case ? document.root["case"] : found),
+      fmt::format("this file describes {}; {} is due",
+                  kind_in_words(is_case ? "lift case" : found.Scalar()), kind_in_words(kind)),
+      hints);
   return false;
 }
 
@@ -210,16 +216,11 @@ fs::path ModelLibrary::find(const Located<std::string>& name, const std::string&
   }
   std::vector<std::string> hints = {hint_of_name(name.value, kind, beside),
                                     "looked for in " + list_of_names(looked_in)};
-  for (const auto& [other, word] : {std::pair<std::string, const char*>("crane", "a crane"),
-                                    {"block", "a block"},
-                                    {"rope", "a rope"},
-                                    {"vessel", "a vessel"},
-                                    {"vessels", "a group of vessels"},
-                                    {"standard", "a standard"}}) {
+  for (const std::string other : {"crane", "block", "rope", "vessel", "vessels", "standard"}) {
     if (other == kind) continue;
     const std::vector<std::string> others = names_of_kind(other, beside);
     if (std::find(others.begin(), others.end(), name.value) != others.end())
-      hints.push_back(fmt::format("\"{}\" is {}", name.value, word));
+      hints.push_back(fmt::format("\"{}\" is {}", name.value, kind_in_words(other)));
   }
   diagnostics.error(name.mark, fmt::format("there is no {} model \"{}\"", kind, name.value),
                     std::move(hints));

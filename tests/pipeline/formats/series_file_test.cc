@@ -84,6 +84,12 @@ TEST_F(SeriesFiles, SayWhatStandsBeforeTheFirstRow) {
               HasSubstr("series.csv:3: a zero byte"));
 }
 
+TEST_F(SeriesFiles, RefuseFolders) {
+  folder_.write("records/series.csv", "a,b\n0,1\n");
+  EXPECT_THAT([] { read_series_file("records"); },
+              ::testing::ThrowsMessage<SeriesFileError>(HasSubstr("records: this is a folder")));
+}
+
 // A comma that sets numbers apart is none in a number.
 TEST_F(SeriesFiles, TellTheLineOfWhatTheyCannotHold) {
   EXPECT_THAT(refusal_of("a,b\n0,1\n\n# pause\n1,2,5\n"),
@@ -111,6 +117,9 @@ TEST_F(SeriesFiles, OfLoggersHaveGapsAndClocks) {
   EXPECT_THAT(series.columns[1], ElementsAre(1.5, IsNan(), IsNan()));
   EXPECT_THAT(series.columns[2], ElementsAre(IsNan(), 2, 3));
   EXPECT_THAT(series.lines, ElementsAre(2, 3, 5));
+  const SeriesFile without_time = read("time,a\n0,1\n#N/A,2\n2,#N/A\n", SeriesCells::of_loggers);
+  EXPECT_THAT(without_time.columns[0], ElementsAre(0, IsNan(), 2));
+  EXPECT_THAT(without_time.columns[1], ElementsAre(1, 2, IsNan()));
 }
 
 // 2026-05-04T10:00:00Z is 1777888800 s after 1970 began (date -d).

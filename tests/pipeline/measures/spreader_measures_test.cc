@@ -73,8 +73,6 @@ TEST(LargestForces, OfABarsOwnWeight) {
   EXPECT_NEAR(forces.moments[0], w * L * L / 8, 1e-9 * w * L * L);
 }
 
-// A free rod pushed sideways at its end: the largest moment, 4/27 F L, lies a third of the way from
-// the other end (Timoshenko and Young, Advanced dynamics).
 // A weight W whose centre lies x_0 beside the middle, plumb ends: the load along the bar is
 // W / L (1 + 12 x_0 x / L^2), the reactions W (1/2 -+ x_0 / L), M(x) what they leave.
 TEST(LargestForces, OfAWeightBesideTheMiddle) {
@@ -92,6 +90,8 @@ TEST(LargestForces, OfAWeightBesideTheMiddle) {
   EXPECT_GT(largest, W * L / 8);
 }
 
+// A free rod pushed sideways at its end: the largest moment, 4/27 F L, lies a third of the way from
+// the other end (Timoshenko and Young, Advanced dynamics).
 TEST(LargestForces, OfARodThatIsAccelerated) {
   const double F = 1e3, L = 6;
   const auto forces = largest_forces({{{L / 2, 0, 0}, {0, F, 0}}}, L);
@@ -135,8 +135,6 @@ TEST(SpreaderMeasures, CompressionFollowsTheMotion) {
   for (Eigen::Index i = 0; i < N.size(); ++i) EXPECT_NEAR(N[i] / N[0], pull[i] / pull[0], 1e-3);
 }
 
-// The bar's lower face is 0.1 + 1.5 m over the lugs' pins less half of the pipe, these 0.2 m over
-// the plate's top, and the slings stretch.
 // The bar's centre of mass a metre beside its middle: its end b hangs lower, and about any point the
 // pulls from above balance the weights where they are.
 TEST(SpreaderMeasures, WeightOfABarMayLieBesideItsMiddle) {
@@ -165,6 +163,8 @@ TEST(SpreaderMeasures, WeightOfABarMayLieBesideItsMiddle) {
   EXPECT_LT(moment.norm(), 1e-4 * load.norm());
 }
 
+// The bar's lower face is 0.1 + 1.5 m over the lugs' pins less half of the pipe, these 0.2 m over
+// the plate's top, and the slings stretch.
 TEST(SpreaderMeasures, BarKeepsItsDistanceFromTheLoad) {
   const BarLift& lift = plain_lift();
   std::vector<LiftMeasure> measures;

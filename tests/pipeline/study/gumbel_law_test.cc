@@ -106,6 +106,7 @@ TEST(GoodnessOfFit, ParetosPointsAreThePublishedOnes) {
 TEST(GoodnessOfFit, FarAndNearEnds) {
   EXPECT_EQ(p_of_gumbel_fit(std::numeric_limits<double>::infinity()), 0);
   EXPECT_LT(p_of_gumbel_fit(20), 1e-6);
+  EXPECT_EQ(p_of_gumbel_fit(1e6), 0);
   EXPECT_GT(p_of_gumbel_fit(0.05), 0.999);
   EXPECT_GT(p_of_pareto_fit(0.05, 3), 0.99);
 }
