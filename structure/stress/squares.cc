@@ -148,17 +148,27 @@ class SquarePlacer {
     return position_of(place_of(edge, edge.length)) - position_of(place_of(edge, 0));
   }
 
-  /// Has an outline two corners? A closed tank has none, and a pipe's ends where it begins.
-  bool has_corner(const PlateField& field) const {
-    if (field.outlines.empty()) return false;
-    const FieldEdge& first = field.outlines.front().front();
-    return way_along(first).norm() > 1e-6 * first.length;
+  /// The first edge of an outline that has two corners; null without such. A closed tank has no
+  /// outline, and a pipe's or a round hole's ends where it begins.
+  const FieldEdge* edge_between_corners(const PlateField& field) const {
+    for (const auto& outline : field.outlines) {
+      const FieldEdge& first = outline.front();
+      if (way_along(first).norm() > 1e-6 * first.length) return &first;
+    }
+    return nullptr;
   }
 
-  /// From the outline's first corner to the next one; without them along a shell's first side.
+  /// From an outline's first corner to the next one; without them along a shell's first side.
   Vector3 first_direction(const PlateField& field, int shell) const {
-    if (has_corner(field)) return way_along(field.outlines.front().front());
+    if (const FieldEdge* edge = edge_between_corners(field)) return way_along(*edge);
     return tangents(mesh_, shell, {0.5, 0.5}).col(0);
+  }
+
+  /// Does plating turn by more than 60 degrees from a normal? A plane lattice would leave it out.
+  bool turns_away(const PlateField& field, const Vector3& normal) const {
+    return std::any_of(field.shells.begin(), field.shells.end(), [&](int shell) {
+      return std::abs(normal_of(mesh_, {shell, {0.5, 0.5}}).dot(normal)) < 0.5;
+    });
   }
 
   /// Where nothing carries a lattice squares lie in the middles of shells, or of parts of large
@@ -261,10 +271,12 @@ class SquarePlacer {
   }
 
   void between(const PlateField& field) {
-    if (!has_corner(field)) return over_shells(field);
+    const FieldEdge* edge = edge_between_corners(field);
+    if (edge == nullptr) return over_shells(field);
     // A lattice that hangs on the first corner of the outline.
-    const ShellPlace origin = place_of(field.outlines.front().front(), 0);
+    const ShellPlace origin = place_of(*edge, 0);
     const Vector3 begin = position_of(origin), normal = normal_of(mesh_, origin);
+    if (turns_away(field, normal)) return over_shells(field);
     Vector3 e_1 = first_direction(field, origin.shell);
     e_1 = (e_1 - normal * normal.dot(e_1)).normalized();
     if (!e_1.allFinite()) return;

@@ -26,19 +26,20 @@ TEST(ExcitationChange, IsTheLargestDifferenceOfTheLargestForce) {
   database.diffraction[1](heave, 0) = 2.0;
   database.diffraction[1](sway, 0) = 5e-4;
   database.diffraction[1](roll, 0) = {0.0, 0.1};
-  std::vector<Eigen::MatrixXcd> coarser = database.diffraction;
-  coarser[0](heave, 0) = {0.0, 3.5};
-  coarser[1](heave, 0) = {2.0, 1.0};
-  coarser[1](sway, 0) = 0.0;
+  CoarserForces coarser(6, 2, 1);
+  coarser.diffraction = database.diffraction;
+  coarser.diffraction[0](heave, 0) = {0.0, 3.5};
+  coarser.diffraction[1](heave, 0) = {2.0, 1.0};
+  coarser.diffraction[1](sway, 0) = 0.0;
   // Turned by a right angle alone: the phase counts.
-  coarser[1](roll, 0) = 0.1;
+  coarser.diffraction[1](roll, 0) = 0.1;
   const Eigen::VectorXd change = largest_excitation_change(database, coarser);
   ASSERT_EQ(change.size(), 6);
   EXPECT_NEAR(change[heave], 1.0 / 5.0, 1e-12);
   EXPECT_NEAR(change[roll], std::sqrt(2.0), 1e-12);
   EXPECT_EQ(change[sway], 0.0);
   EXPECT_EQ(change[surge], 0.0);
-  coarser[0].setConstant(std::numeric_limits<double>::infinity());
+  coarser.diffraction[0].setConstant(std::numeric_limits<double>::infinity());
   EXPECT_TRUE(std::isinf(largest_excitation_change(database, coarser)[heave]));
   database.headings.clear();
   EXPECT_EQ(largest_excitation_change(database, coarser).size(), 0);
