@@ -65,18 +65,19 @@ void check_walls(const Located<BarSection>& located_section, double yield_stress
                              most)});
 }
 
-/// Nothing but a bar's own steel and what is fastened to it has weight.
+/// Nothing but a bar's own steel and what is fastened to it has weight. Along the bar it rises or
+/// falls evenly, and is nowhere less than nothing while its centre lies within the middle third.
 void check_centre(const SpreaderInCase& spreader, Reading& reading) {
   if (!spreader.centre_of_mass || !spreader.section.value.is_whole()) return;
   const Vector3& centre = spreader.centre_of_mass->value;
-  const double x = spreader.length.value / 2;
+  const double x = spreader.length.value / 6;
   const double y = spreader.width.value_or(spreader.section.value.width()) / 2;
   if (std::abs(centre.x()) <= x && std::abs(centre.y()) <= y) return;
   reading.error(spreader.centre_of_mass->mark,
-                fmt::format("the centre of mass of {} lies beside it, at x {:g} m, y {:g} m",
+                fmt::format("the centre of mass of {} lies too far out, at x {:g} m, y {:g} m",
                             reading.owner(), centre.x(), centre.y()),
-                {fmt::format("it is counted from its middle: up to {:g} m along x and {:g} m along "
-                             "y either way",
+                {fmt::format("it is counted from its middle: up to {:g} m along x, a sixth of the "
+                             "length, and {:g} m along y either way",
                              x, y)});
 }
 

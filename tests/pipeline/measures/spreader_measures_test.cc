@@ -135,21 +135,21 @@ TEST(SpreaderMeasures, CompressionFollowsTheMotion) {
   for (Eigen::Index i = 0; i < N.size(); ++i) EXPECT_NEAR(N[i] / N[0], pull[i] / pull[0], 1e-3);
 }
 
-// The bar's centre of mass a metre beside its middle: its end b hangs lower, and about any point the
+// The bar's centre of mass 0.6 m beside its middle: its end b hangs lower, and about any point the
 // pulls from above balance the weights where they are.
 TEST(SpreaderMeasures, WeightOfABarMayLieBesideItsMiddle) {
   test::SampleLift parts = test::spreader_lift();
   parts.lift_case = test::with(parts.lift_case, "    upper_eye: 0.2 m\n",
-                               "    upper_eye: 0.2 m\n    mass: 1000 kg\n"
-                               "    centre_of_mass: [1 m, 0 m, 0 m]\n");
+                               "    upper_eye: 0.2 m\n    mass: 2000 kg\n"
+                               "    centre_of_mass: [0.6 m, 0 m, 0 m]\n");
   const BarLift lift = lift_on_bar(parts);
   const LiftSpreader& bar = lift.run.model.spreaders.front();
   const dynamics::History& history = lift.run.static_history;
   const dynamics::Pose X = history.bodies[bar.body - 1].X_WB(0),
                        X_load = history.bodies[lift.run.model.load - 1].X_WB(0);
   EXPECT_LT(X.R(2, 0), -0.01);
-  const Vector3 weight(0, 0, -1000 * gravity), load(0, 0, -10e3 * gravity);
-  Vector3 moment = X.apply(Vector3(1, 0, 0)).cross(weight);
+  const Vector3 weight(0, 0, -2000 * gravity), load(0, 0, -10e3 * gravity);
+  Vector3 moment = X.apply(Vector3(0.6, 0, 0)).cross(weight);
   moment += X_load.apply(Vector3(2, 0, 0.5)).cross(load);
   Vector3 force = weight + load;
   for (const LiftSpreader::End& end : bar.ends) {
