@@ -40,7 +40,7 @@ enum class Ending : char { done = 'd', failed = 'f', out_of_memory = 'm' };
 
 /// A child that waits for something takes no time of the processor: it has this many times its
 /// limit by the clock, since other programs run as well.
-constexpr double by_the_clock = 4;
+constexpr double by_the_clock = 30;
 
 void limit(int resource, double value) {
   rlimit limits{};
