@@ -345,6 +345,12 @@ std::vector<std::string> ModelLibrary::names_of_kind(const std::string& kind,
     add_models(folder.empty() ? fs::path(".") : folder, kind, true, names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
+  // A crane brings ropes of its own: "gantry/ropes/tackle" tells no more than "ropes/tackle".
+  const std::vector<std::string> all = names;
+  std::erase_if(names, [&](const std::string& name) {
+    return std::any_of(all.begin(), all.end(),
+                       [&](const std::string& shorter) { return name.ends_with("/" + shorter); });
+  });
   return names;
 }
 
