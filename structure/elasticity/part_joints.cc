@@ -308,7 +308,7 @@ class JointFinder {
         sum += mesh_.centre(solid);
       }
     const Vector3 middle = sum / count;
-    const std::string where =
+    std::string where =
         fmt::format("about ({:.4g}, {:.4g}, {:.4g}) m", middle.x(), middle.y(), middle.z());
     for (const PartGroup& group : mesh_.groups)
       if (group.dimension == 3 && static_cast<int>(group.elements.size()) == count &&

@@ -140,7 +140,7 @@ ForceVector HullForce::calc_force_in_waves(double time, const Pose& X_WB) const 
     };
     add_part(time, X_WB, range, *surface_->faces(), add_leaf, F_B);
   }
-  const ForceVector F_W{rho_g_ * (X_WB.R * F_B.moment), rho_g_ * (X_WB.R * F_B.force)};
+  ForceVector F_W{rho_g_ * (X_WB.R * F_B.moment), rho_g_ * (X_WB.R * F_B.force)};
   if (!definition_.p_BoR_B) return F_W;
   return without_water_plane_part(F_W, X_WB.R * *definition_.p_BoR_B);
 }
