@@ -196,7 +196,7 @@ TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
   EXPECT_NEAR(pair["distance"]["size_m"].get<double>(), 4.0, 0.5);
   EXPECT_NEAR(pair["limit_m"].get<double>(), 0.2 * 8, 1e-9);
   EXPECT_EQ(pair["share_of_time_beyond"], 1.0);
-  const auto of_radiation = HasSubstr("the radiation force of load in pitch changes by");
+  const auto of_radiation = HasSubstr("the radiation force of load in yaw changes by");
   const auto of_waves = HasSubstr("the force of waves on load in pitch changes by");
   EXPECT_THAT(warnings_of(first),
               ElementsAre(HasSubstr("B1 and load came up to"), of_radiation, of_waves));
