@@ -136,18 +136,18 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   const dynamics::Symmetry symmetry =
       problem.symmetry ? keep_symmetry(find_symmetry(bodies), problem.lids) : dynamics::Symmetry{};
   const bool with_surface = problem.method == dynamics::PanelMethod::marched_surface;
-  if (with_surface && lines.empty()) {
-    throw dynamics::ModelError(
-        fmt::format("at a draught of {:.6g} m no hull reaches the water's surface, and a hull that "
-                    "makes waves is due; give a draught below the hull's depth",
-                    state.draught));
-  }
   dynamics::SurfaceMesh surface;
   surface.mesh.symmetry = symmetry;
   if (with_surface) {
     surface = make_surface_mesh(
         lines, dynamics::surface_settings(lines, length(problem.frequencies.back()),
                                           length(problem.frequencies.front())));
+  }
+  if (with_surface && surface.mesh.panels.empty()) {
+    throw dynamics::ModelError(
+        fmt::format("at a draught of {:.6g} m no hull reaches the water's surface, and a hull that "
+                    "makes waves is due; give a draught below the hull's depth",
+                    state.draught));
   }
   state.model = std::make_shared<const dynamics::PanelModel>(std::move(bodies), surface,
                                                              problem.water, symmetry);

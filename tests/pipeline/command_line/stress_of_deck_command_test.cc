@@ -185,8 +185,11 @@ TEST_F(StressOfDeck, TitlesEndWithTheirLine) {
 
 // PS of GRID holds as SPC1 does, and nothing says that the case lacks it.
 TEST_F(StressOfDeck, ConstraintsOfGridsHold) {
-  change("GRID,11,,0.,0.,0.", "GRID,11,,0.,0.,0.,,123456");
-  change("SPC1,1,123456,11,14", "SPC1,1,123456,14");
+  const std::string node = "GRID,11,,0.,0.,0.", both = "SPC1,1,123456,11,14";
+  std::string text = strip_deck;
+  text.replace(text.find(node), node.size(), node + ",,123456");
+  text.replace(text.find(both), both.size(), "SPC1,1,123456,14");
+  folder_.write("strip.bdf", text);
   const Outcome outcome = stress("strip.yaml -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, Not(HasSubstr("lack")));

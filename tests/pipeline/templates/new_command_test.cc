@@ -48,7 +48,15 @@ TEST_P(EveryTemplate, IsValidAndRunsAsTheProgramSays) {
   // A study has other results than the case beside it, which would lie among them.
   const bool is_study = GetParam() == "study";
   EXPECT_TRUE(fs::exists(is_study ? "results/my-lift-study" : "results/my-lift")) << outcome.out;
-  EXPECT_THAT(outcome.out, Not(HasSubstr("warning:")));
+  // The floating crane is for a first look, without the water that moves along: it is warned of that
+  // alone. Other templates show no warning.
+  std::string out = outcome.out;
+  if (GetParam() == "floating-crane") {
+    const std::string first_look = "warning: In waves, and radiation: none";
+    ASSERT_THAT(out, HasSubstr(first_look));
+    out.erase(out.find(first_look), first_look.size());
+  }
+  EXPECT_THAT(out, Not(HasSubstr("warning:")));
 }
 
 INSTANTIATE_TEST_SUITE_P(NewCommand, EveryTemplate, ::testing::ValuesIn(template_kinds()),
