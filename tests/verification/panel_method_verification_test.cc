@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstdio>
 #include <numbers>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -213,6 +214,11 @@ struct BroadCylinder {
   int meridians, parallels;
   PanelMethod method;
 };
+
+void PrintTo(const BroadCylinder& given, std::ostream* out) {
+  *out << given.meridians << " panels round it in water of " << given.depth << " m"
+       << (given.method == PanelMethod::green_function ? ", Green function" : "");
+}
 
 class ErrorOfPanelsOfABroadCylinder : public ::testing::TestWithParam<BroadCylinder> {};
 
