@@ -23,7 +23,8 @@ struct ComparedResult {
   bool has_models = false;       ///< false for results of versions that kept the case file alone
 };
 
-/// Do two values of an input file say the same, as "400 cm" and "4 m", "[0, 0 m]" and "[0, 0 mm]" do?
+/// Do two values of an input file say the same, as "400 cm" and "4 m", "[1 m, x]" and
+/// "[100 cm, x]" do?
 bool is_same_value(const std::string& value, const std::string& other);
 
 /// Reads the results in a folder, or those of a case: a case file, or a folder with a case.yaml,
