@@ -177,7 +177,7 @@ std::string identity_of(const HydrodynamicProblem& problem) {
   hash.add(problem.headings);
   add(hash, problem.method);
   hash.add(static_cast<std::int64_t>(problem.symmetry));
-  hash.add(static_cast<std::int64_t>(problem.mean_drift));
+  hash.add(std::int64_t{problem.mean_drift ? dynamics::mean_drift_version : 0});
   for (const dynamics::DampingLid& lid : problem.lids) {
     hash.add(std::span(lid.low.data(), 2));
     hash.add(std::span(lid.high.data(), 2));
@@ -217,7 +217,8 @@ dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
         calc_floating_stiffness_over_rho_g(rest, p_BoBcm_W);
   }
   if (problem.mean_drift) {
-    database.mean_drift = calc_mean_drift(database, calc_response_amplitudes(database, state.mass));
+    database.mean_drift = calc_mean_drift(database, calc_response_amplitudes(database, state.mass),
+                                          {}, !problem.lids.empty());
   }
   return database;
 }

@@ -42,26 +42,50 @@ struct Going {
         group_velocity(calc_group_velocity(w, water)),
         pressure(0.5 * water.density * water.gravity) {}
 
-  /// How the waves far away along the heading meet the incident ones.
-  double meet(Complex at_heading) const {
-    return 2.0 * std::sqrt(2.0 * std::numbers::pi / wave_number) *
-           (at_heading * std::polar(1.0, -0.25 * std::numbers::pi)).real();
+  /// How the waves far away along the heading meet the incident ones: the real part does.
+  Complex meet(Complex at_heading) const {
+    return 2.0 * std::sqrt(2.0 * std::numbers::pi / wave_number) * at_heading *
+           std::polar(1.0, -0.25 * std::numbers::pi);
   }
 };
 
 /// All that is sent out at a frequency in waves of a heading (indices).
-DirectionalWaves sent_out(const HydrodynamicDatabase& database,
+Eigen::VectorXcd sent_out(const HydrodynamicDatabase& database,
                           const std::vector<MatrixXcd>& motions, std::size_t k, Eigen::Index h) {
   Eigen::VectorXcd waves = database.far_field.scattered[k].col(h);
   if (!motions.empty()) waves += database.far_field.radiated[k] * motions[k].col(h);
-  return DirectionalWaves(waves);
+  return waves;
+}
+
+/// P, W/m2.
+double power_of_damping(const Going& going, const std::vector<MatrixXcd>& motions,
+                        const MatrixXd& damping, std::size_t k, Eigen::Index h) {
+  if (motions.empty() || damping.size() == 0) return 0.0;
+  const Eigen::VectorXcd velocity = going.frequency * motions[k].col(h);
+  return 0.5 * velocity.dot(damping * velocity).real();
+}
+
+Complex energy_factor(const Going& going, const Eigen::VectorXcd& sent, double heading,
+                      double power) {
+  const DirectionalWaves waves(sent);
+  return calc_energy_factor(waves.integrate().whole, -going.meet(waves.at(heading)),
+                            power / (going.pressure * going.group_velocity));
 }
 
 }  // namespace
 
+Complex calc_energy_factor(double sent, Complex shadow, double taken) {
+  if (!(sent > 0.0)) return 1.0;
+  const Complex middle = std::conj(shadow) / (2.0 * sent);
+  const double radius_squared = std::norm(middle) - taken / sent;
+  const Complex away = 1.0 - middle;
+  if (!(radius_squared > 0.0) || away == 0.0) return 1.0;
+  return middle + std::sqrt(radius_squared) / std::abs(away) * away;
+}
+
 std::vector<MatrixXd> calc_mean_drift(const HydrodynamicDatabase& database,
                                       const std::vector<MatrixXcd>& motions,
-                                      const MatrixXd& damping) {
+                                      const MatrixXd& damping, bool has_lids) {
   require_far_field(database, motions);
   const Vector3& p = database.reference_points[0];
   std::vector<MatrixXd> drift;
@@ -71,19 +95,18 @@ std::vector<MatrixXd> calc_mean_drift(const HydrodynamicDatabase& database,
     drift.emplace_back(MatrixXd::Zero(modes_per_body, database.headings.size()));
     for (Eigen::Index h = 0; h < drift.back().cols(); ++h) {
       const double heading = database.headings[h];
-      const DirectionalWaves waves = sent_out(database, motions, k, h);
+      Eigen::VectorXcd H = sent_out(database, motions, k, h);
+      const double power = power_of_damping(going, motions, damping, k, h);
+      if (!has_lids) H *= energy_factor(going, H, heading, power);
+      const DirectionalWaves waves(H);
       const DirectionalWaves::Moments sent = waves.integrate();
-      double lost = 0.0;
-      if (!motions.empty() && damping.size() > 0) {
-        const Eigen::VectorXcd velocity = going.frequency * motions[k].col(h);
-        lost = 0.5 * velocity.dot(damping * velocity).real() / going.phase_velocity;
-      }
+      const double lost = power / going.phase_velocity;
       const double taken = momentum * sent.whole + lost;
       const double along_x = std::cos(heading) * taken - momentum * sent.along_x;
       const double along_y = std::sin(heading) * taken - momentum * sent.along_y;
       const double turning =
           -going.pressure * going.group_velocity / going.frequency *
-          (waves.integrate_turning() + going.meet(Complex(0.0, 1.0) * waves.slope(heading)));
+          (waves.integrate_turning() + going.meet(Complex(0.0, 1.0) * waves.slope(heading)).real());
       drift.back()(surge, h) = along_x;
       drift.back()(sway, h) = along_y;
       drift.back()(yaw, h) = turning - (p.x() * along_y - p.y() * along_x);
@@ -100,9 +123,9 @@ std::vector<Eigen::VectorXd> calc_absorbed_power(const HydrodynamicDatabase& dat
     const Going going(database.water, database.frequencies[k]);
     Eigen::VectorXd& lost = power.emplace_back(database.headings.size());
     for (Eigen::Index h = 0; h < lost.size(); ++h) {
-      const DirectionalWaves waves = sent_out(database, motions, k, h);
+      const DirectionalWaves waves(sent_out(database, motions, k, h));
       lost[h] = -going.pressure * going.group_velocity *
-                (waves.integrate().whole + going.meet(waves.at(database.headings[h])));
+                (waves.integrate().whole + going.meet(waves.at(database.headings[h])).real());
     }
   }
   return power;

@@ -16,19 +16,41 @@ namespace blocklift::dynamics {
 /// the waves' energy that is not sent out again; the second Newman's (1967), J. Ship Research 11.
 /// A wall of which waves come back whole is pressed by rho g a^2/2 per width in deep water.
 ///
+/// The panels' error leaves the waves that are sent out without the energy that the incident ones
+/// lose. Unless there are lids, whose power is not known, H is therefore multiplied by the complex
+/// number nearest to 1 that gives it back (calc_energy_factor): short waves are sent out too weak,
+/// and the force would miss twice as much of itself.
+///
 /// @param motions of each frequency, 6 x headings, m/m and rad/m (calc_response_amplitudes); empty:
 ///   the body is held.
 /// @param damping 6 x 6, of the motion otherwise than by waves; empty: none.
+/// @param has_lids waves fade on lids, too.
 /// @returns for each frequency 6 x headings: surge and sway (N/m2) and yaw about the reference
 ///   point (N m/m2) along the axes of the database; heave, roll and pitch are zero, being unknown.
 /// @throws ModelError if the database has no far field, holds several bodies (their drift is known
 ///   together only), or the sizes do not fit.
 std::vector<Eigen::MatrixXd> calc_mean_drift(const HydrodynamicDatabase& database,
                                              const std::vector<Eigen::MatrixXcd>& motions,
-                                             const Eigen::MatrixXd& damping = {});
+                                             const Eigen::MatrixXd& damping = {},
+                                             bool has_lids = false);
+
+/// Changes whenever calc_mean_drift gives other figures for the same far field.
+inline constexpr int mean_drift_version = 2;
+
+/// The z nearest to 1 of those that make energy of the waves z H balance,
+///
+///   |z|^2 sent - Re(z shadow) + taken = 0,
+///
+/// a circle in the complex plane; 1 where there is none. Where nearly all that a wave brings is
+/// thrown back, z makes up for waves that are too weak. A body that hardly disturbs the waves has a
+/// shadow whose real part is a small rest; z then turns the phase, and |z| stays 1.
+/// @param sent int |H|^2 dt, not negative.
+/// @param shadow - 2 sqrt(2 pi/k) H(theta) exp(-i pi/4).
+/// @param taken P over rho g c_g/2, what is taken out of the motion otherwise.
+std::complex<double> calc_energy_factor(double sent, std::complex<double> shadow, double taken);
 
 /// Power that waves of unit amplitude lose at the body beside what is sent out again (W/m2), by the
-/// far field alone, for each frequency and heading: that of the damping if the far field is exact.
+/// far field alone, as the panels gave it, for each frequency and heading: that of the damping if the far field is exact.
 ///   - rho g c_g/2 (int |H|^2 dt + 2 sqrt(2 pi/k) Re(H(theta) exp(-i pi/4)))
 /// @throws ModelError as calc_mean_drift does.
 std::vector<Eigen::VectorXd> calc_absorbed_power(const HydrodynamicDatabase& database,

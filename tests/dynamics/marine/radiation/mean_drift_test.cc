@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -136,6 +137,41 @@ TEST(MeanDrift, PowerThatIsTakenOutPresses) {
   motion(heave, 0) = Complex(0.5, 0.2);
   const double power = 0.5 * 3.0 * 1.0 * std::norm(motion(heave, 0));
   EXPECT_NEAR(calc_mean_drift(database, {motion}, damping).at(0)(surge, 0), power, 1e-12);
+}
+
+TEST(MeanDrift, EnergyFactorIsTheNearestOneThatBalances) {
+  const auto missing = [](Complex z, double sent, Complex shadow, double taken) {
+    return std::norm(z) * sent - (z * shadow).real() + taken;
+  };
+  for (const double taken : {0.0, 0.2}) {
+    const Complex shadow(1.3, 0.8), z = calc_energy_factor(1.0, shadow, taken);
+    EXPECT_NEAR(missing(z, 1.0, shadow, taken), 0.0, 1e-14);
+    // From there to 1 the circle's radius leads.
+    const Complex radius = z - 0.5 * std::conj(shadow);
+    EXPECT_NEAR((std::conj(radius) * (1.0 - z)).imag(), 0.0, 1e-14);
+    EXPECT_LT(std::abs(z - 1.0), std::abs(shadow - 1.0));
+  }
+  // What balances stays, and so does what nothing balances, and no waves at all.
+  EXPECT_LT(std::abs(calc_energy_factor(2.0, {2.0, 5.0}, 0.0) - 1.0), 1e-14);
+  EXPECT_EQ(calc_energy_factor(1.0, {0.1, 0.0}, 2.0), Complex(1.0));
+  EXPECT_EQ(calc_energy_factor(0.0, {0.0, 0.0}, 0.0), Complex(1.0));
+  // Waves that are thrown back whole, but a tenth too weak; and next to none, whose shadow is out
+  // of phase: its real part is wrong by much, and its size is left.
+  EXPECT_LT(std::abs(calc_energy_factor(0.81, 0.9, 0.0) - 1.0 / 0.9), 1e-14);
+  EXPECT_NEAR(std::abs(calc_energy_factor(1e-4, {2e-4, 1e-2}, 0.0)), 1.0, 2e-4);
+}
+
+// Two tenths of the force would be missing of waves that are sent out a tenth too weak. With ka 2.5
+// and 6 the shadow's imaginary part is 0.42 and 0.23 of the real one, by the series above.
+TEST(MeanDrift, MakesUpForWavesThatAreTooWeak) {
+  for (const auto& [ka, left] : {std::pair{2.5, 0.9631}, {6.0, 0.9874}}) {
+    HydrodynamicDatabase database = standing_column(ka, 0.0, Vector3::Zero());
+    const double exact = calc_mean_drift(database, {})[0](surge, 0);
+    database.far_field.scattered[0] *= 0.9;
+    EXPECT_NEAR(calc_mean_drift(database, {})[0](surge, 0) / exact, left, 1e-4) << ka;
+    // On lids the power that is missing may have been lost.
+    EXPECT_NEAR(calc_mean_drift(database, {}, {}, true)[0](surge, 0) / exact, 0.81, 1e-9);
+  }
 }
 
 TEST(MeanDrift, RefusesWhatIsNotKnown) {

@@ -71,14 +71,15 @@ TEST(LiftCaseErrors, ModelThatLiesBesideTheCase) {
   const test::TemporaryFolder folder;
   SampleLift().write(folder);
   folder.write("hoist.yaml", "# of the yard\nkind: crane  # the small one\n");
-  folder.write("notes.yaml", "kinds: crane\n");
+  folder.write("winch.yaml", "\"kind\": 'crane'\n");
+  folder.write("notes.yaml", "kinds: crane\nkind of: crane\n");
   folder.write("case.yaml", with(SampleLift().lift_case, "model: gantry", "model: hoists"));
   Diagnostics diagnostics;
   ModelLibrary library({});
   EXPECT_FALSE(read_lift_case("case.yaml", library, diagnostics));
   EXPECT_EQ(diagnostics.to_text(),
             "case.yaml:6:12: error: there is no crane model \"hoists\"\n"
-            "    the crane models are gantry, hoist; did you mean \"hoist\"?\n"
+            "    the crane models are gantry, hoist, winch; did you mean \"hoist\"?\n"
             "    looked for in .\n"
             "1 error\n");
 }

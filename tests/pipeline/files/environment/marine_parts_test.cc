@@ -1,5 +1,5 @@
 // The sea, vessels and lines in mechanism files and lift cases.
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 #include <cmath>
 #include <numbers>
@@ -10,8 +10,8 @@
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_mechanism.h"
-#include "pipeline/files/lift_case/vessel_database.h"
-#include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/files/environment/vessel_database.h"
+#include "pipeline/files/environment/wave_headings.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/pipeline/sample_lift.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,9 @@
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "dynamics/marine/loads/draught_shares.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "pipeline/files/environment/sea_band.h"
+#include "pipeline/files/environment/vessel_database.h"
 #include "pipeline/files/library/model_library.h"
-#include "pipeline/files/lift_case/sea_band.h"
-#include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/series_file.h"
 
