@@ -24,6 +24,7 @@
 #include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
 #include "pipeline/measures/load_measures.h"
+#include "pipeline/results/lug_doubts.h"
 
 namespace blocklift::pipeline {
 
@@ -71,6 +72,7 @@ class Doubts {
     doubt_cranes();
     if (const std::string baskets = doubt_about_baskets(case_); !baskets.empty())
       list_.push_back(baskets + ".");
+    if (std::string lugs = doubt_about_lugs(case_); !lugs.empty()) list_.push_back(std::move(lugs));
     doubt_sea();
     doubt_water();
     doubt_wind();

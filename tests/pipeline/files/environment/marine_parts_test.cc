@@ -21,6 +21,7 @@ namespace {
 using test::TemporaryFolder;
 using test::with;
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 const std::string floating = R"(mechanism: floating
@@ -546,13 +547,15 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
   EXPECT_THAT(complaints_of_change("towards: 90 deg", "towards: 90 deg, profile: tidal"),
               HasSubstr("a tidal current needs the depth of the sea"));
   EXPECT_THAT(complaints_of_change("heading: 90 deg", "draught: 7 m"),
-              HasSubstr("would float at a draught of 7 m"));
+              AllOf(HasSubstr("would float at a draught of 7 m"), EndsWith("\n1 error\n")));
   EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: B2"),
               HasSubstr("tugger line T1 ends at body \"B2\", which does not exist"));
   EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: wold"),
               HasSubstr("did you mean \"world\"?"));
   EXPECT_THAT(complaints_of_change("length: 35 m, stiffness: 100 kN/m", "stiffness: 100 kN/m"),
               HasSubstr("neither what tension it holds nor how it stretches"));
+  EXPECT_THAT(complaints_of_change("stiffness: 100 kN/m", "stifness: 100 kN/m"),
+              AllOf(HasSubstr("did you mean \"stiffness\"?"), EndsWith("\n1 error\n")));
   EXPECT_THAT(
       complaints_of_change("length: 35 m, stiffness: 100 kN/m", "length: 35 m, tension: 100 kN"),
       HasSubstr("a line that holds a tension has a length or stiffness"));

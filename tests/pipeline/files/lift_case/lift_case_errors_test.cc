@@ -193,6 +193,13 @@ TEST(LiftCaseErrors, EyeThatASpreaderDoesNotHave) {
       "\"B1.upper_b\"?\n1 error\n");
 }
 
+TEST(LiftCaseErrors, SpreaderThatTheCaseDoesNotHave) {
+  EXPECT_THAT(complaints_about_spreader("to: B1.upper_b", "to: B2.upper_b"),
+              ::testing::AllOf(::testing::HasSubstr("the case has no crane or spreader \"B2\""),
+                               ::testing::HasSubstr("its cranes and spreaders are C1, B1; did you "
+                                                    "mean \"B1\"?")));
+}
+
 TEST(LiftCaseErrors, SlingsThatDoNotReachAroundASpreader) {
   EXPECT_EQ(
       complaints_about_spreader("upper_b, model: ropes/tackle, length: 2.5 m",
@@ -423,6 +430,11 @@ TEST(LiftCaseErrors, FaultsThatCannotBe) {
       "mean \"C1.travel\"?\n2 errors\n");
   EXPECT_THAT(complaints("{at: 5000 s, parts: [R1]}"),
               ::testing::HasSubstr("after the end of the operation"));
+  // How long an operation lasts is not known while one of its moves is wrong.
+  EXPECT_THAT(complaints_about_case("settle: 10 s\n",
+                                    "  - stage: wrong\n    moves:\n      - {drives: [C1.lift], by: "
+                                    "1 m}\nsettle: 10 s\nfaults:\n  - {at: 5000 s, parts: [R1]}\n"),
+              ::testing::Not(::testing::HasSubstr("after the end of the operation")));
   EXPECT_THAT(complaints("{at: 5 s, stops: [all, C1.travel]}"),
               ::testing::HasSubstr("\"C1.travel\" stops twice"));
 }
