@@ -100,6 +100,8 @@ void print_remarks(const DeckAssessment& assessment) {
     print_wrapped("warning: " + sentence);
   for (const std::string& sentence : remarks_on_torsion(assessment))
     print_wrapped("warning: " + sentence);
+  for (const std::string& sentence : remarks_on_triangles(assessment))
+    print_wrapped("warning: " + sentence);
   if (const auto& diagnosis = assessment.block->mesh->diagnosis)
     if (const structure::Finding* estimated = diagnosis->find("beams by figures"))
       print_wrapped("note: " + estimated->text);

@@ -44,6 +44,9 @@ std::vector<std::string> left_out_of_cases(const structure::Deck& deck);
 /// that they resist warping is not computed (find_twisted_open_bars).
 std::vector<std::string> remarks_on_torsion(const DeckAssessment& assessment);
 
+/// That curved triangles lock, in a sentence; none where none does (find_locking_triangles).
+std::vector<std::string> remarks_on_triangles(const DeckAssessment& assessment);
+
 /// Writes summary.json, nodes.csv (motions of the deck's nodes), reactions.csv and a picture
 /// case-LABEL.vtu a case into a folder; all of them appear when all are written.
 void write_deck_results(const DeckAssessment& assessment, const std::filesystem::path& folder);

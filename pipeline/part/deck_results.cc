@@ -110,6 +110,8 @@ Json make_summary(const DeckAssessment& assessment) {
   summary["warnings"] = warnings_of_own_cases(*assessment.block->mesh);
   for (std::string& remark : remarks_on_torsion(assessment))
     summary["warnings"].push_back(std::move(remark));
+  for (std::string& remark : remarks_on_triangles(assessment))
+    summary["warnings"].push_back(std::move(remark));
   const structure::DeckTimes& times = assessment.solution.times;
   summary["timing"] = {{"mesh_s", assessment.mesh_s},
                        {"assembly_s", times.assembly},

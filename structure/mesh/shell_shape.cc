@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -59,6 +60,19 @@ std::vector<Vector3> normals_of_curved(const Mesh& mesh, const Shell& shell) {
   return normals;
 }
 
+/// How far the edges of a triangle rise over the plane of its corners, in thicknesses.
+double rise_of_triangle(const Mesh& mesh, const Shell& shell) {
+  std::array<Vector3, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = mesh.vertices[shell.vertices[i]];
+  const Vector3 normal =
+      (corners[1] - corners[0]).cross(Vector3(corners[2] - corners[0])).normalized();
+  double rise = 0;
+  for (const Eigen::Vector2d& middle :
+       {Eigen::Vector2d(0.5, 0), Eigen::Vector2d(0, 0.5), Eigen::Vector2d(1, 0.5)})
+    rise = std::max(rise, std::abs(normal.dot(position(mesh, shell, middle) - corners[0])));
+  return rise / thickness_at(mesh, shell, {0.5, 0.5});
+}
+
 }  // namespace
 
 bool is_folded(const Mesh& mesh, const Shell& shell) {
@@ -95,6 +109,22 @@ std::vector<int> fastened_off_straight_shells(const Mesh& mesh) {
     if (distance > rounding * longest_edge(mesh, straight)) off.push_back(point.vertex);
   }
   return off;
+}
+
+std::vector<int> find_locking_triangles(const Mesh& mesh, int degree) {
+  std::vector<std::pair<double, int>> found;
+  if (degree < 2 || degree > 3) return {};
+  const double limit = degree == 2 ? 0.1 : 1;
+  for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
+    const Shell& shell = mesh.shells[s];
+    if (!shell.is_triangle() || shell.curvature < 0) continue;
+    if (const double rise = rise_of_triangle(mesh, shell); rise > limit)
+      found.emplace_back(-rise, static_cast<int>(s));
+  }
+  std::sort(found.begin(), found.end());
+  std::vector<int> triangles;
+  for (const auto& [rise, shell] : found) triangles.push_back(shell);
+  return triangles;
 }
 
 }  // namespace blocklift::structure
