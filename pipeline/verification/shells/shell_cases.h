@@ -21,6 +21,8 @@ std::vector<VerificationCase> strip_cases();
 std::vector<VerificationCase> membrane_cases();
 /// Natural modes of plates and of a stiffened box.
 std::vector<VerificationCase> vibration_cases();
+/// NAFEMS' beams, tapered membrane, clamped rhombus and Z section.
+std::vector<VerificationCase> nafems_cases();
 /// Girders: stiffened plates, box and I sections, and what drilling stiffness does to them.
 std::vector<VerificationCase> girder_cases();
 /// A box girder in bending.
