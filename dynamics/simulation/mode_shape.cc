@@ -80,10 +80,16 @@ std::vector<Motion> main_motions(const BodyEnergies& e) {
   return motions;
 }
 
-std::string motion_in_words(Motion motion, const BodyModeMotion& body, double elastic_share) {
+// What a level motion is called by what brings it back: ropes, weight, or nothing.
+std::string level_word(const Mode& mode) {
+  if (mode.kind == ModeKind::neutral) return "drift";
+  return mode.elastic_share < 0.5 ? "pendulum" : "sway";
+}
+
+std::string motion_in_words(Motion motion, const BodyModeMotion& body, const Mode& mode) {
   switch (motion) {
     case Motion::level: {
-      const std::string word = elastic_share < 0.5 ? "pendulum" : "sway";
+      const std::string word = level_word(mode);
       const LevelDirection direction = level_direction(body.displacement_centre);
       return direction.roundness > 0.5 ? word + " in circles"
                                        : word + " along " + level_axis(direction.angle);
@@ -102,11 +108,11 @@ std::string motion_in_words(Motion motion, const BodyModeMotion& body, double el
 
 // All of several, in the order of the kinds, so that the name does not hang on which has most.
 std::string motions_in_words(std::vector<Motion> motions, const BodyModeMotion& body,
-                             double elastic_share) {
+                             const Mode& mode) {
   std::sort(motions.begin(), motions.end());
   std::string words;
   for (const Motion motion : motions)
-    words += (words.empty() ? "" : " and ") + motion_in_words(motion, body, elastic_share);
+    words += (words.empty() ? "" : " and ") + motion_in_words(motion, body, mode);
   return words;
 }
 
@@ -220,7 +226,7 @@ std::string mode_name(const Mechanism& mechanism, const Kinematics& kinematics, 
   const std::vector<Motion> motions = main_motions(
       energies(first, mechanism.bodies()[b].inertia.mass, inertia_W(mechanism, kinematics, b)));
   const Motion motion = motions.front();
-  std::string name = bodies + motions_in_words(motions, first, mode.elastic_share);
+  std::string name = bodies + motions_in_words(motions, first, mode);
   for (std::size_t i = count; i < order.size() && order[i]->energy_share >= 0.05; ++i) {
     const double phase = telling(motion, first).dot(telling(motion, *order[i])).real();
     if (phase >= 0.0) continue;

@@ -7,7 +7,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
-#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/environment/sea_band.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -11,8 +11,8 @@
 #include "dynamics/simulation/lift_system.h"
 #include "dynamics/simulation/misplacement.h"
 #include "pipeline/build/radiation_problem.h"
-#include "pipeline/files/lift_case/marine_parts.h"
-#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/environment/marine_parts.h"
+#include "pipeline/files/environment/sea_band.h"
 
 namespace blocklift::pipeline {
 

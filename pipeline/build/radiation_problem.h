@@ -9,7 +9,7 @@
 #include "dynamics/marine/green/panel_method.h"
 #include "dynamics/marine/radiation/memory_state_space.h"
 #include "dynamics/marine/radiation/radiation.h"
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 namespace blocklift::pipeline {
 

@@ -125,27 +125,57 @@ Eigen::VectorXd pull_beyond_weight(const LiftRun& lift, std::size_t rope,
   return history.tension - weight * history.unstretched_length;
 }
 
-/// Ropes at lugs and round edges may lie slack while the load stands or floats; all others never.
+/// When a rope must pull.
+enum class Duty {
+  always,            ///< a mooring line, a warp
+  while_load_hangs,  ///< at a lug or round edges: it may lie slack while the load stands or floats
+  hook_at_least,     ///< a tackle, which bears its hook block alone while the load does not hang
+  hook_alone         ///< a tackle without slings
+};
+
+/// By the index of ropes in the system.
+std::vector<Duty> find_duties(const LiftCase& lift_case, const LiftRun& lift) {
+  std::vector<Duty> duties(lift.static_history.ropes.size(), Duty::always);
+  for (const LiftHoist& hoist : lift.model.hoists) {
+    Duty& duty = duties[hoist.rope];
+    if (duty != Duty::hook_at_least) duty = Duty::hook_alone;  // an equalised one may have slings
+    for (const RopeInCase& rope : lift_case.ropes)
+      for (const ResolvedPoint& point : rope.path)
+        if (point.kind == ResolvedPoint::Kind::hook &&
+            point.body_name(lift_case.cranes) == hoist.name)
+          duty = Duty::hook_at_least;
+  }
+  for (const LiftRope& rope : lift.model.ropes)
+    if (rope.holds_load()) duties[rope.rope] = Duty::while_load_hangs;
+  return duties;
+}
+
+/// Tensions without those that say nothing of a rope's slackness, which become infinite.
+/// @param hangs where the load hangs, see find_hanging.
+void pass_over_idle(Duty duty, const std::vector<char>& hangs, Eigen::VectorXd& tension) {
+  if (duty == Duty::always) return;
+  for (Eigen::Index k = 0; k < tension.size(); ++k) {
+    if (!std::isfinite(tension[k])) continue;
+    if (hangs[k] != 0 && duty != Duty::hook_alone) continue;
+    if (duty == Duty::while_load_hangs || tension[k] > 0)
+      tension[k] = std::numeric_limits<double>::infinity();
+  }
+}
+
+/// Slings may lie slack while the load stands or floats; all other ropes never. A tackle that bears
+/// its hook block alone pulls little and is not held against the smallest tension.
 void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check>& checks) {
   const auto static_hangs = find_hanging(lift_case, lift, lift.static_history);
   const auto dynamic_hangs = find_hanging(lift_case, lift, lift.dynamic_history());
-  std::vector<char> is_sling(lift.static_history.ropes.size(), 0);
-  for (const LiftRope& rope : lift.model.ropes) {
-    if (rope.holds_load()) is_sling[rope.rope] = 1;
-  }
+  const std::vector<Duty> duties = find_duties(lift_case, lift);
   Peak smallest{std::numeric_limits<double>::infinity(), 0};
   std::string rope;
   for (std::size_t i = 0; i < lift.static_history.ropes.size(); ++i) {
     const Peak peak = peak_of(lift, Wanted::smallest, [&](const dynamics::History& history) {
       Eigen::VectorXd tension = pull_beyond_weight(lift, i, history.ropes[i]);
       pass_over_parted(lift, i, history, tension);
-      if (is_sling[i] == 0) return tension;
-      const auto& hangs = &history == &lift.static_history ? static_hangs : dynamic_hangs;
-      for (Eigen::Index k = 0; k < tension.size(); ++k) {
-        if (hangs[k] == 0 && std::isfinite(tension[k])) {
-          tension[k] = std::numeric_limits<double>::infinity();
-        }
-      }
+      pass_over_idle(duties[i], &history == &lift.static_history ? static_hangs : dynamic_hangs,
+                     tension);
       return tension;
     });
     if (peak.value >= smallest.value) continue;
@@ -153,14 +183,15 @@ void add_slack(const LiftCase& lift_case, const LiftRun& lift, std::vector<Check
     rope = lift.static_history.ropes[i].name;
     if (std::isnan(peak.value)) break;
   }
-  checks.push_back(at_time(
-      check_at_least("slack: smallest tension of any rope, " + rope, smallest.value,
-                     lift_case.checks.smallest_tension, "N"),
-      smallest.time,
-      std::string("the demand must stay above the limit; ropes at the load: while it hangs") +
-          (lift_case.rope_weight && lift_case.rope_weight->value
-               ? "; less the own weight of ropes that have some"
-               : "")));
+  if (rope.empty()) return;  // the load never hangs
+  checks.push_back(at_time(check_at_least("slack: smallest tension of any rope, " + rope,
+                                          smallest.value, lift_case.checks.smallest_tension, "N"),
+                           smallest.time,
+                           std::string("the demand must stay above the limit; ropes at the load, "
+                                       "and its hooks: while it hangs") +
+                               (lift_case.rope_weight && lift_case.rope_weight->value
+                                    ? "; less the own weight of ropes that have some"
+                                    : "")));
 }
 
 void add_swing(const LiftRun& lift, double limit, std::vector<Check>& checks) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -201,6 +202,20 @@ void draw(const BlockModel& block, const fs::path& file, const fs::path& folder)
   std::cout << fmt::format("pictures: {}\n", path.string());
 }
 
+/// A folder of a case may hold a study of it as well. Keys that are set are the case's alone.
+std::vector<std::string> with_studies(const std::vector<std::string>& files, bool has_changes) {
+  constexpr const char* study = "study.yaml";
+  std::vector<std::string> all;
+  for (const std::string& file : files) {
+    all.push_back(file);
+    std::error_code error;
+    if (!has_changes && fs::is_directory(file, error) &&
+        fs::exists(fs::path(file) / study, error) && input_file(file).filename() != study)
+      all.push_back((fs::path(file) / study).string());
+  }
+  return all;
+}
+
 /// Before anything is read: what is found in other files must not be lost by it.
 void refuse_files_without_keys(const std::vector<std::string>& files,
                                const std::vector<std::string>& set) {
@@ -219,7 +234,7 @@ int validate_files(const std::vector<std::string>& files,
   if (!set.empty()) refuse_files_without_keys(files, set);
   Diagnostics all;
   std::set<std::string> said;
-  for (const std::string& file : files) {
+  for (const std::string& file : with_studies(files, !set.empty())) {
     // Each by itself: what is wrong with one, or with a model of it, must not hush up another.
     Diagnostics own;
     ModelLibrary library = ModelLibrary::of_installation();

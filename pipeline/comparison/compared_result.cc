@@ -1,6 +1,7 @@
 #include "pipeline/comparison/compared_result.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -9,6 +10,7 @@
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/document.h"
+#include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/results/results_folder.h"
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results/run_identity.h"
@@ -76,8 +78,39 @@ bool say_the_same(const std::string& yaml, const std::string& other) {
   const auto others = list_input_values(other);
   return std::equal(values.begin(), values.end(), others.begin(), others.end(),
                     [](const InputValue& a, const InputValue& b) {
-                      return a.key == b.key && a.value == b.value;
+                      return a.key == b.key && is_same_value(a.value, b.value);
                     });
+}
+
+/// A plain value, or a list of such, in parts: brackets, and what stands between them and commas.
+std::vector<std::string> parts_of(const std::string& value) {
+  std::vector<std::string> parts(1);
+  for (const char letter : value) {
+    if (letter == '[' || letter == ']' || letter == ',') {
+      parts.emplace_back(1, letter);
+      parts.emplace_back();
+    } else if (letter != ' ' || !parts.back().empty()) {
+      parts.back() += letter;
+    }
+  }
+  return parts;
+}
+
+std::optional<Measure> measure_of(const std::string& text) {
+  try {
+    return parse_measure(text);
+  } catch (const QuantityError&) {
+    return std::nullopt;
+  }
+}
+
+bool is_same_part(const std::string& a, const std::string& b) {
+  constexpr double rounding = 1e-12;
+  if (a == b) return true;
+  const std::optional<Measure> one = measure_of(a), other = measure_of(b);
+  return one && other && one->exponents == other->exponents &&
+         std::abs(one->value - other->value) <=
+             rounding * std::max(std::abs(one->value), std::abs(other->value));
 }
 
 /// The results that a case was assessed into.
@@ -142,6 +175,12 @@ void tell_apart(const std::vector<fs::path>& paths, std::vector<ComparedResult>&
 }
 
 }  // namespace
+
+bool is_same_value(const std::string& value, const std::string& other) {
+  if (value == other) return true;
+  const std::vector<std::string> parts = parts_of(value), others = parts_of(other);
+  return std::ranges::equal(parts, others, is_same_part);
+}
 
 ComparedResult read_compared_result(const fs::path& path) {
   return read_compared_results({path}).front();

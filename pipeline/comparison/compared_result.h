@@ -23,6 +23,10 @@ struct ComparedResult {
   bool has_models = false;       ///< false for results of versions that kept the case file alone
 };
 
+/// Do two values of an input file say the same, as "400 cm" and "4 m", "[1 m, x]" and
+/// "[100 cm, x]" do?
+bool is_same_value(const std::string& value, const std::string& other);
+
 /// Reads the results in a folder, or those of a case: a case file, or a folder with a case.yaml,
 /// that was assessed into results/<name of the case> of the working folder.
 /// @throws InputError if there are no results, if they cannot be read, or if the case says other

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/comparison/lasting_modes.h"
+
 namespace blocklift::pipeline {
 namespace {
 
@@ -30,6 +32,8 @@ const Json* find_below(const Json& place, std::string_view path) {
     for (const auto& [key, value] : place.items())
       if (const Json* found = enter(value, key, path)) return found;
   } else if (place.is_array()) {
+    for (const LastingMode& mode : lasting_modes(place))
+      if (const Json* found = enter(*mode.row, mode.name, path)) return found;
     for (const Json& row : place) {
       for (const char* name : row_names) {
         if (!row.is_object() || !row.contains(name) || !row.at(name).is_string()) continue;
@@ -149,19 +153,15 @@ void add_checks(const Json& summary, FigureList& figures) {
                  short_name_of_check(name, names), "", 1, utilisation});
 }
 
-/// Hooks and hoists alone, "C1.upper_1: pendulum", swing so fast that they carry nothing along, and
-/// take one another's names at the slightest change.
-bool is_of_a_hook(const std::string& mode) {
-  return mode.substr(0, mode.find(':')).find('.') != std::string::npos;
-}
-
 void add_periods(const Json& summary, FigureList& figures) {
   for (const std::string& instant : names_in(summary, "natural_periods", "instant")) {
     const std::string modes = fmt::format("natural_periods.{}.modes", instant);
-    for (const std::string& mode : names_in(summary, modes))
-      if (!is_of_a_hook(mode))
-        figures.add({fmt::format("{}.{}.period_s", modes, mode),
-                     fmt::format("natural periods, {}", instant), mode, "s", 1, period});
+    const Json* list = find_figure(summary, modes);
+    if (!list) continue;
+    for (const LastingMode& mode : lasting_modes(*list))
+      if (mode.is_leading)
+        figures.add({fmt::format("{}.{}.period_s", modes, mode.name),
+                     fmt::format("natural periods, {}", instant), mode.name, "s", 1, period});
   }
 }
 

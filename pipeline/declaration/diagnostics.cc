@@ -118,10 +118,25 @@ std::string list_of_names(const std::vector<std::string>& names) {
   return list;
 }
 
+namespace {
+
+/// "its lugs are" becomes "it has no lugs", "the outputs are" "there are no outputs".
+std::string hint_of_no_names(std::string_view introduction) {
+  constexpr std::string_view verb = " are";
+  if (introduction.ends_with(verb)) {
+    const std::string_view named = introduction.substr(0, introduction.size() - verb.size());
+    if (named.starts_with("its ")) return fmt::format("it has no {}", named.substr(4));
+    if (named.starts_with("the ")) return fmt::format("there are no {}", named.substr(4));
+  }
+  return fmt::format("{} none", introduction);
+}
+
+}  // namespace
+
 std::string names_hint(std::string_view introduction, const std::vector<std::string>& candidates,
                        std::string_view wrong_name) {
-  std::string hint =
-      fmt::format("{} {}", introduction, candidates.empty() ? "none" : list_of_names(candidates));
+  if (candidates.empty()) return hint_of_no_names(introduction);
+  std::string hint = fmt::format("{} {}", introduction, list_of_names(candidates));
   const std::string nearest = nearest_name(wrong_name, candidates);
   if (!nearest.empty()) hint += fmt::format("; did you mean \"{}\"?", nearest);
   return hint;

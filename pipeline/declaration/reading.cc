@@ -88,7 +88,10 @@ void Reading::merge_entries(const YAML::Node& merged, int merge_depth, EntryList
 
 bool Reading::has_value(const Entry& entry, const ValueDescription& due) {
   if (!entry.value.IsNull()) return true;
-  error(entry.mark, fmt::format("{} has no value; {} is due", entry.key, due.phrase()));
+  const bool are_many =
+      due.kind == ValueDescription::Kind::table || due.kind == ValueDescription::Kind::names_to;
+  error(entry.mark, fmt::format("{} has no value; {} {} due", entry.key, due.phrase(),
+                                are_many ? "are" : "is"));
   return false;
 }
 

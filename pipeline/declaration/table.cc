@@ -1,5 +1,6 @@
 #include "pipeline/declaration/table.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <yaml-cpp/yaml.h>
@@ -37,6 +38,31 @@ std::string due_text(const ValueDescription& value) {
 bool is_part_of_number(const Entry& entry) {
   return !entry.key.empty() && entry.key.front() >= '0' && entry.key.front() <= '9' &&
          entry.value.IsNull();
+}
+
+bool has_key(const std::vector<Entry>& entries, const std::string& key) {
+  return std::any_of(entries.begin(), entries.end(),
+                     [&](const Entry& entry) { return entry.key == key; });
+}
+
+/// Complains about keys that there are not. One that is mistyped goes on under the name that was
+/// meant, if the file does not have that, too: so one mistake is one complaint, for neither is the
+/// right key missed nor what it says. The others are left out.
+void settle_unknown_keys(std::vector<Entry>& entries, const std::vector<std::string>& known,
+                         Reading& reading) {
+  constexpr std::size_t shortest = 3;  // any letter is near to any other
+  for (Entry& entry : entries) {
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+    reading.error(
+        entry.mark, reading.owner() + " has no key \"" + entry.key + "\"",
+        {is_part_of_number(entry)
+             ? "decimals take a point (1.5): what stands behind a comma is a key of its own"
+             : names_hint("its keys are", known, entry.key)});
+    const std::string meant =
+        entry.key.size() < shortest ? std::string() : nearest_name(entry.key, known);
+    entry.key = has_key(entries, meant) ? std::string() : meant;
+  }
+  std::erase_if(entries, [](const Entry& entry) { return entry.key.empty(); });
 }
 
 }  // namespace
@@ -77,16 +103,15 @@ bool Keys::read_as_owner(const YAML::Node& node, const ValueDescription& due, Re
 
 void Keys::read(const YAML::Node& node, Reading& reading, void* value) const {
   const Mark mark = reading.mark_of(node);
-  const std::vector<Entry> entries = reading.entries_of(node);
+  std::vector<Entry> entries = reading.entries_of(node);
+  settle_unknown_keys(entries, description_->key_names(), reading);
   for (const bool early : {true, false}) {
     for (const Entry& entry : entries) {
       if (is_early(entry.key) == early) read_entry(entry, reading, value);
     }
   }
   for (const Key& key : keys_) {
-    bool given = false;
-    for (const Entry& entry : entries) given |= entry.key == key.description.name;
-    if (!given) leave_out(key, mark, reading, value);
+    if (!has_key(entries, key.description.name)) leave_out(key, mark, reading, value);
   }
 }
 
@@ -115,10 +140,6 @@ void Keys::read_entry(const Entry& entry, Reading& reading, void* value) const {
     }
     return;
   }
-  reading.error(entry.mark, reading.owner() + " has no key \"" + entry.key + "\"",
-                {is_part_of_number(entry)
-                     ? "decimals take a point (1.5): what stands behind a comma is a key of its own"
-                     : names_hint("its keys are", description_->key_names(), entry.key)});
 }
 
 void Keys::leave_out(const Key& key, const Mark& mark, Reading& reading, void* value) const {

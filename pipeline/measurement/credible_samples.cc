@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "algebra/quantile.h"
+#include "pipeline/measurement/load_changes.h"
 #include "pipeline/measurement/measured_tables.h"
 #include "pipeline/measurement/snatches.h"
 
@@ -176,23 +177,14 @@ void choose_between_jumps(std::vector<FaultySamples>& faults, std::size_t size) 
   faults.insert(faults.end(), stretches.begin(), stretches.end());
 }
 
-/// What a tension is when the load hangs, with its sign: a few spikes do not make it, nor do zeros.
-double typical_load(const std::vector<double>& values) {
-  constexpr double loaded = 0.9;
-  std::vector<double> sizes;
-  double sum = 0;
-  for (const double value : values) {
-    sizes.push_back(std::abs(value));
-    sum += value;
-  }
-  return std::copysign(algebra::quantile_of(std::move(sizes), loaded), sum);
-}
-
 /// Suspects of a series beside what was computed at its instants.
 class Judge {
  public:
-  Judge(const TimeSeries& measured, const TimeSeries& computed, bool is_tension)
+  Judge(const TimeSeries& measured, const TimeSeries& computed, bool is_tension,
+        const std::vector<TensionPair>& others)
       : measured_(measured),
+        own_{&measured, &computed},
+        others_(others),
         is_tension_(is_tension),
         limit_(shortest_leap(measured.values, is_tension)) {
     std::vector<double> ours, theirs;
@@ -234,8 +226,9 @@ class Judge {
     for (std::size_t k = 0; k < jumps.size(); ++k) {
       const std::size_t from = k > 0 ? jumps[k - 1].begin : 0,
                         to = k + 1 < jumps.size() ? jumps[k + 1].begin : measured_.size();
-      if (is_common(jumps[k]) && is_own_jump(jumps[k], from, to, is_faulty))
-        faults.push_back(jumps[k]);
+      if (!is_common(jumps[k]) || !is_own_jump(jumps[k], from, to, is_faulty)) continue;
+      const bool is_of_load = is_tension_ && is_load_change(own_, jumps[k].begin, others_);
+      (is_of_load ? judged.load_changes : faults).push_back(jumps[k]);
     }
     choose_between_jumps(faults, measured_.size());
     return judged;
@@ -308,6 +301,8 @@ class Judge {
   }
 
   const TimeSeries& measured_;
+  TensionPair own_;
+  const std::vector<TensionPair>& others_;
   std::vector<double> computed_;
   std::vector<bool> is_common_;
   bool is_tension_;
@@ -340,11 +335,11 @@ std::vector<FaultySamples> find_suspects(const TimeSeries& series, bool is_tensi
   return suspects;
 }
 
-JudgedSamples judge_samples(const TimeSeries& measured, const TimeSeries& computed,
-                            bool is_tension) {
+JudgedSamples judge_samples(const TimeSeries& measured, const TimeSeries& computed, bool is_tension,
+                            const std::vector<TensionPair>& others) {
   const std::vector<FaultySamples> suspects = find_suspects(measured, is_tension);
   if (suspects.empty()) return {};
-  return Judge(measured, computed, is_tension).judge(suspects);
+  return Judge(measured, computed, is_tension, others).judge(suspects);
 }
 
 std::vector<FaultySamples> find_faults(const TimeSeries& measured, const TimeSeries& computed,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pipeline/measurement/load_changes.h"
 #include "pipeline/measurement/time_series.h"
 
 namespace blocklift::pipeline {
@@ -35,6 +36,9 @@ struct JudgedSamples {
   std::vector<FaultySamples> faults;
   /// Leaps that are snatches of the rope (snatches.h) which were not computed: no faults.
   std::vector<FaultySamples> snatches = {};
+  /// Jumps of a load that the other ropes share (load_changes.h) and that were not computed: none
+  /// either.
+  std::vector<FaultySamples> load_changes = {};
 };
 
 /// Those suspects that the computed quantity does not share: it does not move so about them, or
@@ -44,8 +48,9 @@ struct JudgedSamples {
 /// computed quantity makes at another time is none: between the beginning of the stretch before it
 /// and the end of the one behind it both have gone as far.
 /// @param measured by the clock of the lift. @param computed not empty.
-JudgedSamples judge_samples(const TimeSeries& measured, const TimeSeries& computed,
-                            bool is_tension);
+/// @param others of a tension: what else was measured of its kind, ropes or hoists.
+JudgedSamples judge_samples(const TimeSeries& measured, const TimeSeries& computed, bool is_tension,
+                            const std::vector<TensionPair>& others = {});
 /// The faults alone.
 std::vector<FaultySamples> find_faults(const TimeSeries& measured, const TimeSeries& computed,
                                        bool is_tension);

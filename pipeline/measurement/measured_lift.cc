@@ -100,6 +100,15 @@ void doubt_snatches(const std::vector<FaultySamples>& snatches, const HeldChanne
       channel.name, leaps_in_words(snatches, "leap", "leaps", channel.measured, channel.unit)));
 }
 
+void doubt_load_changes(const std::vector<FaultySamples>& changes, const HeldChannel& channel,
+                        std::vector<std::string>& doubts) {
+  if (changes.empty()) return;
+  doubts.push_back(fmt::format(
+      "{}: {} for good, which other ropes share and which was not computed: the load or how it is "
+      "shared changes. Not left out",
+      channel.name, leaps_in_words(changes, "jump", "jumps", channel.measured, channel.unit)));
+}
+
 /// Puts every record on the clock of the lift and takes its channels over.
 void take_record(const MeasuredRecord& record, const ResultsReader& results,
                  const std::optional<double>& given, MeasuredLift& lift) {
@@ -114,7 +123,9 @@ void take_record(const MeasuredRecord& record, const ResultsReader& results,
     held.computed = read_computed_channel(results, channel.name);
     if (held.computed.in_motion.size() < 2)
       refuse(record.file, fmt::format("the results have no values of \"{}\"", channel.name));
-    to_align.push_back({{held.measured, held.computed.in_motion}, held.unit == "N"});
+    to_align.push_back({{held.measured, held.computed.in_motion},
+                        held.unit == "N",
+                        held.name.substr(0, held.name.find('.'))});
     channels.push_back(std::move(held));
   }
   lift.doubts.insert(lift.doubts.end(), record.remarks.begin(), record.remarks.end());
@@ -131,6 +142,7 @@ void take_record(const MeasuredRecord& record, const ResultsReader& results,
     channel.measured = on_clock(std::move(channel.measured), aligned->clock);
     doubt_gaps(channel, lift.doubts);
     doubt_snatches(aligned->snatches[k], channel, lift.doubts);
+    doubt_load_changes(aligned->load_changes[k], channel, lift.doubts);
     leave_out(aligned->faults[k], channel, lift.doubts);
     lift.channels.push_back(std::move(channel));
   }

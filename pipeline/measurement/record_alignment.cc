@@ -49,15 +49,25 @@ std::optional<TimeShift> clock_by_itself(const std::vector<ChannelToAlign>& chan
   return best;
 }
 
-/// Finds the faults and snatches by a clock.
+/// Finds the faults by a clock, and what is none but was not computed.
 void judge_on_clock(const std::vector<ChannelToAlign>& channels, AlignedChannels& aligned) {
   aligned.faults.clear();
   aligned.snatches.clear();
-  for (const ChannelToAlign& channel : channels) {
-    JudgedSamples judged = judge_samples(on_clock(channel.pair.measured, aligned.clock),
-                                         channel.pair.computed, channel.is_tension);
+  aligned.load_changes.clear();
+  std::vector<TimeSeries> measured;
+  for (const ChannelToAlign& channel : channels)
+    measured.push_back(on_clock(channel.pair.measured, aligned.clock));
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    std::vector<TensionPair> others;
+    for (std::size_t other = 0; other < channels.size(); ++other)
+      if (other != k && channels[k].is_tension && channels[other].is_tension &&
+          channels[other].kind == channels[k].kind)
+        others.push_back({&measured[other], &channels[other].pair.computed});
+    JudgedSamples judged =
+        judge_samples(measured[k], channels[k].pair.computed, channels[k].is_tension, others);
     aligned.faults.push_back(std::move(judged.faults));
     aligned.snatches.push_back(std::move(judged.snatches));
+    aligned.load_changes.push_back(std::move(judged.load_changes));
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/measurement/credible_samples.h"
@@ -12,14 +13,16 @@ namespace blocklift::pipeline {
 struct ChannelToAlign {
   ChannelPair pair;
   bool is_tension = false;
+  std::string kind = {};  ///< "ropes", "hoists": those of one kind hold the load together
 };
 
 /// A record's channels by the clock of the lift, with what is not credible told apart.
 struct AlignedChannels {
   TimeShift clock;
-  bool is_found = false;                             ///< not given
-  std::vector<std::vector<FaultySamples>> faults;    ///< of each channel, among its own samples
-  std::vector<std::vector<FaultySamples>> snatches;  ///< likewise: they were not computed
+  bool is_found = false;                                 ///< not given
+  std::vector<std::vector<FaultySamples>> faults;        ///< of each channel, among its own samples
+  std::vector<std::vector<FaultySamples>> snatches;      ///< likewise: they were not computed
+  std::vector<std::vector<FaultySamples>> load_changes;  ///< likewise
 };
 
 /// Finds the clock of a record (find_time_shift) and the faults of its channels (find_faults),

@@ -53,6 +53,25 @@ bool Snatches::comes_taut(const FaultySamples& one) const {
   return true;  // slack from the beginning
 }
 
+bool Snatches::is_alone(std::size_t begin, std::size_t end) const {
+  constexpr std::size_t samples_about = 4;
+  constexpr double far = 2;  // times what dances beside it
+  const auto farthest = [&](std::size_t from, std::size_t to) {
+    double most = 0;
+    for (std::size_t i = from; i < to; ++i) most = std::max(most, std::abs(stand_off(i)));
+    return most;
+  };
+  const std::size_t first = begin - std::min(begin, samples_about),
+                    last = std::min(end + samples_about, values_.size());
+  return farthest(begin, end) > far * std::max(farthest(first, begin), farthest(end, last));
+}
+
+bool Snatches::belongs_to(const FaultySamples& snatch, const FaultySamples& one) const {
+  constexpr double as_high = 1.5;  // samples need not meet the crest of the snatch itself
+  return one.begin < snatch.end + samples_behind &&
+         std::abs(one.leap) < as_high * std::abs(snatch.leap) && !is_alone(one.begin, one.end);
+}
+
 bool Snatches::dances_behind(const FaultySamples& one) const {
   constexpr double far = 2;  // times what is usual
   constexpr int fewest_turns = 3;
@@ -62,7 +81,7 @@ bool Snatches::dances_behind(const FaultySamples& one) const {
   std::vector<double> heights;  // of each half swing
   for (std::size_t i = one.begin + 1; i < end; ++i) {
     const double off = stand_off(i);
-    if (std::abs(off) <= far * usual_) continue;
+    if (std::abs(off) <= far * usual_ || is_alone(i, i + 1)) continue;
     if (off * last < 0) {
       ++turns;
       heights.push_back(0);
@@ -86,7 +105,7 @@ std::vector<FaultySamples> Snatches::among(const std::vector<FaultySamples>& lea
   std::ranges::sort(in_order, {}, &FaultySamples::begin);
   std::vector<FaultySamples> found;
   for (const FaultySamples& one : in_order) {
-    const bool follows = !found.empty() && one.begin < found.back().end + samples_behind;
+    const bool follows = !found.empty() && belongs_to(found.back(), one);
     if (follows || is_snatch(one)) found.push_back(one);
   }
   return found;

@@ -14,7 +14,8 @@ namespace blocklift::pipeline {
 ///   - the load dances on the rope behind it: tensions lie on both sides of their median by turns,
 ///     farther than they do elsewhere, and less and less (what an amplifier has swallowed comes
 ///     back from one side).
-/// Leaps that follow a snatch while the load dances belong to it.
+/// Leaps that follow a snatch while the load dances belong to it, but for one that stands off
+/// more than twice as far as all about it, or half as far again as the leap before it: a spike.
 class Snatches {
  public:
   /// @param limit the shortest leap, in the series' unit.
@@ -25,6 +26,9 @@ class Snatches {
 
  private:
   bool is_snatch(const FaultySamples& one) const;
+  bool belongs_to(const FaultySamples& snatch, const FaultySamples& one) const;
+  /// Do samples [begin, end) stand off far more than those beside them?
+  bool is_alone(std::size_t begin, std::size_t end) const;
   bool comes_taut(const FaultySamples& one) const;
   bool dances_behind(const FaultySamples& one) const;
   double stand_off(std::size_t i) const;

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/build/stiffener_plates.h"
-#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/environment/sea_band.h"
 #include "pipeline/results/radiation_summary.h"
 #include "pipeline/results/table_summary.h"
 

@@ -14,16 +14,17 @@
 #include "pipeline/build/body_box.h"
 #include "pipeline/build/build_lift.h"
 #include "pipeline/build/keel_clearance.h"
-#include "pipeline/files/lift_case/sea_band.h"
-#include "pipeline/files/lift_case/vessel_database.h"
-#include "pipeline/files/lift_case/vessel_doubts.h"
-#include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/files/environment/sea_band.h"
+#include "pipeline/files/environment/vessel_database.h"
+#include "pipeline/files/environment/vessel_doubts.h"
+#include "pipeline/files/environment/wave_headings.h"
 #include "pipeline/files/vessel/wetted_mesh.h"
 #include "pipeline/lift/parallel_baskets.h"
 #include "pipeline/measures/edge_measures.h"
 #include "pipeline/measures/edge_sliding.h"
 #include "pipeline/measures/hook_block_measures.h"
 #include "pipeline/measures/load_measures.h"
+#include "pipeline/results/lug_doubts.h"
 
 namespace blocklift::pipeline {
 
@@ -71,6 +72,7 @@ class Doubts {
     doubt_cranes();
     if (const std::string baskets = doubt_about_baskets(case_); !baskets.empty())
       list_.push_back(baskets + ".");
+    if (std::string lugs = doubt_about_lugs(case_); !lugs.empty()) list_.push_back(std::move(lugs));
     doubt_sea();
     doubt_water();
     doubt_wind();

@@ -11,8 +11,8 @@
 
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/loop_loads.h"
+#include "pipeline/files/environment/sea_band.h"
 #include "pipeline/files/lift_case/input_hash.h"
-#include "pipeline/files/lift_case/sea_band.h"
 #include "pipeline/formats/json_values.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/results/assumptions.h"

@@ -51,11 +51,15 @@ std::vector<ExtremeFit> fit_extremes(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   std::vector<ExtremeFit> fits{gumbel_fit(values, share)};
   const auto first = static_cast<std::size_t>((1 - tail) * static_cast<double>(values.size()));
-  if (values.size() - first < fewest_for_a_fit) return fits;
   const double threshold = values[first - 1];
+  // What equals the threshold, but for rounding, is no excess: the law has no such value, and the
+  // statistic of the fit would not be finite.
+  const auto above = std::ranges::upper_bound(values, threshold + rounding_of_values(values));
   std::vector<double> excesses;
-  for (std::size_t i = first; i < values.size(); ++i) excesses.push_back(values[i] - threshold);
-  if (values_vary(excesses)) fits.push_back(pareto_fit(excesses, threshold, tail, share));
+  for (auto value = above; value != values.end(); ++value) excesses.push_back(*value - threshold);
+  if (excesses.size() < fewest_for_a_fit || !values_vary(excesses)) return fits;
+  const double part = static_cast<double>(excesses.size()) / static_cast<double>(values.size());
+  fits.push_back(pareto_fit(excesses, threshold, part, share));
   return fits;
 }
 

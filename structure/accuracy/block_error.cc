@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "structure/space/joints.h"
 #include "structure/stress/shell_stress.h"
 #include "structure/stress/solid_error.h"
+#include "structure/stress/square_outline.h"
 
 namespace blocklift::structure {
 
@@ -29,9 +31,9 @@ using Law = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Motions = Eigen::Ref<const Eigen::MatrixXd>;
 
-/// Turns (11, 22, 12) of forces and moments from axes at an angle `a` to the field's into the
-/// field's; of a cell whose normal is against the field's moments change their sign.
-Law turn_to_field(double a, bool is_flipped) {
+/// Turns (11, 22, 12) of forces and moments from a cell's axes at an angle `a` to others into
+/// these; of a cell whose normal is against theirs moments change their sign.
+Law turn_by_angle(double a, bool is_flipped) {
   const double c = std::cos(a), s = std::sin(a);
   Eigen::Matrix3d turn;
   turn << c * c, s * s, -2 * c * s, s * s, c * c, 2 * c * s, c * s, -c * s, c * c - s * s;
@@ -42,33 +44,9 @@ Law turn_to_field(double a, bool is_flipped) {
   return law;
 }
 
-/// One direction for each field, and on which side its cells' normals lie.
-struct Orientation {
-  explicit Orientation(const ElasticModel& model)
-      : fields(find_fields(model.mesh())), is_flipped(model.mesh().shells.size(), false) {
-    for (const PlateField& field : fields.fields) {
-      const Shell& first = model.mesh().shells[field.shells.front()];
-      along.push_back(
-          (position(model.mesh(), first, {1, 0.5}) - position(model.mesh(), first, {0, 0.5}))
-              .normalized());
-      for (std::size_t i = 0; i < field.shells.size(); ++i)
-        is_flipped[field.shells[i]] = field.is_flipped[i];
-    }
-  }
-  Law turn(const ShellPoint& point, int shell) const {
-    const int field = fields.field_of_shell[shell];
-    const Vector3 normal = (is_flipped[shell] ? -1 : 1) * point.normal;
-    const Vector3 e_2 = normal.cross(point.e_1);
-    // The angle of the cell's first axis against the field's direction, in the tangent plane.
-    const Vector3& direction = along[field];
-    return turn_to_field(std::atan2(-direction.dot(e_2), direction.dot(point.e_1)),
-                         is_flipped[shell]);
-  }
-
-  PlateFields fields;
-  std::vector<Vector3> along;
-  std::vector<bool> is_flipped;
-};
+/// Kink from which on plates have resultants of their own, rad: facets of curved plating, such as
+/// those of an octagon, are compared with one another.
+constexpr double largest_kink = 46 * std::numbers::pi / 180;
 
 /// Points of recovered resultants: one for each node and field that meet.
 class Points {
@@ -101,32 +79,84 @@ class Points {
   std::vector<int> of_cell_, shares_;
 };
 
-/// Resultants along the field's axes for a cell's strains along its own.
-Law law_of(const ElasticModel& model, const Law& turn, const Shell& shell,
-           const ShellPoint& point) {
-  return turn * shell_stiffness_law(model.mesh(), shell, point.e_1, point.e_2, point.thickness)
-                    .topLeftCorner<6, 6>();
+/// The axes in which resultants are averaged: at each point those of the first cell that has it,
+/// which follow the plating's kinks. No direction serves a whole field: plating may turn all the
+/// way round.
+class Axes {
+ public:
+  Axes(const Space& space, const PlateFields& fields, const Points& points)
+      : per_cell_(space.nodes_per_shell()), is_flipped_(space.shells().size(), false) {
+    std::vector<bool> is_flipped(space.mesh().shells.size(), false);
+    for (const PlateField& field : fields.fields)
+      for (std::size_t i = 0; i < field.shells.size(); ++i)
+        is_flipped[field.shells[i]] = field.is_flipped[i];
+    const std::vector<double> line = lagrange_places(space.degree());
+    std::vector<Frame> frames(at(points.count()));
+    for (std::size_t c = 0; c < space.shells().size(); ++c) {
+      const int cell = static_cast<int>(c);
+      const ShellCell& located = space.shells()[c];
+      is_flipped_[c] = is_flipped[located.shell];
+      // The direction of the axes that ShellOperator has in the cell.
+      const Vector3 along = space.place(cell, {1, 0.5}) - space.place(cell, {0, 0.5});
+      for (int i = 0; i < per_cell_; ++i) {
+        const Eigen::Vector2d xi(line[at(i) % line.size()], line[at(i) / line.size()]);
+        const Vector3 normal =
+            (is_flipped_[c] ? -1 : 1) *
+            square_outline::normal_of(space.mesh(),
+                                      {located.shell, located.origin + located.size * xi});
+        const Vector3 e_1 = (along - normal * normal.dot(along)).normalized();
+        Frame& frame = frames[at(points.of(cell, i))];
+        if (frame.normal.isZero()) frame = {e_1, normal};
+        const Vector3 direction =
+            Eigen::Quaterniond::FromTwoVectors(frame.normal, normal) * frame.e_1;
+        angles_.push_back(std::atan2(-direction.dot(normal.cross(e_1)), direction.dot(e_1)));
+      }
+    }
+  }
+  /// Resultants along a point's axes from those along the axes of a cell that has it as its node.
+  Law to_point(int cell, int local) const {
+    return turn_by_angle(angles_[place(cell, local)], is_flipped_[at(cell)]);
+  }
+  Law to_cell(int cell, int local) const { return algebra::inverse_of<6>(to_point(cell, local)); }
+
+ private:
+  struct Frame {
+    Vector3 e_1 = Vector3::Zero(), normal = Vector3::Zero();
+  };
+  std::size_t place(int cell, int local) const { return at(cell) * at(per_cell_) + at(local); }
+
+  int per_cell_;
+  std::vector<bool> is_flipped_;
+  std::vector<double> angles_;  ///< of each cell's axes against those of its nodes' points
+};
+
+/// The same in a motion after another.
+Eigen::VectorXd turned(const Law& turn, const Eigen::Ref<const Eigen::VectorXd>& resultants) {
+  return (turn * resultants.reshaped(6, resultants.size() / 6)).reshaped();
 }
 
-/// Resultants of a cell at an operator's points, in its field's axes.
+Law law_of(const ElasticModel& model, const Shell& shell, const ShellPoint& point) {
+  return shell_stiffness_law(model.mesh(), shell, point.e_1, point.e_2, point.thickness)
+      .topLeftCorner<6, 6>();
+}
+
+/// Resultants of a cell at an operator's points, along its own axes.
 /// @param places of the operator's points, 2 x m.
-Resultants resultants_of(const ElasticModel& model, const Orientation& orientation,
-                         ShellOperator& shell_operator, const Eigen::Matrix2Xd& places, int cell,
-                         const Motions& motions, const CellHeat* heat) {
+Resultants resultants_of(const ElasticModel& model, ShellOperator& shell_operator,
+                         const Eigen::Matrix2Xd& places, int cell, const Motions& motions,
+                         const CellHeat* heat) {
   shell_operator.reinit(cell);
   const Eigen::MatrixXd local = motions_of_cell(model.space(), cell, motions);
+  const Shell& shell = model.mesh().shells[model.space().shells()[cell].shell];
   Resultants resultants(6 * motions.cols(),
                         static_cast<Eigen::Index>(shell_operator.points().size()));
   for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
     const ShellPoint& point = shell_operator.points()[q];
-    const int shell = model.space().shells()[cell].shell;
-    const Law turn = orientation.turn(point, shell);
     auto here = resultants.col(q).reshaped(6, motions.cols());
-    here = law_of(model, turn, model.mesh().shells[shell], point) *
-           (point.strain.topRows<6>() * local);
+    here = law_of(model, shell, point) * (point.strain.topRows<6>() * local);
     if (heat != nullptr)
-      here -= turn * heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)), point.e_1,
-                                        point.e_2, point.thickness);
+      here -= heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)), point.e_1,
+                                 point.e_2, point.thickness);
   }
   return resultants;
 }
@@ -189,7 +219,7 @@ double relative_error(double error, double norm) {
 }
 
 /// The recovered resultants at the points where nodes and fields meet.
-Resultants recover(const ElasticModel& model, const Orientation& orientation, const Points& points,
+Resultants recover(const ElasticModel& model, const Axes& axes, const Points& points,
                    const Motions& motions, int threads, const CellHeat* heat) {
   const Space& space = model.space();
   const int cells = static_cast<int>(space.shells().size()), per_cell = space.nodes_per_shell();
@@ -200,13 +230,14 @@ Resultants recover(const ElasticModel& model, const Orientation& orientation, co
     ShellOperator accurate(space, places);
     for (int cell = first; cell < first + count; ++cell)
       at_nodes.middleCols(static_cast<Eigen::Index>(per_cell) * cell, per_cell) =
-          resultants_of(model, orientation, accurate, places, cell, motions, heat) * carry;
+          resultants_of(model, accurate, places, cell, motions, heat) * carry;
   });
   Resultants recovered = Resultants::Zero(6 * motions.cols(), points.count());
   for (int cell = 0; cell < cells; ++cell)
     for (int i = 0; i < per_cell; ++i)
       recovered.col(points.of(cell, i)) +=
-          at_nodes.col(static_cast<Eigen::Index>(per_cell) * cell + i) /
+          turned(axes.to_point(cell, i),
+                 at_nodes.col(static_cast<Eigen::Index>(per_cell) * cell + i)) /
           points.share(points.of(cell, i));
   return recovered;
 }
@@ -221,13 +252,12 @@ void add_point(const Law& compliance, double area, const Eigen::Ref<const Eigen:
   }
 }
 
-SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orientation,
-                            const Points& points, const Motions& motions, int threads,
-                            const CellHeat* heat) {
+SquaredNorms norms_of_cells(const ElasticModel& model, const Axes& axes, const Points& points,
+                            const Motions& motions, int threads, const CellHeat* heat) {
   const Space& space = model.space();
   const int cells = static_cast<int>(space.shells().size()), p = space.degree();
   SquaredNorms norms(cells, motions.cols());
-  const Resultants recovered = recover(model, orientation, points, motions, threads, heat);
+  const Resultants recovered = recover(model, axes, points, motions, threads, heat);
   const Eigen::Matrix3Xd rule = square_rule(p + 1);
   Eigen::MatrixXd values(space.nodes_per_shell(), rule.cols());
   for (Eigen::Index q = 0; q < rule.cols(); ++q)
@@ -236,13 +266,11 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orient
     ShellOperator own(space, rule.topRows<2>());
     Resultants at_nodes(6 * motions.cols(), space.nodes_per_shell());
     for (int cell = first; cell < first + count; ++cell) {
-      const Resultants s_h =
-          resultants_of(model, orientation, own, rule.topRows<2>(), cell, motions, heat);
+      const Resultants s_h = resultants_of(model, own, rule.topRows<2>(), cell, motions, heat);
       for (int i = 0; i < space.nodes_per_shell(); ++i)
-        at_nodes.col(i) = recovered.col(points.of(cell, i));
+        at_nodes.col(i) = turned(axes.to_cell(cell, i), recovered.col(points.of(cell, i)));
       const Resultants smooth = at_nodes * values;
-      const int place = space.shells()[cell].shell;
-      const Shell& shell = model.mesh().shells[place];
+      const Shell& shell = model.mesh().shells[space.shells()[cell].shell];
       const bool is_layered = model.mesh().section_of(shell).laminate >= 0;
       Law compliance = Law::Zero();
       double thickness = 0;  // that it is of
@@ -251,8 +279,7 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Orientation& orient
         // One material is the same seen along any axes.
         if (is_layered || point.thickness != thickness) {
           thickness = point.thickness;
-          const Law turn = orientation.turn(point, place);
-          compliance = algebra::inverse_of<6>(law_of(model, turn, shell, point) * turn.transpose());
+          compliance = algebra::inverse_of<6>(law_of(model, shell, point));
         }
         add_point(compliance, rule(2, q) * point.area, smooth.col(q), s_h.col(q), cell, norms);
       }
@@ -268,15 +295,15 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Motions& motions, i
   const Space& space = model.space();
   SquaredNorms norms(static_cast<Eigen::Index>(space.shells().size()), motions.cols());
   if (space.shells().empty()) return norms;
-  const Orientation orientation(model);
-  const Points points(space, orientation.fields);
+  const PlateFields fields = find_fields(model.mesh(), largest_kink);
+  const Points points(space, fields);
+  const Axes axes(space, fields, points);
   for (Eigen::Index first = 0; first < motions.cols(); first += together) {
     const Eigen::Index count = std::min(together, motions.cols() - first);
     std::optional<CellHeat> of_these;
     if (heat != nullptr) of_these = heat->part(first, count);
-    const SquaredNorms some =
-        norms_of_cells(model, orientation, points, motions.middleCols(first, count), threads,
-                       of_these ? &*of_these : nullptr);
+    const SquaredNorms some = norms_of_cells(model, axes, points, motions.middleCols(first, count),
+                                             threads, of_these ? &*of_these : nullptr);
     norms.error.middleCols(first, count) = some.error;
     norms.norm.middleCols(first, count) = some.norm;
   }

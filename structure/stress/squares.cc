@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "structure/mesh/fields/shell_edges.h"
 #include "structure/response/cell_finder.h"
 #include "structure/stress/bilinear_shear.h"
+#include "structure/stress/membrane_strains.h"
 #include "structure/stress/square_outline.h"
 #include "structure/stress_tensor.h"
 
@@ -53,20 +55,61 @@ void find_shares(const Space& space, const FieldWalker& walker, const CellFinder
   }
 }
 
-/// Calls visit(place in its cell, share of the square's area) for Gauss points within a square.
+/// Calls visit(place in its cell, its shell, share of the square's area) for those of the Gauss
+/// points within a square below which there is plating. @returns are there all of them?
 template <typename Visit>
-void for_each_inner_point(const FieldWalker& walker, const CellFinder& cells, const Square& square,
-                          const Visit& visit) {
+bool visit_inner_points(const FieldWalker& walker, const CellFinder& cells, const Square& square,
+                        const Visit& visit) {
   const double half = square.size / 2;
+  bool are_all = true;
   for (std::size_t i = 0; i < side_points.size(); ++i)
     for (std::size_t j = 0; j < side_points.size(); ++j) {
       const Vector3 place = square.centre_B + (square.size * side_points[i] - half) * square.e_1 +
                             (square.size * side_points[j] - half) * square.e_2;
-      const auto found = walker.find(place, start_of(square));
-      if (!found)
-        throw std::logic_error("a square of the checked stress leaves its field of plates");
-      visit(cells.find(*found), side_weights[i] * side_weights[j]);
+      if (const auto found = walker.find(place, start_of(square)))
+        visit(cells.find(*found), found->shell, side_weights[i] * side_weights[j]);
+      else
+        are_all = false;
     }
+  return are_all;
+}
+
+/// Calls visit(place in its cell, share of the square's area) for Gauss points within a square.
+template <typename Visit>
+void for_each_inner_point(const FieldWalker& walker, const CellFinder& cells, const Square& square,
+                          const Visit& visit) {
+  const auto without_shell = [&](const CellPlace& at, int, double weight) { visit(at, weight); };
+  if (!visit_inner_points(walker, cells, square, without_shell))
+    throw std::logic_error("a square of the checked stress leaves its field of plates");
+}
+
+/// Integrals over a square's area of its strain where it is plane and of its curvature (11, 22, 2 x
+/// 12, a column a motion), found from the motion along its outline.
+void integrate_outline(const Space& space, const std::vector<CellShare>& shares,
+                       const Square& square, const MembraneStrains::ByRows& by_rows,
+                       Eigen::MatrixXd& strain, Eigen::MatrixXd& curvature) {
+  static thread_local std::array<Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>, 2>
+      across;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    across[k].setZero(6, by_rows.cols());
+    for (const CellShare& share : shares) {
+      const int* nodes = space.shell_nodes(share.cell);
+      for (int i = 0; i < space.nodes_per_shell(); ++i)
+        across[k] +=
+            share.weights(k, i) * by_rows.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
+    }
+  }
+  const auto sum = [&](Eigen::MatrixXd& sums, const Vector3& along_1, const Vector3& along_2,
+                       Eigen::Index row) {
+    sums.row(0) = along_1.transpose() * across[0].middleRows<3>(row);
+    sums.row(1) = along_2.transpose() * across[1].middleRows<3>(row);
+    sums.row(2) = along_1.transpose() * across[1].middleRows<3>(row) +
+                  along_2.transpose() * across[0].middleRows<3>(row);
+  };
+  sum(strain, square.e_1, square.e_2, 0);
+  // e . (theta x n) = theta . (n x e)
+  const Vector3 normal = square.e_1.cross(square.e_2);
+  sum(curvature, normal.cross(square.e_1), normal.cross(square.e_2), 3);
 }
 
 /// Takes from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a motion) the
@@ -101,6 +144,42 @@ Eigen::MatrixXd held_forces(const CellHeat& heat, const Space& space, const Fiel
     mean.bottomRows<3>() += side * here.bottomRows<3>();
   });
   return mean;
+}
+
+/// Do the cells below a square lie in its plane, as far as their bending can tell?
+///
+/// Where a cell of degree 2 bends, its rise over the plane makes a membrane strain of its
+/// displacements of about the strain of bending times rise over thickness.
+bool is_plane(const Space& space, const std::vector<CellShare>& shares, const Square& square,
+              double thickness) {
+  const double rise = 1e-3 * thickness;
+  const Vector3 normal = square.e_1.cross(square.e_2);
+  return std::all_of(shares.begin(), shares.end(), [&](const CellShare& share) {
+    const int* nodes = space.shell_nodes(share.cell);
+    return std::all_of(nodes, nodes + space.nodes_per_shell(), [&](int node) {
+      const Vector3 off = space.nodes().col(node) - square.centre_B;
+      return std::abs(off.dot(normal)) <= rise;
+    });
+  });
+}
+
+/// Integrals over a square's area of the membrane strain that the stiffness has, 3 x m.
+/// @returns nothing where there is no plating below the square's inner points.
+std::optional<Eigen::MatrixXd> integrate_membrane(const Mesh& mesh, const FieldWalker& walker,
+                                                  const CellFinder& cells, const Square& square,
+                                                  MembraneStrains& strains) {
+  const Vector3 normal = square.e_1.cross(square.e_2);
+  std::optional<Eigen::MatrixXd> strain;
+  double weights = 0;
+  visit_inner_points(walker, cells, square, [&](const CellPlace& at, int shell, double weight) {
+    const double side = normal_of(mesh, {shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
+    const Eigen::MatrixXd here = weight * strains.at(at.cell, at.xi, square.e_1, side);
+    strain = strain ? *strain + here : here;
+    weights += weight;
+  });
+  // A hole within the square has the strain of the rest.
+  if (strain) *strain *= square.size * square.size / weights;
+  return strain;
 }
 
 /// Where the thickness varies a square has that of its middle, m.
@@ -147,44 +226,31 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
   bending_ = components_;
   parallel::in_batches(static_cast<int>(squares_.size()), 64, threads, [&](int first, int count) {
     std::vector<CellShare> shares;
-    std::array<Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>, 2> across;
     Eigen::MatrixXd strain(3, columns), curvature(3, columns);
+    MembraneStrains of_stiffness(space, by_rows);
     for (int s = first; s < first + count; ++s) {
       const Square& square = squares_[s];
-      const Vector3 normal = square.e_1.cross(square.e_2);
       const Shell& shell = model.mesh().shells[square.shell];
-      const ShellSection& section = model.mesh().section_of(shell);
       // The section's offset is along the shell's own normal.
       const double side =
-          normal_of(model.mesh(), {square.shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
-      find_shares(space, walker, cells, square, shares);
-      for (Eigen::Index k = 0; k < 2; ++k) {
-        across[k].setZero(6, columns);
-        for (const CellShare& share : shares) {
-          const int* nodes = space.shell_nodes(share.cell);
-          for (int i = 0; i < space.nodes_per_shell(); ++i)
-            across[k] += share.weights(k, i) *
-                         by_rows.middleRows<6>(6 * static_cast<Eigen::Index>(nodes[i]));
-        }
-      }
-      const auto sum = [&](Eigen::MatrixXd& sums, const Vector3& along_1, const Vector3& along_2,
-                           Eigen::Index row) {
-        sums.row(0) = along_1.transpose() * across[0].middleRows<3>(row);
-        sums.row(1) = along_2.transpose() * across[1].middleRows<3>(row);
-        sums.row(2) = along_1.transpose() * across[1].middleRows<3>(row) +
-                      along_2.transpose() * across[0].middleRows<3>(row);
-      };
-      sum(strain, square.e_1, square.e_2, 0);
-      if (space.degree() == 1) take_excess_shear(space, walker, cells, square, by_rows, strain);
-      // e . (theta x n) = theta . (n x e)
-      sum(curvature, normal.cross(square.e_1), normal.cross(square.e_2), 3);
-      const double area = square.size * square.size;
+          normal_of(model.mesh(), start_of(square)).dot(square.e_1.cross(square.e_2)) < 0 ? -1 : 1;
       const double t = thickness_of(model.mesh(), walker, square);
+      find_shares(space, walker, cells, square, shares);
+      integrate_outline(space, shares, square, by_rows, strain, curvature);
+      std::optional<Eigen::MatrixXd> tied;
+      if (!is_plane(space, shares, square, t))
+        tied = integrate_membrane(model.mesh(), walker, cells, square, of_stiffness);
+      if (tied) {
+        strain = *tied;
+      } else {
+        if (space.degree() == 1) take_excess_shear(space, walker, cells, square, by_rows, strain);
+        strain += side * model.mesh().section_of(shell).offset * curvature;
+      }
+      const double area = square.size * square.size;
       const auto law = shell_stiffness_law(model.mesh(), shell, square.e_1, square.e_2, t);
       const Eigen::Matrix3d membrane = law.block<3, 3>(membrane_11, membrane_11),
                             coupling = side * law.block<3, 3>(membrane_11, curvature_11),
                             bending = law.block<3, 3>(curvature_11, curvature_11);
-      strain += side * section.offset * curvature;
       components_.middleRows<3>(3 * s) = (membrane * strain + coupling * curvature) / (area * t);
       bending_.middleRows<3>(3 * s) =
           (coupling * strain + bending * curvature) * (6 / (area * t * t));

@@ -1,11 +1,12 @@
 """Reads every include of the tree against .ci/rooms.txt and prints those that cross a wall.
 
 A file may include headers of its own folder and of the rooms that the list grants to its folder; a room
-may be granted only rooms that stand above it in the list. Tests may include everything, but nothing in
-the rooms may include a test. Libraries: only structure/ may include deal.II, only the rooms named in
-LIBRARIES may include Gmsh, HDF5 and the others; so it is with the headers in HEADERS. Two types of one name
-in one namespace are found, too: no compiler sees both, and the linker silently gives one the functions of
-the other. So are tests that no CMakeLists.txt names: they would never run, and nobody would miss them.
+may be granted only rooms that stand above it in the list, and none that it does not use. Tests may
+include everything, but nothing in the rooms may include a test. Libraries: only structure/ may include
+deal.II, only the rooms named in LIBRARIES may include Gmsh, HDF5 and the others; so it is with the headers
+in HEADERS. Two types of one name in one namespace are found, too: no compiler sees both, and the linker
+silently gives one the functions of the other. So are tests that no CMakeLists.txt names: they would never
+run, and nobody would miss them.
 
 Usage: check_rooms.py FOLDER; exit code 1 if a wall is crossed.
 """
@@ -57,7 +58,8 @@ def read_rooms(path):
             if used not in rooms or used == name:
                 complaints.append(
                     f"{path}:{number}: error: {name} may not use {used}, which does not stand above it")
-            rooms[name].add(used)
+            else:
+                rooms[name].add(used)
     return rooms, complaints
 
 
@@ -78,8 +80,8 @@ def check_header(header, room):
     return f'may not include "{header}": {instead}'
 
 
-def check_file(path, root, rooms):
-    """Complaints about one source or header."""
+def check_file(path, root, rooms, entered):
+    """Complaints about one source or header; the rooms that it uses are added to those its room has entered."""
     room = str(path.parent.relative_to(root))
     shown = path.relative_to(root)
     if room not in rooms:
@@ -96,6 +98,7 @@ def check_file(path, root, rooms):
             why = f'includes "{own}", which is not a file of the tree'
         else:
             used = str(pathlib.PurePosixPath(own).parent)
+            entered.setdefault(room, set()).add(used)
             crossing = used != room and used not in rooms[room]
             why = f"{room} may not include {used}" if crossing else check_header(own, room)
         if why:
@@ -144,11 +147,14 @@ def check_tree(root):
     rooms, complaints = read_rooms(root / ".ci" / "rooms.txt")
     files = [path for house in HOUSES for path in sorted((root / house).rglob("*"))
              if path.suffix in (".h", ".cc", ".inc") and "node_modules" not in path.parts]
+    entered = {}
     for path in files:
-        complaints += check_file(path, root, rooms)
+        complaints += check_file(path, root, rooms, entered)
     complaints += check_types(files, root) + check_tests(root)
     inhabited = {str(path.parent.relative_to(root)) for path in files}
     complaints += [f".ci/rooms.txt: error: the room {room} is empty" for room in rooms if room not in inhabited]
+    complaints += [f".ci/rooms.txt: error: {room} is granted {used} and does not use it"
+                   for room in rooms if room in inhabited for used in sorted(rooms[room] - entered.get(room, set()))]
     return complaints
 
 

@@ -90,6 +90,13 @@ void forget_columns(RiggingStock& stock) {
   for (StockSheave& sheave : stock.sheaves) sheave.name.mark = without_column(sheave.name.mark);
 }
 
+/// A word of YAML without its quotes.
+std::string without_quotes(const std::string& word) {
+  const bool is_quoted = word.size() > 1 && word.front() == word.back() &&
+                         (word.front() == '"' || word.front() == '\'');
+  return is_quoted ? word.substr(1, word.size() - 2) : word;
+}
+
 /// Whether a file has the line `kind: crane` near its beginning. No more of it is read: the folder
 /// of a case may hold many large files, and pipes.
 bool says_kind(const fs::path& file, const std::string& kind) {
@@ -102,7 +109,10 @@ bool says_kind(const fs::path& file, const std::string& kind) {
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string key, value;
-    if (line.starts_with("kind:") && words >> key >> value) return value == kind;
+    if (!(words >> key >> value)) continue;
+    if (without_quotes(key.substr(0, key.size() - 1)) == "kind" && key.ends_with(':') &&
+        !line.starts_with(' '))
+      return without_quotes(value) == kind;
   }
   return false;
 }

@@ -13,10 +13,10 @@
 
 #include "dynamics/simulation/steering.h"
 #include "pipeline/files/crane/crane_model.h"
+#include "pipeline/files/environment/marine_parts.h"
+#include "pipeline/files/environment/wind_in_case.h"
 #include "pipeline/files/library/model_library.h"
-#include "pipeline/files/lift_case/marine_parts.h"
 #include "pipeline/files/lift_case/standard_in_case.h"
-#include "pipeline/files/lift_case/wind_in_case.h"
 #include "pipeline/files/rigging/spreader.h"
 #include "pipeline/files/structure/block_model.h"
 #include "pipeline/files/structure/hot_spot_format.h"

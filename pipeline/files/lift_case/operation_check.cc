@@ -38,7 +38,9 @@ void check_duration(const LiftCase& lift_case, const Schedule& schedule, Diagnos
 class FaultCheck {
  public:
   FaultCheck(const LiftCase& lift_case, const Schedule& schedule, Diagnostics& diagnostics)
-      : diagnostics_(diagnostics), duration_(schedule.duration) {
+      : diagnostics_(diagnostics),
+        // Of an operation with mistakes nobody knows how long it lasts.
+        duration_(diagnostics.has_errors() ? 0 : schedule.duration) {
     for (const RopeInCase& rope : lift_case.ropes) ropes_.push_back(rope.name.value);
     for (const CraneInCase& crane : lift_case.cranes) {
       if (!crane.model) continue;

@@ -117,10 +117,14 @@ class PointResolver {
     const CraneInCase* crane = case_.find_crane(crane_name);
     if (!crane) {
       if (case_.cranes.empty() && diagnostics_.has_errors()) return std::nullopt;  // told
+      std::vector<std::string> known = names_of(case_.cranes);
+      for (const SpreaderInCase& bar : case_.spreaders) known.push_back(bar.name.value);
+      const bool has_bars = !case_.spreaders.empty();
       fail(name,
-           fmt::format("{} \"{}\", but the case has no crane \"{}\"", subject_, name.value,
-                       crane_name),
-           names_hint("its cranes are", names_of(case_.cranes), crane_name));
+           fmt::format("{} \"{}\", but the case has no crane {}\"{}\"", subject_, name.value,
+                       has_bars ? "or spreader " : "", crane_name),
+           names_hint(has_bars ? "its cranes and spreaders are" : "its cranes are", known,
+                      crane_name));
       return std::nullopt;
     }
     if (!crane->model) return std::nullopt;

@@ -162,10 +162,11 @@ class Scheduler {
                          {"name the drive that leads: follows: C1.lower"});
     }
     if (move.by.has_value() == move.to.has_value()) {
-      diagnostics_.error(move.place,
-                         move.by ? "the move has both \"by\" and \"to\""
-                                 : "the move has neither \"by\" nor \"to\"",
-                         {"a move goes by a distance, to a place, or follows another drive"});
+      diagnostics_.error(
+          move.place,
+          move.by ? "the move has both \"by\" and \"to\""
+                  : "the move has neither \"by\" nor \"to\"",
+          {"a move goes by a distance, to a place, follows another drive, or keeps something"});
       return;
     }
     for (const Located<std::string>& name : move.drives) {

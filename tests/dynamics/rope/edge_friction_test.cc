@@ -14,6 +14,7 @@
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/rope/balance.h"
+#include "tests/dynamics/rope/split_jacobian.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -461,29 +462,14 @@ TEST(EdgeFriction, AllocatesNothing) {
   }
 }
 
-// Newton's matrix: exact but for what is small by the strain, and by the damping.
 TEST(EdgeFriction, JacobianIsThatOfTheForces) {
   for (const double radius : {0.0, 0.4}) {
     const ObliqueCradle cradle{.radius = radius};
     const LiftSystem lift = cradle.build(1.0);
-    LiftWorkspace w(lift);
-    Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size()), q(7), v(6);
+    Eigen::VectorXd q(7), v(6);
     v << 0.1, -0.2, 0.1, 0.2, -0.1, 0.2;
     lift.mechanism().integrate(lift.q_start(), v, 0.5, q);
-    get_state(lift, q, v, y);
-    const Contacts contacts{1};
-    calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
-    lift.ropes()[0].calc_path(w.kinematics, w.path);
-    w.splits[0].begin(lift.ropes()[0], w.kinematics, w.path, w.rope_loads[0]);
-    JacobianWorkspace workspace(lift);
-    Eigen::MatrixXd jacobian(lift.state_size(), lift.state_size());
-    for (const BendMotion motion : {BendMotion::sticks, BendMotion::to_last}) {
-      calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
-      w.splits[0].set_motion(1, motion);
-      calc_jacobian(lift, 0.0, y, &contacts, w, workspace, jacobian);
-      const Eigen::MatrixXd expected = difference_jacobian(lift, 0.0, y, &contacts, w, 1e-6);
-      EXPECT_LT((jacobian - expected).norm(), 0.02 * expected.norm());
-    }
+    test::expect_jacobian_of_split(lift, q, v);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "dynamics/simulation/time_integration.h"
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/rope/balance.h"
+#include "tests/dynamics/rope/split_jacobian.h"
 
 namespace blocklift::dynamics {
 namespace {
@@ -321,32 +322,16 @@ TEST(RopeSplit, AllocatesNothing) {
   }
 }
 
-// Newton's matrix: exact but for what is small by the strain.
 TEST(RopeSplit, JacobianIsThatOfTheForces) {
   TwoWeights model{.first_mass = 5e3, .last_mass = 20e3, .friction = 0.05, .damping_time = 0.01};
   model.between_sheaves = 6.0;
   const LiftSystem lift = model.build();
-  LiftWorkspace w(lift);
-  Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
   Eigen::VectorXd q = model.hang(8e3 * standard_gravity);
   q[0] += 3.0;
   q[4] += 4.0;
   Eigen::VectorXd v = speeds(0.1, -0.2);
   v[1] = 0.3;
-  get_state(lift, q, v, y);
-  const Contacts contacts{1};
-  calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
-  lift.ropes()[0].calc_path(w.kinematics, w.path);
-  w.splits[0].begin(lift.ropes()[0], w.kinematics, w.path, w.rope_loads[0]);
-  JacobianWorkspace workspace(lift);
-  Eigen::MatrixXd jacobian(lift.state_size(), lift.state_size());
-  for (const BendMotion motion : {BendMotion::sticks, BendMotion::to_last}) {
-    calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
-    w.splits[0].set_motion(1, motion);
-    calc_jacobian(lift, 0.0, y, &contacts, w, workspace, jacobian);
-    const Eigen::MatrixXd expected = difference_jacobian(lift, 0.0, y, &contacts, w, 1e-6);
-    EXPECT_LT((jacobian - expected).norm(), 0.02 * expected.norm());
-  }
+  test::expect_jacobian_of_split(lift, q, v);
 }
 
 TEST(RopeSplit, RefusesWhatHasNoMeaning) {

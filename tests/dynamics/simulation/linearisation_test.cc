@@ -228,6 +228,22 @@ TEST(Linearisation, NeutralYawOnOneRope) {
   EXPECT_EQ(l.modes[1].kind, ModeKind::oscillating);
 }
 
+// Nothing brings a trolley back along its level rail: it drifts, and what hangs on it with it.
+TEST(Linearisation, NeutralDriftAlongARail) {
+  MechanismBuilder builder;
+  builder.set_gravity({0, 0, -g});
+  BodyDefinition trolley = pendulum_link("trolley", "world", 5.0, 0.0);
+  trolley.joint = {.kind = JointKind::prismatic, .axis = Vector3::UnitX()};
+  builder.add_body(trolley);
+  builder.add_body(pendulum_link("bob", "trolley", 3.0, 2.0));
+  const Linearisation l = linearised(at_rest(builder.build(), {}, Eigen::VectorXd::Zero(2)));
+  ASSERT_EQ(l.modes.size(), 2u);
+  EXPECT_EQ(l.modes[0].kind, ModeKind::neutral);
+  EXPECT_EQ(l.modes[0].name, "trolley: drift along x");
+  // The free pendulum swings against the trolley: omega^2 = g/l (1 + m/M).
+  EXPECT_NEAR(l.modes[1].natural_frequency(), std::sqrt(g / 2.0 * (1 + 3.0 / 5.0)), 1e-9);
+}
+
 TEST(Linearisation, UnstableAndOverdamped) {
   // Upside down: growth sqrt(g/l); the solver keeps exact equilibria although they would not last.
   MechanismBuilder builder;

@@ -96,6 +96,32 @@ TEST(LiftChecks, SlingsMayLieSlackWhileTheLoadStands) {
   EXPECT_EQ(slack(run), 0);
 }
 
+// A tackle that bears its hook block alone is not held against the smallest tension of ropes.
+TEST(LiftChecks, IdleHooksAreNotSlack) {
+  const SmallLift& lift = small_lift();
+  LiftCase lift_case = lift.lift_case;
+  LiftRun run = lift.run;
+  const auto slack = [&] {
+    const std::vector<Check> checks = check_lift(lift_case, run);
+    return find_check(checks, "slack: smallest tension of any rope");
+  };
+  const double slings = slack().demand;
+  Eigen::VectorXd& tackle = run.dynamic_result.history.ropes[run.model.hoists[0].rope].tension;
+  tackle[3] = 0.5 * slings;  // slings at its hook, and the load hangs: it counts
+  EXPECT_EQ(slack().demand, 0.5 * slings);
+  dynamics::History& history = run.dynamic_result.history;
+  history.supports.push_back({"pad", Eigen::VectorXd::Zero(history.sample_count())});
+  history.supports.back().normal_force[3] = 1e3;
+  EXPECT_EQ(slack().demand, slings);  // the load stands
+  history.supports.clear();
+  std::erase_if(lift_case.ropes, [&](const RopeInCase& rope) {
+    return rope.path.front().body_name(lift_case.cranes) == run.model.hoists[0].name;
+  });
+  EXPECT_EQ(slack().demand, slings);  // nothing hangs on its hook
+  tackle[3] = 0;
+  EXPECT_EQ(slack().demand, 0);
+}
+
 TEST(LiftChecks, EveryLineHasItsDemandAndLimit) {
   const SmallLift& lift = small_lift();
   const std::vector<Check> checks = check_lift(lift.lift_case, lift.run);

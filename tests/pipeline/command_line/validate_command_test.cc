@@ -48,6 +48,30 @@ TEST(ValidateCommand, SaysWhatIsInASoundFile) {
             "gantry/ropes/tackle.yaml: valid, rope\n");
 }
 
+// A folder of a case that holds a study of it, too; keys that are set are the case's.
+TEST(ValidateCommand, ReadsTheStudyBesideACase) {
+  const TemporaryFolder folder;
+  SampleLift().write(folder);
+  folder.write("study.yaml",
+               "study: s\ncase: case.yaml\ndesign: random\nmembers: 3\nvary:\n"
+               "  wait: {keys: [settle], values: [20 s, 30 s]}\n");
+  const Outcome sound = run_blocklift("validate .");
+  EXPECT_EQ(sound.exit_code, 0) << sound.err;
+  EXPECT_NE(sound.out.find(".: valid, lift case small-lift"), std::string::npos) << sound.out;
+  EXPECT_NE(sound.out.find("study.yaml: valid, study s of case.yaml with 1 variable and 3 members"),
+            std::string::npos)
+      << sound.out;
+  const Outcome set = run_blocklift("validate . --set 'settle=21 s'");
+  EXPECT_EQ(set.exit_code, 0) << set.err;
+  EXPECT_EQ(set.out.find("study"), std::string::npos) << set.out;
+  folder.write("study.yaml",
+               "study: s\ncase: case.yaml\ndesign: random\nmembers: 3\nvary:\n"
+               "  wait: {keys: [setle], values: [20 s, 30 s]}\n");
+  const Outcome wrong = run_blocklift("validate .");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("study.yaml:6:"), std::string::npos) << wrong.err;
+}
+
 // The plate weighs 10 t.
 TEST(ValidateCommand, WeighsALoadTable) {
   const auto validate_table = [](const std::string& direction, const std::string& loads) {

@@ -66,6 +66,27 @@ TEST_F(ComparedFolders, SayWhichKeysOfTheInputDiffer) {
   EXPECT_EQ(comparison.input[2].key, "mass");
 }
 
+TEST(ComparedInput, SaysTheSameInOtherUnits) {
+  EXPECT_TRUE(is_same_value("4 m", "400 cm"));
+  EXPECT_TRUE(is_same_value("4 m", "4.0 m"));
+  EXPECT_TRUE(is_same_value("[1 m, 0 m, [2 t, x]]", "[100 cm,0 mm, [2000 kg, x]]"));
+  EXPECT_FALSE(is_same_value("4 m", "401 cm"));
+  EXPECT_FALSE(is_same_value("4 m", "4 s"));
+  EXPECT_FALSE(is_same_value("4 m", "4"));
+  EXPECT_FALSE(is_same_value("C1.hook", "C2.hook"));
+  EXPECT_FALSE(is_same_value("[1 m, 2 m]", "[1 m, 2 m, 3 m]"));
+  EXPECT_FALSE(is_same_value("[1 m, 2 m]", "1 m"));
+}
+
+TEST_F(ComparedFolders, KeysInOtherUnitsDoNotDiffer) {
+  test::write_sample_folder("before", test::sample_summary(),
+                            "case: two-ropes\nsettle: 3 s\nload: {position: [1 m, 0 m]}\n", "");
+  test::write_sample_folder("after", test::sample_summary(),
+                            "case: two-ropes\nsettle: 3000 ms\nload: {position: [100 cm, 0 mm]}\n",
+                            "");
+  EXPECT_THAT(compare().input, ::testing::IsEmpty());
+}
+
 TEST_F(ComparedFolders, CountChangesFromTheFirst) {
   for (const ComparedFigure& figure : compare().figures) {
     const double expected = figure.figure.path == "ropes.R1.max_dynamic_tension_N" ? 10

@@ -140,6 +140,43 @@ TEST(TableTest, GathersEverythingThatIsWrong) {
             "9 errors\n");
 }
 
+// What is behind a mistyped key is read as what was meant, so that it is not missed as well.
+TEST(TableTest, ComplainsOnceOfAMistypedKey) {
+  const auto [cart, complaints] =
+      read_cart("mas: 2 t\nwheels: {left: {radus: 40 cm}}\nstation: [1 m, 2 m]\n");
+  EXPECT_EQ(complaints,
+            "cart.yaml:1:1: error: cart has no key \"mas\"\n"
+            "    its keys are mass, speed, colour, position, wheels, stations, seats, covered; did "
+            "you mean \"mass\"?\n"
+            "cart.yaml:2:17: error: wheel left has no key \"radus\"\n"
+            "    its keys are radius, width; did you mean \"radius\"?\n"
+            "cart.yaml:3:1: error: cart has no key \"station\"\n"
+            "    its keys are mass, speed, colour, position, wheels, stations, seats, covered; did "
+            "you mean \"stations\"?\n"
+            "3 errors\n");
+  EXPECT_DOUBLE_EQ(cart.mass, 2000);
+  EXPECT_EQ(cart.stations.size(), 2U);
+  // Two mistakes are two complaints, and the right key beside the mistyped one is what counts.
+  EXPECT_EQ(read_cart("mass: 2 t\nwheels: {left: {radus: 40}}\nmas: 3 kg\n").complaints,
+            "cart.yaml:2:17: error: wheel left has no key \"radus\"\n"
+            "    its keys are radius, width; did you mean \"radius\"?\n"
+            "cart.yaml:2:24: error: radius \"40\" has no unit; a length is due, for example \"12 "
+            "m\"\n"
+            "cart.yaml:3:1: error: cart has no key \"mas\"\n"
+            "    its keys are mass, speed, colour, position, wheels, stations, seats, covered; did "
+            "you mean \"mass\"?\n"
+            "3 errors\n");
+}
+
+TEST(TableTest, SaysWhatIsDueInGoodGrammar) {
+  EXPECT_EQ(read_cart("mass: 2 t\nwheels:\n").complaints,
+            "cart.yaml:2:1: error: wheels has no value; names, each with the keys of a wheel are "
+            "due\n1 error\n");
+  EXPECT_EQ(names_hint("its lugs are", {}, "L1"), "it has no lugs");
+  EXPECT_EQ(names_hint("the outputs are", {}, "tension"), "there are no outputs");
+  EXPECT_EQ(names_hint("they have", {}, "x"), "they have none");
+}
+
 TEST(TableTest, NamesWhatStandsInTheWrongShape) {
   EXPECT_EQ(
       read_cart("mass: [1 t]\nspeed:\nposition: 3 m\nwheels: [1]\nstations: {a: 1}\n").complaints,

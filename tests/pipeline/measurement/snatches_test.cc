@@ -68,6 +68,21 @@ TEST(Snatches, AreKeptWhereTheRopeWasSlack) {
   EXPECT_EQ(count_left_out(judged.faults, 601), 0U);
 }
 
+// A spike while the load still dances is none of its leaps, before or behind which the load swings
+// as far.
+TEST(Snatches, DoNotTakeASpikeAlongThatFollowsThem) {
+  const auto bounce = dance(20, 0.31, 0.05, 30e3);
+  for (const int later : {8, 12, 15, 20}) {
+    const double instant = 20 + 0.1 * later;
+    const JudgedSamples judged = judge_against_swing(
+        [&](double t) { return swing(t) + bounce(t) + (std::abs(t - instant) < 0.01 ? 40e3 : 0); });
+    ASSERT_THAT(judged.faults, SizeIs(1)) << later;
+    EXPECT_EQ(judged.faults.front().begin, static_cast<std::size_t>(200 + later));
+    ASSERT_FALSE(judged.snatches.empty()) << later;
+    EXPECT_NEAR(static_cast<double>(judged.snatches.front().begin), 200, 1) << later;
+  }
+}
+
 // One sample, or one that an amplifier spreads over its neighbours, and a line that leaps to zero.
 TEST(Snatches, AreNoSpikes) {
   const auto at = [](double t, double instant) { return std::abs(t - instant) < 0.01; };
@@ -114,6 +129,41 @@ TEST(FaultySamples, AreNoLoadThatIsTakenOverAtAnotherTime) {
   const TimeSeries restarted =
       minute_of([&](double t) { return taken_over(t, 30) + (t > 40.01 ? 20e3 : 0) + noise(t); });
   EXPECT_EQ(count_left_out(find_faults(restarted, computed, true), 601), 200U);
+}
+
+/// What is found of a rope by what another one beside it does; both are computed to swing.
+JudgedSamples judge_beside(const std::function<double(double)>& measured,
+                           const std::function<double(double)>& beside) {
+  const TimeSeries computed = minute_of(swing), other = minute_of(beside);
+  return judge_samples(minute_of([&](double t) { return measured(t) + noise(t); }), computed, true,
+                       {{&other, &computed}});
+}
+
+// A rope that loses three tenths for good: another takes them over, or nobody does.
+TEST(FaultySamples, AreNoLoadThatAnotherRopeTakesOver) {
+  const auto times = [](double factor) {
+    return [=](double t) { return (t < 29.99 ? 1 : factor) * swing(t); };
+  };
+  const JudgedSamples taken_over = judge_beside(times(0.7), times(1.3));
+  EXPECT_THAT(taken_over.faults, IsEmpty());
+  ASSERT_THAT(taken_over.load_changes, SizeIs(1));
+  EXPECT_EQ(taken_over.load_changes.front().begin, 300U);
+  // Slings lean: the one that takes over gains less.
+  EXPECT_THAT(judge_beside(times(0.7), times(1.2)).load_changes, SizeIs(1));
+  const JudgedSamples alone = judge_beside(times(0.7), swing);
+  EXPECT_THAT(alone.load_changes, IsEmpty());
+  EXPECT_EQ(count_left_out(alone.faults, 601), 300U);
+}
+
+// The load becomes lighter; or the amplifier of all cells sets them to zero.
+TEST(FaultySamples, AreNoLoadThatChangesForAllRopes) {
+  const auto times = [](double factor, double load) {
+    return [=](double t) { return load * (t < 29.99 ? 1 : factor) * swing(t); };
+  };
+  EXPECT_THAT(judge_beside(times(0.8, 1), times(0.8, 1.4)).load_changes, SizeIs(1));
+  EXPECT_THAT(judge_beside(times(0.8, 1), times(0.8, 1.4)).faults, IsEmpty());
+  EXPECT_THAT(judge_beside(times(0.8, 1), times(0.6, 1.4)).load_changes, IsEmpty());
+  EXPECT_THAT(judge_beside(times(0.02, 1), times(0.02, 1.4)).load_changes, IsEmpty());
 }
 
 }  // namespace

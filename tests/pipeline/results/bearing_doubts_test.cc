@@ -58,6 +58,21 @@ TEST_F(DoubtsOfBearing, LoadBeyondItsHooks) {
   EXPECT_THAT(doubts(), IsEmpty());
 }
 
+// A line that was copied and not changed: the load would hang on three lugs.
+TEST_F(DoubtsOfBearing, TwoSlingsOnOneLugWhileAnotherHasNone) {
+  const auto four = lift_case_.ropes;
+  lift_case_.ropes[1].path.back() = four[0].path.back();
+  const std::string lug = four[0].lug(), bare = four[1].lug();
+  EXPECT_THAT(doubts(),
+              ElementsAre(StartsWith("Ropes " + four[0].name.value + ", " + four[1].name.value +
+                                     " all hold lug " + lug + ", and none holds " + bare + ".")));
+  // With a sling of its own at the other lug two on one are no matter, nor is a lug that is bare.
+  lift_case_.ropes.push_back(four[1]);
+  EXPECT_THAT(doubts(), IsEmpty());
+  lift_case_.ropes = {four[0], four[2], four[3]};
+  EXPECT_THAT(doubts(), IsEmpty());
+}
+
 TEST_F(DoubtsOfBearing, WindInWhichNoCraneWorks) {
   lift_case_.wind->speed = 28;
   EXPECT_THAT(doubts(), IsEmpty());

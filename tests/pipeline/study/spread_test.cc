@@ -182,5 +182,18 @@ TEST(Spread, ParetoOfAnExponentialTail) {
   EXPECT_LT(spread.extremes.front().p_value, 0.05);
 }
 
+// Members that share the value at the 90 % quantile, as those do that a bound or a discrete value
+// holds there: the tail above them is what it is, and its fit has a statistic.
+TEST(Spread, ParetoWhereValuesTieAtTheThreshold) {
+  const auto inverse = [](double share) { return -3 * std::log(1 - share); };
+  std::vector<double> values = even_sample(1000, inverse);
+  for (std::size_t i = 880; i < 920; ++i) values[i] = values[900];
+  const Spread spread = find_spread("x", values, numbers(1000), Eigen::MatrixXd(1000, 0));
+  ASSERT_EQ(spread.extremes.size(), 2U);
+  const ExtremeFit& fit = spread.extremes.back();
+  EXPECT_GT(fit.p_value, 0.2);
+  EXPECT_NEAR(fit.value, inverse(0.999), 0.15 * inverse(0.999));
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

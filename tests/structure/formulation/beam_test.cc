@@ -11,6 +11,7 @@
 #include "pipeline/verification/models/shells/shell_models.h"
 #include "structure/error.h"
 #include "structure/stress/beam_stress.h"
+#include "tests/structure/formulation/rigid_motions.h"
 
 namespace blocklift::structure {
 namespace {
@@ -277,15 +278,7 @@ TEST(Beam, RigidMotionsStrainNothingWithSlopingOffsets) {
     mesh.beams[0].offset = {Vector3(0, 0.1, 0.2), Vector3(0.05, -0.1, 0.3)};
     const Space space(mesh, {degree, {}});
     const Eigen::MatrixXd k = beam_stiffness(space, 0);
-    Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(k.rows(), 6);
-    for (std::size_t i = 0; i < space.beams()[0].nodes.size(); ++i) {
-      const auto row = 6 * static_cast<Eigen::Index>(i);
-      const Vector3 x = space.nodes().col(space.beams()[0].nodes[i]);
-      for (int c = 0; c < 3; ++c) {
-        rigid(row + c, c) = rigid(row + 3 + c, 3 + c) = 1;
-        rigid.block<3, 1>(row, 3 + c) = Vector3::Unit(c).cross(x);
-      }
-    }
+    const Eigen::MatrixXd rigid = samples::rigid_motions(space, space.beams()[0].nodes);
     EXPECT_LT((k * rigid).cwiseAbs().maxCoeff(), 1e-12 * k.cwiseAbs().maxCoeff()) << degree;
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/verification/models/shells/shell_models.h"
+#include "tests/structure/formulation/rigid_motions.h"
 
 namespace blocklift::structure {
 namespace {
@@ -19,15 +20,8 @@ Vector3 warped(double x, double y) {
 }
 
 Eigen::MatrixXd rigid_motions(const Space& space, int cell) {
-  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(6 * space.nodes_per_shell(), 6);
-  for (int i = 0; i < space.nodes_per_shell(); ++i) {
-    const Vector3 x = space.nodes().col(space.shell_nodes(cell)[i]);
-    for (int c = 0; c < 3; ++c) {
-      rigid(6 * i + c, c) = rigid(6 * i + 3 + c, 3 + c) = 1;
-      rigid.block<3, 1>(6 * i, 3 + c) = Vector3::Unit(c).cross(x);
-    }
-  }
-  return rigid;
+  return samples::rigid_motions(
+      space, {space.shell_nodes(cell), static_cast<std::size_t>(space.nodes_per_shell())});
 }
 
 Mesh warped_mesh(int degree, double offset, bool triangles) {

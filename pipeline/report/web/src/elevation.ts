@@ -43,6 +43,17 @@ export function frameOf(scene: Scene, bodies: Bodies, times: number[], side: Sid
   return frame;
 }
 
+/** The side from which the load is seen to move and turn more between the instants; "side" if that is no matter. */
+export function tellingSide(scene: Scene, bodies: Bodies, times: number[]): Side {
+  const corners = (scene.bodies.find(({ name }) => name === scene.load)?.boxes ?? []).flatMap(boxCorners);
+  const movement = (side: Side): number => {
+    const flat = flatten(side);
+    const across = times.map((time) => corners.map((corner) => flat(inWorld(bodies.pose(scene.load, time), corner))[0]));
+    return across.slice(1).reduce((sum, now, i) => sum + now.reduce((part, place, k) => part + Math.abs(place - across[i][k]), 0), 0);
+  };
+  return movement("front") > 1.5 * movement("side") ? "front" : "side";
+}
+
 export function elevation(
   scene: Scene, bodies: Bodies, time: number, side: Side, frame: Frame, labelled: boolean): SVGElement {
   const flat = flatten(side);

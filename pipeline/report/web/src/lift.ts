@@ -5,7 +5,7 @@ import { Clock } from "./clock";
 import { PageData, Scene, Series, stageAt, State, states } from "./data";
 import { checkbox, choice, h, slider } from "./dom";
 import { svgButton } from "./download";
-import { elevation, frameOf } from "./elevation";
+import { elevation, frameOf, tellingSide } from "./elevation";
 import type { Section } from "./section";
 import type { Vibration, VibrationPlayer } from "./modes";
 import { Bodies, boxCorners, inWorld, ropePath, Vector } from "./motion";
@@ -176,10 +176,12 @@ function tensionPanel(data: PageData, clock: Clock): HTMLElement | null {
 function stageStrip(data: PageData, scene: Scene, bodies: Bodies, clock: Clock): HTMLElement {
   const instants = [{ name: "start", time: clock.start },
     ...data.stages.map((stage) => ({ name: `after ${stage.name}`, time: stage.end }))];
-  const frame = frameOf(scene, bodies, instants.map((one) => one.time), "side");
+  const times = instants.map((one) => one.time);
+  const side = tellingSide(scene, bodies, times);
+  const frame = frameOf(scene, bodies, times, side);
   return h("div", { class: "strip" }, instants.map(({ name, time }) => h("button", {
     type: "button", title: "Show this instant", onclick: () => clock.set(time),
-  }, elevation(scene, bodies, time, "side", frame, false), h("span", {}, name, h("small", {}, `${seconds(time)} s`)))));
+  }, elevation(scene, bodies, time, side, frame, false), h("span", {}, name, h("small", {}, `${seconds(time)} s`)))));
 }
 
 /** The line under the drawing that says which natural mode it plays, and the motion itself. */

@@ -82,9 +82,15 @@ function period(mode: NaturalMode): string {
   return known(mode.period_s) ? significant(mode.period_s, 3) : missing;
 }
 
-/** Modes in which the load moves as a whole, those that an operator can feel; the quick rest stands apart. All, if nothing is the load. */
+/**
+ * Modes in which the load moves as a whole, those that an operator can feel, and such as grow; the quick rest, and what vessels
+ * beside the lift do by themselves, stands apart. All, if nothing is the load.
+ */
 function isMain(mode: NaturalMode, load: string): boolean {
-  return !load || mode.kind !== "oscillating" || ((mode.energy_share_by_body?.[load] ?? 0) >= 0.2 && !isVibration(mode, load));
+  const shares = mode.energy_share_by_body;
+  if (!load || mode.kind === "unstable") return true;
+  if (!shares) return mode.kind !== "oscillating";
+  return (shares[load] ?? 0) >= 0.2 && !isVibration(mode, load);
 }
 
 function modeTable(caption: string, modes: NaturalMode[], all: NaturalMode[], play: ((row: number) => void) | null): Child {

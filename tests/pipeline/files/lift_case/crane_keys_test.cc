@@ -73,5 +73,17 @@ TEST(CraneKeys, SayWhatIsWrong) {
               HasSubstr("spring stay ties the crane to its base, too"));
 }
 
+// What the reader has said of a stand is not said once more of what it could not read.
+TEST(CraneKeys, SayOnceWhatAStandLacks) {
+  for (const char* const lines :
+       {"stands_on: gantry\n", "stands_on: {body: gantry}\n",
+        "stands_on: {body: gantry, supports: [{position: [0 m, 0 m, 0 m]}]}\n",
+        "stands_on: {supports: {A: {position: [0 m, 0 m, 0 m]}, B: {position: [0 m, 5 m, 0 m]}, "
+        "C: {position: [1 m, 9 m, 0 m]}}}\n"})
+    EXPECT_THAT(complaints_of_crane(lines), ::testing::EndsWith("\n1 error\n")) << lines;
+  EXPECT_THAT(complaints_of_crane("stands_on: {body: gantry, supports: {}}\n"),
+              HasSubstr("three supports or more"));
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline

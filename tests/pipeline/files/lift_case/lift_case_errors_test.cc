@@ -71,14 +71,15 @@ TEST(LiftCaseErrors, ModelThatLiesBesideTheCase) {
   const test::TemporaryFolder folder;
   SampleLift().write(folder);
   folder.write("hoist.yaml", "# of the yard\nkind: crane  # the small one\n");
-  folder.write("notes.yaml", "kinds: crane\n");
+  folder.write("winch.yaml", "\"kind\": 'crane'\n");
+  folder.write("notes.yaml", "kinds: crane\nkind of: crane\n");
   folder.write("case.yaml", with(SampleLift().lift_case, "model: gantry", "model: hoists"));
   Diagnostics diagnostics;
   ModelLibrary library({});
   EXPECT_FALSE(read_lift_case("case.yaml", library, diagnostics));
   EXPECT_EQ(diagnostics.to_text(),
             "case.yaml:6:12: error: there is no crane model \"hoists\"\n"
-            "    the crane models are gantry, hoist; did you mean \"hoist\"?\n"
+            "    the crane models are gantry, hoist, winch; did you mean \"hoist\"?\n"
             "    looked for in .\n"
             "1 error\n");
 }
@@ -190,6 +191,13 @@ TEST(LiftCaseErrors, EyeThatASpreaderDoesNotHave) {
       "case.yaml:18:27: error: rope U2 ends at \"B1.uper_b\", which is no eye of spreader B1\n"
       "    its eyes are B1.upper_a, B1.upper_b, B1.lower_a, B1.lower_b; did you mean "
       "\"B1.upper_b\"?\n1 error\n");
+}
+
+TEST(LiftCaseErrors, SpreaderThatTheCaseDoesNotHave) {
+  EXPECT_THAT(complaints_about_spreader("to: B1.upper_b", "to: B2.upper_b"),
+              ::testing::AllOf(::testing::HasSubstr("the case has no crane or spreader \"B2\""),
+                               ::testing::HasSubstr("its cranes and spreaders are C1, B1; did you "
+                                                    "mean \"B1\"?")));
 }
 
 TEST(LiftCaseErrors, SlingsThatDoNotReachAroundASpreader) {
@@ -422,6 +430,11 @@ TEST(LiftCaseErrors, FaultsThatCannotBe) {
       "mean \"C1.travel\"?\n2 errors\n");
   EXPECT_THAT(complaints("{at: 5000 s, parts: [R1]}"),
               ::testing::HasSubstr("after the end of the operation"));
+  // How long an operation lasts is not known while one of its moves is wrong.
+  EXPECT_THAT(complaints_about_case("settle: 10 s\n",
+                                    "  - stage: wrong\n    moves:\n      - {drives: [C1.lift], by: "
+                                    "1 m}\nsettle: 10 s\nfaults:\n  - {at: 5000 s, parts: [R1]}\n"),
+              ::testing::Not(::testing::HasSubstr("after the end of the operation")));
   EXPECT_THAT(complaints("{at: 5 s, stops: [all, C1.travel]}"),
               ::testing::HasSubstr("\"C1.travel\" stops twice"));
 }

@@ -1,4 +1,4 @@
-#include "pipeline/files/lift_case/vessel_doubts.h"
+#include "pipeline/files/environment/vessel_doubts.h"
 
 #include <cmath>
 

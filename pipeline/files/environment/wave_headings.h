@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 namespace blocklift::pipeline {
 

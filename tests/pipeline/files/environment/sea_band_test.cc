@@ -1,6 +1,6 @@
 // Which waves an irregular sea keeps, for which radiation is computed, and what is doubted of vessels
 // in it.
-#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/environment/sea_band.h"
 
 #include <cmath>
 #include <string>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/build/build_mechanism.h"
-#include "pipeline/files/lift_case/vessel_doubts.h"
+#include "pipeline/files/environment/vessel_doubts.h"
 #include "pipeline/files/mechanism/mechanism_file.h"
 #include "tests/pipeline/sample_lift.h"
 

@@ -11,7 +11,7 @@
 
 #include "dynamics/marine/waves/sea.h"
 #include "pipeline/declaration/table.h"
-#include "pipeline/files/lift_case/linear_buoyancy.h"
+#include "pipeline/files/environment/linear_buoyancy.h"
 #include "pipeline/files/vessel/hull_places.h"
 #include "pipeline/files/vessel/hydrodynamic_settings.h"
 #include "pipeline/files/vessel/vessel_model.h"

@@ -1,5 +1,5 @@
 // The sea, vessels and lines in mechanism files and lift cases.
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 #include <cmath>
 #include <numbers>
@@ -10,8 +10,8 @@
 #include "dynamics/simulation/equilibrium.h"
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_mechanism.h"
-#include "pipeline/files/lift_case/vessel_database.h"
-#include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/files/environment/vessel_database.h"
+#include "pipeline/files/environment/wave_headings.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/pipeline/sample_lift.h"
 
@@ -21,6 +21,7 @@ namespace {
 using test::TemporaryFolder;
 using test::with;
 using ::testing::AllOf;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 const std::string floating = R"(mechanism: floating
@@ -546,13 +547,15 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
   EXPECT_THAT(complaints_of_change("towards: 90 deg", "towards: 90 deg, profile: tidal"),
               HasSubstr("a tidal current needs the depth of the sea"));
   EXPECT_THAT(complaints_of_change("heading: 90 deg", "draught: 7 m"),
-              HasSubstr("would float at a draught of 7 m"));
+              AllOf(HasSubstr("would float at a draught of 7 m"), EndsWith("\n1 error\n")));
   EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: B2"),
               HasSubstr("tugger line T1 ends at body \"B2\", which does not exist"));
   EXPECT_THAT(complaints_of_change("from: {body: B1", "from: {body: wold"),
               HasSubstr("did you mean \"world\"?"));
   EXPECT_THAT(complaints_of_change("length: 35 m, stiffness: 100 kN/m", "stiffness: 100 kN/m"),
               HasSubstr("neither what tension it holds nor how it stretches"));
+  EXPECT_THAT(complaints_of_change("stiffness: 100 kN/m", "stifness: 100 kN/m"),
+              AllOf(HasSubstr("did you mean \"stiffness\"?"), EndsWith("\n1 error\n")));
   EXPECT_THAT(
       complaints_of_change("length: 35 m, stiffness: 100 kN/m", "length: 35 m, tension: 100 kN"),
       HasSubstr("a line that holds a tension has a length or stiffness"));

@@ -1,8 +1,11 @@
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,9 +13,9 @@
 #include "dynamics/marine/hull/hull_diagnosis.h"
 #include "dynamics/marine/loads/draught_shares.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
+#include "pipeline/files/environment/sea_band.h"
+#include "pipeline/files/environment/vessel_database.h"
 #include "pipeline/files/library/model_library.h"
-#include "pipeline/files/lift_case/sea_band.h"
-#include "pipeline/files/lift_case/vessel_database.h"
 #include "pipeline/files/named_file.h"
 #include "pipeline/formats/series_file.h"
 
@@ -103,10 +106,18 @@ void check_panels(const VesselInCase& vessel, const dynamics::Water& water, doub
   demands.shortest_wave_length = length;
   demands.panels_per_wave_length = panels;
   demands.most_of_a_kind = 1;
+  using Kind = dynamics::HullDefectKind;
   for (const dynamics::HullDefect& defect : diagnose(vessel.model->hull, demands)) {
+    const bool is_off_the_water =
+        defect.kind == Kind::above_water || defect.kind == Kind::below_water;
+    if (is_off_the_water && vessel.draught) continue;  // check_vessel says so of its draught
+    std::vector<std::string> hints;
+    if (defect.kind == Kind::large_panel)
+      hints.emplace_back(
+          "smaller panels (panel_size of the model), a longer wave, or a lower "
+          "highest_frequency under radiation");
     diagnostics.error(mark, fmt::format("vessel {}: {}", vessel.name.value, defect.message),
-                      {"smaller panels (panel_size of the model), a longer wave, or a lower "
-                       "highest_frequency under radiation"});
+                      std::move(hints));
   }
 }
 

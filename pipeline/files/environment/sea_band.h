@@ -4,7 +4,7 @@
 #include <string>
 
 #include "dynamics/marine/waves/wave_spectrum.h"
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 namespace blocklift::pipeline {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 namespace blocklift::pipeline {
 

@@ -1,6 +1,6 @@
 // Vessels whose buoyancy is linear: what is built of the keys, of a database and of the hull, and
 // what is refused.
-#include "pipeline/files/lift_case/linear_buoyancy.h"
+#include "pipeline/files/environment/linear_buoyancy.h"
 
 #include <numbers>
 

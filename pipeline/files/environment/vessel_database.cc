@@ -1,4 +1,4 @@
-#include "pipeline/files/lift_case/vessel_database.h"
+#include "pipeline/files/environment/vessel_database.h"
 
 #include <algorithm>
 #include <cmath>

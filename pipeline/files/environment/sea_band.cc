@@ -1,4 +1,4 @@
-#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/environment/sea_band.h"
 
 #include <algorithm>
 #include <cmath>

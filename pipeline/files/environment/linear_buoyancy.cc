@@ -1,4 +1,4 @@
-#include "pipeline/files/lift_case/linear_buoyancy.h"
+#include "pipeline/files/environment/linear_buoyancy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
-#include "pipeline/files/lift_case/marine_parts.h"
+#include "pipeline/files/environment/marine_parts.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/files/lift_case/wind_in_case.h"
+#include "pipeline/files/environment/wind_in_case.h"
 
 #include <cstdint>
 #include <string>

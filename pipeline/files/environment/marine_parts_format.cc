@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "dynamics/force/linear_restraint.h"
-#include "pipeline/files/lift_case/marine_parts.h"
-#include "pipeline/files/lift_case/sea_band.h"
+#include "pipeline/files/environment/marine_parts.h"
+#include "pipeline/files/environment/sea_band.h"
 
 namespace blocklift::pipeline {
 namespace {

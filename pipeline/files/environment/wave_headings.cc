@@ -1,4 +1,4 @@
-#include "pipeline/files/lift_case/wave_headings.h"
+#include "pipeline/files/environment/wave_headings.h"
 
 #include <algorithm>
 #include <cmath>
