@@ -71,11 +71,16 @@ double displaced_mass(const HydrodynamicBody& body, const dynamics::Pose& X_WB, 
   return density * calc_hydrostatics(dynamics::HullClusters(body.hull), X_WB).volume;
 }
 
-/// Before anything is meshed: a hull in millimetres mostly asks for too many panels.
+/// Before anything is meshed: a hull in millimetres mostly asks for too many panels, and one that
+/// lies on the water has panels too large for what is wet of it.
 void say_doubts_about_sizes(const HydrodynamicProblem& problem) {
   for (const HydrodynamicBody& body : problem.bodies) {
-    const std::string doubt = doubt_about_size("vessel " + body.name, body.hull);
-    if (!doubt.empty()) say_warning(doubt);
+    const std::string who = "vessel " + body.name;
+    for (const std::string& doubt :
+         {doubt_about_size(who, body.hull),
+          doubt_about_lightness(who, body.hull, body.body.mass, problem.water.density)}) {
+      if (!doubt.empty()) say_warning(doubt);
+    }
   }
 }
 

@@ -550,8 +550,11 @@ class Doubts {
   }
 
   void doubt_vessel(const std::string& who, const Vessel& vessel) {
-    if (std::string size = doubt_about_size(who, vessel.hull); !size.empty())
-      list_.push_back(std::move(size));
+    const VesselModel& model = vessel.model;
+    for (std::string doubt :
+         {doubt_about_size(who, vessel.hull),
+          doubt_about_lightness(who, vessel.hull, model.mass, model.hydrodynamics.water_density)})
+      if (!doubt.empty()) list_.push_back(std::move(doubt));
     const auto [low, high] = vessel.hull.bounds();
     // Masts and cranes that a vessel's mass includes may stand above its deck.
     Box box{0.5 * (low + high), 0.5 * (high - low)};

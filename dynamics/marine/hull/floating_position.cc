@@ -28,6 +28,20 @@ void require_floats(const HullClusters& hull, const FloatingBody& body) {
   }
 }
 
+/// What displaces next to nothing lies on the water: rounding decides how, and there is no hull
+/// left to be meshed.
+void require_immersed(const HullClusters& hull, const FloatingBody& body) {
+  constexpr double least = 1e-5;
+  const double volume = body.mass / body.water_density, whole = hull.enclosed().volume;
+  if (volume > least * whole) return;
+  std::ostringstream text;
+  text << "hull \"" << hull.hull().name() << "\" of " << body.mass << " kg displaces " << volume
+       << " m3 of the " << whole
+       << " m3 that it encloses, and lies on the water rather than in it: "
+       << "is its mass in tonnes (t)?";
+  throw ModelError(text.str());
+}
+
 double size_of(const HullClusters& hull) { return std::cbrt(hull.enclosed().volume); }
 
 }  // namespace
@@ -149,6 +163,7 @@ Balance settle(const HullClusters& hull, const FloatingBody& body, Balance b, bo
 FloatingPosition find_floating_position(const HullClusters& hull, const FloatingBody& body,
                                         const Matrix3& R_WB) {
   require_floats(hull, body);
+  require_immersed(hull, body);
   const Balance b = settle(hull, body, balance(hull, body, R_WB), true);
   const double least = algebra::symmetric_eigenvalues(b.stiffness)[0];
   return {b.X_WB, b.hydrostatics, least * body.water_density / body.mass};

@@ -125,9 +125,12 @@ void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
     mechanism.doubts.push_back(std::move(doubt));
   for (const VesselInCase& vessel : mechanism.vessels) {
     if (!vessel.model) continue;
-    if (std::string doubt = doubt_about_size("vessel " + vessel.name.value, vessel.model->hull);
-        !doubt.empty())
-      mechanism.doubts.push_back(std::move(doubt));
+    const std::string who = "vessel " + vessel.name.value;
+    const VesselModel& model = vessel.model->model;
+    for (std::string doubt :
+         {doubt_about_size(who, vessel.model->hull),
+          doubt_about_lightness(who, vessel.model->hull, model.mass, mechanism.sea->density)})
+      if (!doubt.empty()) mechanism.doubts.push_back(std::move(doubt));
   }
   for (std::string& doubt : doubts_about_database(mechanism.vessels))
     mechanism.doubts.push_back(std::move(doubt));

@@ -185,4 +185,15 @@ std::string doubt_about_size(const std::string& who, const Hull& hull) {
       who, size.x(), size.y(), size.z(), 1e-3 * size.maxCoeff());
 }
 
+std::string doubt_about_lightness(const std::string& who, const Hull& hull, double mass,
+                                  double water_density) {
+  constexpr double least = 0.005;  // an empty barge displaces about a tenth
+  const double whole = water_density * calc_enclosed_volume(hull).volume;
+  if (!(mass < least * whole)) return {};
+  return fmt::format(
+      "The mass of {} is {:.4g} t, where its hull up to the deck would displace {:.4g} t: the mass "
+      "may be in kg where t is meant.",
+      who, 1e-3 * mass, 1e-3 * whole);
+}
+
 }  // namespace blocklift::pipeline

@@ -23,4 +23,10 @@ std::vector<std::string> hints_on_mesh(const dynamics::Hull& hull);
 /// @param who "vessel barge".
 std::string doubt_about_size(const std::string& who, const dynamics::Hull& hull);
 
+/// A sentence for a vessel that displaces less than a two-hundredth of what its hull encloses,
+/// which no vessel is as light as: its mass may be in kg where t is meant; else empty.
+/// @param mass kg. @param water_density kg/m3.
+std::string doubt_about_lightness(const std::string& who, const dynamics::Hull& hull, double mass,
+                                  double water_density);
+
 }  // namespace blocklift::pipeline

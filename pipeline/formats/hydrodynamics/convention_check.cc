@@ -490,6 +490,43 @@ std::string doubt_about_heading_units(const HydrodynamicDatabase& database) {
                      database.headings.size(), *low / of_degree, *high / of_degree, words);
 }
 
+// -------------------------------------------------------------------------------------- couplings
+
+/// Do both modes move water by themselves, and neither the other's, at any frequency?
+bool lacks_coupling(const HydrodynamicDatabase& database, Eigen::Index i, Eigen::Index j) {
+  constexpr double nothing = 1e-9;
+  double alone_i = 0, alone_j = 0, both = 0;
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    const double w = database.frequencies[k];
+    const auto force = [&](Eigen::Index m, Eigen::Index n) {
+      return std::abs(WaveForce(database.damping[k](m, n), w * database.added_mass[k](m, n)));
+    };
+    alone_i = std::max(alone_i, force(i, i));
+    alone_j = std::max(alone_j, force(j, j));
+    both = std::max({both, force(i, j), force(j, i)});
+  }
+  return alone_i > 0 && alone_j > 0 && both <= nothing * std::sqrt(alone_i * alone_j);
+}
+
+/// Half a sentence; empty: nothing to say.
+std::string doubt_about_couplings(const HydrodynamicDatabase& database) {
+  for (Eigen::Index first = 0; first < database.mode_count(); first += modes_per_body) {
+    std::vector<const char*> pairs;
+    if (lacks_coupling(database, first, first + 4)) pairs.push_back("surge and pitch");
+    if (lacks_coupling(database, first + 1, first + 3)) pairs.push_back("sway and roll");
+    if (pairs.empty()) continue;
+    return fmt::format(
+        "{} has added mass in {}, and at no frequency anything that couples them, as if the "
+        "diagonal "
+        "alone had been written: a hull in the water's surface that goes sideways is pressed "
+        "round, "
+        "too",
+        database.body_names[static_cast<std::size_t>(first / modes_per_body)],
+        fmt::join(pairs, ", and in "));
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_about_conventions(const HydrodynamicDatabase& database) {
@@ -497,12 +534,15 @@ std::vector<std::string> doubts_about_conventions(const HydrodynamicDatabase& da
   const auto add = [&](std::string doubt) {
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
   };
-  if (database.headings.empty() || database.added_mass.empty()) return doubts;
-  // Headings of another unit go round by chance.
-  if (words_about_headings(database) == nullptr) add(doubt_about_haskind(database));
-  if (doubts.empty()) add(doubt_about_periods(database));
-  add(doubt_about_phases(database));
-  if (doubts.empty()) add(doubt_about_heading_units(database));
+  if (database.added_mass.empty()) return doubts;
+  if (!database.headings.empty()) {
+    // Headings of another unit go round by chance.
+    if (words_about_headings(database) == nullptr) add(doubt_about_haskind(database));
+    if (doubts.empty()) add(doubt_about_periods(database));
+    add(doubt_about_phases(database));
+    if (doubts.empty()) add(doubt_about_heading_units(database));
+  }
+  add(doubt_about_couplings(database));
   return doubts;
 }
 

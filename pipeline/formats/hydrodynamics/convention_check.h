@@ -24,6 +24,8 @@ namespace blocklift::pipeline {
 /// - Phases of surge, sway and heave in long waves, where a body is held against water that moves
 ///   as a whole: X = (C - w^2 (rho V + A) + i w B) eta in heave, (i g k (rho V + A) + B g k/w) eta
 ///   along the wave, as in the relative motion of Morison's equation.
+/// - Nothing between surge and pitch, or sway and roll, of a body that has both: a hull beside the
+///   water's surface has something, unless it turns without moving water.
 /// - Headings that look like radians read as degrees, or degrees as radians.
 std::vector<std::string> doubts_about_conventions(const dynamics::HydrodynamicDatabase& database);
 

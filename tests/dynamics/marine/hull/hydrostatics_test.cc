@@ -179,6 +179,14 @@ TEST(FloatingPosition, SaysThatAHullIsTooHeavy) {
       ThrowsMessage<ModelError>(HasSubstr("would have to displace 87.8049 m3; it encloses 80 m3")));
 }
 
+// 700 g of a box that encloses 80 m3, 0.7 kg in place of 0.7 t or 700 t in kg: no draught is left.
+TEST(FloatingPosition, SaysThatAHullIsTooLight) {
+  const HullClusters box(make_box({10, 4, 2}, {5, 2, 2, 1}));
+  EXPECT_THAT([&] { find_floating_position(box, {.mass = 0.7, .p_BoBcm_B = Vector3::Zero()}); },
+              ThrowsMessage<ModelError>(HasSubstr("is its mass in tonnes (t)?")));
+  EXPECT_NO_THROW(find_floating_position(box, {.mass = 70, .p_BoBcm_B = Vector3::Zero()}));
+}
+
 TEST(HullClusters, RefuseAnOpenHull) {
   Hull open("open");
   for (const Vector3& p : {Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(0, 1, 0)})

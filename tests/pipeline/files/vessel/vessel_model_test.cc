@@ -147,6 +147,15 @@ TEST(VesselModel, AMeshInMillimetresIsDoubted) {
       "and the file may have millimetres (then 40 m long).");
 }
 
+TEST(VesselModel, AMassInKilogramsIsDoubted) {
+  const dynamics::Hull barge =
+      dynamics::make_barge({.length = 40, .breadth = 20, .depth = 6}, {4, 2, 2, 1});
+  EXPECT_EQ(doubt_about_lightness("vessel barge", barge, 400e3, 1000), "");
+  EXPECT_EQ(doubt_about_lightness("vessel barge", barge, 3e3, 1000),
+            "The mass of vessel barge is 3 t, where its hull up to the deck would displace 4800 t: "
+            "the mass may be in kg where t is meant.");
+}
+
 // A box whose mesh is not symmetric: its ends are divided along one diagonal. By key it is.
 TEST(VesselModel, AMeshBecomesSymmetricByKey) {
   const auto read = [](const std::string& key, double left) {

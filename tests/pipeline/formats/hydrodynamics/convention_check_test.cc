@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -180,6 +181,28 @@ TEST(Conventions, PhasesOfAnotherTimeFactor) {
               ElementsAre(AllOf(HasSubstr("if the headings were those from which the waves come"),
                                 HasSubstr("or if the forces had the opposite sign"),
                                 Not(HasSubstr("conjugated")))));
+}
+
+// A file of diagonals alone: nothing else about it tells.
+TEST(Conventions, DiagonalsAlone) {
+  for (const bool in_waves : {true, false}) {
+    HydrodynamicDatabase database = column();
+    if (!in_waves) database.headings.clear();
+    for (Eigen::MatrixXd& A : database.added_mass) A(4, 4) = 10 * A(0, 0);
+    EXPECT_THAT(doubts_about_conventions(database),
+                ElementsAre(AllOf(HasSubstr("column has added mass in surge and pitch, and at no "
+                                            "frequency anything that couples them"),
+                                  Not(HasSubstr("sway")))));
+    for (Eigen::MatrixXd& A : database.added_mass) A(3, 3) = A(4, 4);
+    EXPECT_THAT(doubts_about_conventions(database),
+                ElementsAre(HasSubstr("in surge and pitch, and in sway and roll, and at no")));
+    for (const auto& [i, j] : {std::pair{0, 4}, {3, 1}}) database.damping[5](i, j) = 1e-5;
+    EXPECT_THAT(doubts_about_conventions(database), ElementsAre(HasSubstr("couples them")))
+        << "rounding";
+    for (const auto& [i, j] : {std::pair{0, 4}, {3, 1}})
+      database.damping[5](i, j) = database.added_mass[5](0, 0);
+    EXPECT_THAT(doubts_about_conventions(database), IsEmpty());
+  }
 }
 
 TEST(Conventions, HeadingsInAnotherUnit) {
