@@ -184,6 +184,22 @@ bool check_name(const Mark& mark, const std::string& text, Reading& reading) {
   return false;
 }
 
+namespace {
+
+/// Of too many items [-4,5 m, 3 m]: what stands before a comma is a number without its unit, unless
+/// the comma was meant for decimals.
+std::vector<std::string> decimal_comma_hints(const YAML::Node& node, const ValueDescription& due) {
+  if (node.size() <= due.most || due.element->kind != ValueDescription::Kind::quantity) return {};
+  for (const YAML::Node& item : node) {
+    if (!item.IsScalar() || item.Scalar().empty()) continue;
+    if (item.Scalar().find_first_not_of("+-0123456789") == std::string::npos)
+      return {"decimals take a point (1.5): a comma begins the next item"};
+  }
+  return {};
+}
+
+}  // namespace
+
 bool check_list(const YAML::Node& node, const ValueDescription& due, Reading& reading) {
   if (!node.IsSequence()) {
     const std::string found = node.IsNull()     ? "has no value"
@@ -198,7 +214,8 @@ bool check_list(const YAML::Node& node, const ValueDescription& due, Reading& re
                                                         : fmt::format("at most {}", due.most);
   reading.error(node,
                 fmt::format("{} has {} item{}; {} are due, each {}", reading.key(), node.size(),
-                            node.size() == 1 ? "" : "s", number, due.element->phrase()));
+                            node.size() == 1 ? "" : "s", number, due.element->phrase()),
+                decimal_comma_hints(node, due));
   return false;
 }
 

@@ -45,24 +45,29 @@ bool has_key(const std::vector<Entry>& entries, const std::string& key) {
                      [&](const Entry& entry) { return entry.key == key; });
 }
 
-/// Complains about keys that there are not. One that is mistyped goes on under the name that was
-/// meant, if the file does not have that, too: so one mistake is one complaint, for neither is the
-/// right key missed nor what it says. The others are left out.
-void settle_unknown_keys(std::vector<Entry>& entries, const std::vector<std::string>& known,
-                         Reading& reading) {
+/// The entries of known keys. There are complaints about the others. One that is mistyped goes on
+/// under the name that was meant, if the file does not have that, too: so one mistake is one
+/// complaint, for neither is the right key missed nor what it says.
+std::vector<Entry> settle_unknown_keys(const std::vector<Entry>& entries,
+                                       const std::vector<std::string>& known, Reading& reading) {
   constexpr std::size_t shortest = 3;  // any letter is near to any other
-  for (Entry& entry : entries) {
-    if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+  std::vector<Entry> settled;          // anew: to assign a YAML::Node changes the document
+  for (const Entry& entry : entries) {
+    if (std::find(known.begin(), known.end(), entry.key) != known.end()) {
+      settled.push_back(entry);
+      continue;
+    }
     reading.error(
         entry.mark, reading.owner() + " has no key \"" + entry.key + "\"",
         {is_part_of_number(entry)
              ? "decimals take a point (1.5): what stands behind a comma is a key of its own"
              : names_hint("its keys are", known, entry.key)});
-    const std::string meant =
-        entry.key.size() < shortest ? std::string() : nearest_name(entry.key, known);
-    entry.key = has_key(entries, meant) ? std::string() : meant;
+    if (entry.key.size() < shortest) continue;
+    const std::string meant = nearest_name(entry.key, known);
+    if (meant.empty() || has_key(entries, meant) || has_key(settled, meant)) continue;
+    settled.push_back({meant, entry.mark, entry.value});
   }
-  std::erase_if(entries, [](const Entry& entry) { return entry.key.empty(); });
+  return settled;
 }
 
 }  // namespace
@@ -103,8 +108,8 @@ bool Keys::read_as_owner(const YAML::Node& node, const ValueDescription& due, Re
 
 void Keys::read(const YAML::Node& node, Reading& reading, void* value) const {
   const Mark mark = reading.mark_of(node);
-  std::vector<Entry> entries = reading.entries_of(node);
-  settle_unknown_keys(entries, description_->key_names(), reading);
+  const std::vector<Entry> entries =
+      settle_unknown_keys(reading.entries_of(node), description_->key_names(), reading);
   for (const bool early : {true, false}) {
     for (const Entry& entry : entries) {
       if (is_early(entry.key) == early) read_entry(entry, reading, value);

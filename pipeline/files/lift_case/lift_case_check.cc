@@ -176,6 +176,7 @@ void check_ground(const LiftCase& lift_case, Diagnostics& diagnostics) {
 /// The keys of the natural modes, which one kind of flexibility alone reads.
 void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostics) {
   if (dynamics.flexibility == Flexibility::modal) return;
+  if (diagnostics.has_errors()) return;  // the kind may be what could not be read
   const auto refuse = [&](const auto& key, const char* name) {
     if (!key) return;
     diagnostics.error(key->mark,

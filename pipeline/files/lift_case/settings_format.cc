@@ -126,9 +126,11 @@ Format<CheckSettings> checks_format() {
                 located(number(Range::at_least(1))),
                 "on the forces in spreaders, against yield and buckling; the yield factor if left "
                 "out")
-      .by_default("smallest_tension", &CheckSettings::smallest_tension,
-                  quantity(Dimension::load, Range::not_negative()), "0 kN",
-                  "below which a rope counts as slack")
+      .by_default(
+          "smallest_tension", &CheckSettings::smallest_tension,
+          quantity(Dimension::load, Range::not_negative()), "0 kN",
+          "below which a rope counts as slack; slings and tackles while the load hangs, idle "
+          "hooks not at all")
       .optional("swing", &CheckSettings::largest_swing,
                 quantity(Dimension::angle, Range::positive()),
                 "largest angle of a hoist's tackle against the vertical; not checked if left out")

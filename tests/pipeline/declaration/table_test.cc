@@ -110,6 +110,12 @@ TEST(TableTest, SaysWhatADecimalCommaDid) {
       "2 errors\n");
 }
 
+TEST(TableTest, SaysWhatADecimalCommaDidInAList) {
+  EXPECT_EQ(read_cart("mass: 1 t\nposition: [-4,5 m, 3 m, 6 m]\n").complaints,
+            "cart.yaml:2:11: error: position has 4 items; 3 are due, each a length\n"
+            "    decimals take a point (1.5): a comma begins the next item\n1 error\n");
+}
+
 TEST(TableTest, SaysOnceWhatIsWrongBehindAnAnchor) {
   EXPECT_EQ(
       read_cart("mass: 1 t\nwheels: {left: &wheel {radius: 3}, right: *wheel, third: *wheel}\n")
