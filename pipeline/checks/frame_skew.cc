@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "pipeline/checks/frame_compliance.h"
 #include "pipeline/checks/structure_skew.h"
 
 namespace blocklift::pipeline {
@@ -71,9 +72,33 @@ std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpread
   return without / least;
 }
 
+double frame_skew_by_tolerances(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
+                                const LiftCase& lift_case, const LiftRun& lift,
+                                const TolerancedRigging& rigging, Eigen::Index sample) {
+  std::vector<const SpreaderInCase*> spreaders;
+  for (const LiftSpreader& one : lift.model.spreaders)
+    spreaders.push_back(one.name == frame.name ? &in_its_place : lift_case.find_spreader(one.name));
+  const RiggingBalance balance = balance_of(rigging, spreaders);
+  const std::vector<PointForce> at_rest = forces_on_spreader(frame, lift.static_history, sample);
+  const SpreaderStrength strength = strength_in_place(in_its_place, frame);
+  const double without = growth_to_failure(strength, strength.find_forces(at_rest));
+  double least = without;
+  balance.visit_sets(rigging.tolerance, [&](const Eigen::VectorXd& tension) {
+    std::vector<PointForce> forces = at_rest;
+    for (std::size_t row = 0; row < rigging.in_system.size(); ++row) {
+      const double as_meant = rigging.ropes[row].tension;
+      if (!(as_meant > 0)) continue;
+      for (std::size_t end = 0; end < forces.size(); ++end)
+        if (frame.ends[end].rope == rigging.in_system[row])
+          forces[end].f *= tension[static_cast<Eigen::Index>(row)] / as_meant;
+    }
+    least = std::min(least, growth_to_failure(strength, strength.find_forces(forces)));
+  });
+  return without / least;
+}
+
 void find_frame_skew(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
-                     const LiftCase& lift_case, const LiftRun& lift,
-                     const std::vector<SlingFacts>& slings, SpreaderFacts& facts) {
+                     const LiftCase& lift_case, const LiftRun& lift, SpreaderFacts& facts) {
   facts.skew_by_rules.reset();
   facts.skew_computed.reset();
   if (!lift_case.standard || !in_its_place.is_frame()) return;
@@ -83,17 +108,11 @@ void find_frame_skew(const SpreaderInCase& in_its_place, const LiftSpreader& fra
   if (rule && rule->value > 1)
     facts.skew_by_rules =
         frame_skew(in_its_place, frame, lift.static_history, [&](int) { return rule->value; });
-  const auto computed = [&](int rope) -> std::optional<double> {
-    for (const SlingFacts& sling : slings)
-      if (find_rope(lift.model.ropes, lift.model.hoists, sling.name) == rope)
-        return sling.computed.skew;
-    return {};
-  };
-  if (std::all_of(frame.ends.begin(), frame.ends.end(), [&](const LiftSpreader::End& end) {
-        return !end.from_above || computed(end.rope);
-      }))
-    facts.skew_computed = frame_skew(in_its_place, frame, lift.static_history,
-                                     [&](int rope) { return *computed(rope); });
+  const SpreaderInCase& of_the_case = *lift_case.find_spreader(frame.name);
+  const std::optional<Eigen::Index> worst = worst_instant(of_the_case, frame, lift.static_history);
+  if (facts.rigging && worst)
+    facts.skew_computed =
+        frame_skew_by_tolerances(in_its_place, frame, lift_case, lift, *facts.rigging, *worst);
 }
 
 }  // namespace blocklift::pipeline

@@ -4,8 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "pipeline/lift/lift_run.h"
 #include "pipeline/measures/spreader_measures.h"
 #include "pipeline/standards/lift_facts.h"
+#include "pipeline/standards/rigging_balance.h"
 
 namespace blocklift::pipeline {
 
@@ -25,11 +27,19 @@ std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpread
                                  const dynamics::History& at_rest,
                                  const std::function<double(int)>& skew_of);
 
-/// The same of a frame, or of another of its size in its place, by the skew factor of the case's
-/// rules and by the slings' tolerances of length.
-/// @param slings of the lift, with their factors.
+/// The same with the tensions of each set of the slings' length tolerances, above the frame and
+/// below it, the frame giving way to them in its plane and out of it: by stiffness of slings, frame
+/// and load times the mismatch. The least of all sets.
+/// @param in_its_place of the frame, or of another of its size.
+double frame_skew_by_tolerances(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
+                                const LiftCase& lift_case, const LiftRun& lift,
+                                const TolerancedRigging& rigging, Eigen::Index sample);
+
+/// Both of a frame, or of another of its size in its place, by the skew factor of the case's rules
+/// and by the slings' tolerances of length, for the latter at the instant at which the frame of the
+/// case bears most.
+/// @param facts with its rigging.
 void find_frame_skew(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
-                     const LiftCase& lift_case, const LiftRun& lift,
-                     const std::vector<SlingFacts>& slings, SpreaderFacts& facts);
+                     const LiftCase& lift_case, const LiftRun& lift, SpreaderFacts& facts);
 
 }  // namespace blocklift::pipeline

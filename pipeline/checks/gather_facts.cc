@@ -206,7 +206,10 @@ class LiftedFacts {
       take_worse(carries->computed, spreader.computed);
       spreader.slings_on_hook = std::max(spreader.slings_on_hook, carries->slings_on_hook);
     }
-    find_frame_skew(in_case, bar, case_, lift_, facts_.slings, spreader);
+    if (const auto worst = worst_instant(in_case, bar, lift_.static_history);
+        in_case.is_frame() && case_.standard && worst)
+      spreader.rigging = rigging_.with_tolerances(*worst);
+    find_frame_skew(in_case, bar, case_, lift_, spreader);
     facts_.spreaders.push_back(std::move(spreader));
   }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "pipeline/checks/frame_compliance.h"
 #include "pipeline/lift/history_figures.h"
 #include "pipeline/lift/sling_ends.h"
 
@@ -114,60 +115,91 @@ MatrixXd RiggingFacts::compliance_of(const std::vector<RiggingRope>& ropes, Inde
   return pull.transpose() * compliance_ * pull;
 }
 
-const RiggingFacts::State& RiggingFacts::at(Index sample) const {
-  for (const auto& [known, state] : states_)
-    if (known == sample) return *state;
+/// All ropes at a sample: slings at lugs, those to bars, tackles.
+TolerancedRigging RiggingFacts::rigging_at(Index sample) const {
   const dynamics::History& history = lift_.static_history;
   const auto& hoists = lift_.model.hoists;
   const StandardInCase& standard = *case_.standard;
   std::optional<double> share = standard.length_tolerance;
   if (!share && standard.rules.length_tolerance) share = standard.rules.length_tolerance->value;
 
-  std::vector<RiggingRope> ropes;
-  std::vector<double> tolerances;
+  TolerancedRigging rigging;
+  rigging.hooks = static_cast<int>(hoists.size());
+  rigging.tolerance = VectorXd::Zero(index(first_tackle() + hoists.size()));
   for (const auto* slings : {&slings_, &to_bars_})
     for (const LiftRope& sling : *slings) {
       const RopeInCase& in_case = *case_.find_rope(sling.name);
-      RiggingRope& rope = ropes.emplace_back(
+      if (share) rigging.tolerance[index(rigging.ropes.size())] = *share * in_case.length.value;
+      RiggingRope& rope = rigging.ropes.emplace_back(
           rigging_rope(sling.rope, history_of(history, sling.rope).last_force.row(sample), sample));
       rope.lower = end_at(in_case.path.back(), sample);
       rope.upper = end_at(in_case.path.front(), sample);
-      tolerances.push_back(share ? *share * in_case.length.value : 0);
+      rigging.in_system.push_back(sling.rope);
     }
-  const std::size_t toleranced = ropes.size();
   for (std::size_t h = 0; h < hoists.size(); ++h) {
     const Vector3d pull =
         hook_pull(history_of(history, hoists[h].rope), hoists[h].hook_is_first).row(sample);
-    RiggingRope& tackle = ropes.emplace_back(rigging_rope(hoists[h].rope, pull, sample));
+    RiggingRope& tackle = rigging.ropes.emplace_back(rigging_rope(hoists[h].rope, pull, sample));
     tackle.lower = {RiggingEnd::Kind::hook, static_cast<int>(h), Vector3d::Zero()};
-    tolerances.push_back(0);
+    rigging.in_system.push_back(hoists[h].rope);
   }
+  for (const LiftSpreader& bar : lift_.model.spreaders)
+    rigging.bars.push_back({pose_of(bar.body, sample).R, case_.find_spreader(bar.name)->centre()});
+  rigging.load_compliance = compliance_of(rigging.ropes, sample);
+  return rigging;
+}
+
+/// Shares of hooks that hang on one rope are given, and a balance of single ropes has no say; nor
+/// has it where baskets go round the load.
+bool RiggingFacts::is_balanced() const {
+  return baskets_.empty() &&
+         std::none_of(lift_.model.hoists.begin(), lift_.model.hoists.end(),
+                      [](const LiftHoist& hoist) { return hoist.hook_is_first; });
+}
+
+std::shared_ptr<const TolerancedRigging> RiggingFacts::with_tolerances(Index sample) const {
+  if (!is_balanced()) return {};
+  auto rigging = std::make_shared<TolerancedRigging>(rigging_at(sample));
+  const Index toleranced = (rigging->tolerance.array() > 0).count();
+  if (toleranced == 0 || toleranced > RiggingBalance::most_toleranced) return {};
+  return rigging;
+}
+
+const RiggingFacts::State& RiggingFacts::at(Index sample) const {
+  for (const auto& [known, state] : states_)
+    if (known == sample) return *state;
+  const TolerancedRigging rigging = rigging_at(sample);
   auto state = std::make_shared<State>();
-  state->at_rest.resize(index(ropes.size()));
-  for (std::size_t i = 0; i < ropes.size(); ++i) state->at_rest[index(i)] = ropes[i].tension;
-  // Shares of hooks that hang on one rope are given, and a balance of single ropes has no say; nor
-  // has it where baskets go round the load.
-  const bool is_balanced =
-      baskets_.empty() && std::none_of(hoists.begin(), hoists.end(),
-                                       [](const LiftHoist& hoist) { return hoist.hook_is_first; });
-  std::optional<RiggingBalance> balance;
-  if (is_balanced)
-    balance.emplace(ropes, static_cast<int>(hoists.size()), compliance_of(ropes, sample),
-                    static_cast<int>(lift_.model.spreaders.size()));
-  if (share && is_balanced && toleranced <= RiggingBalance::most_toleranced)
-    state->largest_by_tolerance = balance->largest_by_tolerance(
-        Eigen::Map<const VectorXd>(tolerances.data(), index(tolerances.size())));
-  if (const auto& box = standard.centre_box; box && is_balanced)
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vector3d shift((corner & 1) != 0 ? box->x() : -box->x(),
-                           (corner & 2) != 0 ? box->y() : -box->y(),
-                           (corner & 4) != 0 ? box->z() : -box->z());
+  state->at_rest.resize(index(rigging.ropes.size()));
+  for (std::size_t i = 0; i < rigging.ropes.size(); ++i)
+    state->at_rest[index(i)] = rigging.ropes[i].tension;
+  if (is_balanced()) {
+    std::vector<const SpreaderInCase*> spreaders;
+    for (const LiftSpreader& bar : lift_.model.spreaders)
+      spreaders.push_back(case_.find_spreader(bar.name));
+    const RiggingBalance balance = balance_of(rigging, spreaders);
+    const Index toleranced = (rigging.tolerance.array() > 0).count();
+    if (toleranced > 0 && toleranced <= RiggingBalance::most_toleranced)
+      state->largest_by_tolerance = balance.largest_by_tolerance(rigging.tolerance);
+    for (const Vector3d& shift : corners_of_box()) {
       const Vector3d shift_W = pose_of(lift_.model.load, sample).R * shift;
       state->at_corners_of_box.push_back(
-          balance->with_moment(shift_W.cross(Vector3d(0, 0, -weight_))));
+          balance.with_moment(shift_W.cross(Vector3d(0, 0, -weight_))));
     }
+  }
   states_.emplace_back(sample, std::move(state));
   return *states_.back().second;
+}
+
+/// From the centre of mass to the corners of its box; none without one.
+std::vector<Vector3d> RiggingFacts::corners_of_box() const {
+  std::vector<Vector3d> corners;
+  if (const auto& box = case_.standard->centre_box)
+    for (int corner = 0; corner < 8; ++corner)
+      corners.emplace_back((corner & 1) != 0 ? box->x() : -box->x(),
+                           (corner & 2) != 0 ? box->y() : -box->y(),
+                           (corner & 4) != 0 ? box->z() : -box->z());
+  return corners;
 }
 
 ComputedFactors RiggingFacts::of_sling(const LiftRope& sling, Index sample) const {

@@ -41,12 +41,18 @@ class RiggingFacts {
   /// centre of mass leaves as it is.
   ComputedFactors of_hook(std::size_t hoist, Eigen::Index sample) const;
   ComputedFactors of_crane(std::size_t crane, Eigen::Index sample) const;
+  /// What skews it at a sample at rest; none without a tolerance, with more ropes of one than
+  /// RiggingBalance takes, and where the balance of single ropes has no say.
+  std::shared_ptr<const TolerancedRigging> with_tolerances(Eigen::Index sample) const;
 
  private:
   struct State;
   const State& at(Eigen::Index sample) const;
   RiggingRope rigging_rope(int rope, const Eigen::Vector3d& pull_up, Eigen::Index sample) const;
   RiggingEnd end_at(const ResolvedPoint& point, Eigen::Index sample) const;
+  TolerancedRigging rigging_at(Eigen::Index sample) const;
+  bool is_balanced() const;
+  std::vector<Eigen::Vector3d> corners_of_box() const;
   Eigen::MatrixXd compliance_of(const std::vector<RiggingRope>& ropes, Eigen::Index sample) const;
   dynamics::Pose pose_of(dynamics::BodyIndex body, Eigen::Index sample) const;
   double hook_block_weight(std::size_t hoist) const;  ///< N

@@ -37,7 +37,7 @@ std::vector<Check> checks_by_rules(const SpreaderInCase& candidate, const LiftCa
                     [&](const SpreaderFacts& one) { return one.name == bar.name; });
   spreader.borne_at_rest = borne_load(candidate, bar, lift.static_history);
   spreader.borne_in_motion = borne_load(candidate, bar, lift.dynamic_history());
-  find_frame_skew(candidate, bar, lift_case, lift, facts.slings, spreader);
+  find_frame_skew(candidate, bar, lift_case, lift, spreader);
   StandardAssessment assessment;
   assessment.name = lift_case.standard->rules.name;
   assessment.chains.push_back(spreader_chain(LoadFactors(*lift_case.standard, facts), spreader));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "structure/square_site.h"
 
 namespace blocklift::pipeline {
+
+struct TolerancedRigging;
 
 /// The largest load of one thing of the lift, at rest and in motion, N, and how the one became the
 /// other: in_motion = at_rest x amplification x resharing.
@@ -75,9 +78,13 @@ struct SpreaderFacts {
   /// directions where they ask most, N.
   double borne_at_rest = 0, borne_in_motion = 0;
   /// By how much less a frame bears with its slings shared unevenly on either diagonal, by the
-  /// rules' skew factor and by the slings' tolerances of length; none of bars and where four slings
-  /// do not meet over it.
-  std::optional<double> skew_by_rules = {}, skew_computed = {};
+  /// rules' skew factor; none of bars and where four slings do not meet over it.
+  std::optional<double> skew_by_rules = {};
+  /// The same with the worst set of length tolerances, the frame giving way; none of bars and where
+  /// no tolerance is known.
+  std::optional<double> skew_computed = {};
+  /// Of a frame, where it asks most at rest; none where no tolerance is known.
+  std::shared_ptr<const TolerancedRigging> rigging = {};
 };
 
 /// Load of a hook over what its load chart allows, derating included, where it is largest.

@@ -289,11 +289,39 @@ void LoadFactors::add_structure_skew(ChainBuilder& chain, const StressFacts& str
 }
 
 void LoadFactors::add_frame_skew(ChainBuilder& chain, const SpreaderFacts& frame) const {
-  if (frame.skew_by_rules || frame.skew_computed)
-    add_diagonal_skew(chain, frame.skew_by_rules, frame.skew_computed,
-                      "what its sides bear and its corners bend,");
+  const NamedFactor* factor =
+      standard_.skew ? find_by_name(rules().skew, standard_.skew->value) : nullptr;
+  if (!frame.is_frame || (!frame.skew_by_rules && !frame.skew_computed)) {
+    std::optional<Factor> slings = skew(frame.computed);
+    if (!slings) return;
+    if (frame.is_frame && slings->standard.value_or(1) > 1)
+      slings->formula +=
+          "; of the slings: no four of them meet over the frame, so that no "
+          "diagonal of it is skewed by itself";
+    add(chain, slings);
+    return;
+  }
+  const std::optional<double>&by_rules = frame.skew_by_rules, &computed = frame.skew_computed;
+  std::string text = "what its sides bear and its corners bend, over that without: ";
+  if (by_rules)
+    text += fmt::format(
+        "{:.3g} with the slings of a diagonal at {:g} times their load on a rigid "
+        "frame; ",
+        *by_rules, factor ? factor->value : 1);
+  else if (factor && factor->value > 1)
+    text += "by the slings' own factor, for no four of them meet over the frame; ";
+  if (computed)
+    text += fmt::format("{:.3g} with the worst set of length tolerances, to which it gives way",
+                        *computed);
   else
-    add_skew(chain, frame.computed);
+    text += "no tolerance of lengths is given, to which it would give way";
+  const std::optional<double> of_slings =
+      factor && factor->value > 1 ? std::optional(factor->value) : std::nullopt;
+  std::optional<double> standard = by_rules ? by_rules : of_slings;
+  // Lengths that are known to a tolerance skew it no further than its stiffness makes of them.
+  if (by_rules && computed) standard = std::min(*by_rules, *computed);
+  chain.times(by_rules ? "skew on either diagonal" : "skew of sling lengths", standard,
+              computed ? computed : by_rules, factor ? factor->clause : "", std::move(text));
 }
 
 void LoadFactors::add_lift_point_consequence(ChainBuilder& chain) const {

@@ -1,5 +1,6 @@
 #include "pipeline/standards/rigging_balance.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -32,13 +33,16 @@ void add_arm(const RiggingEnd& end, Eigen::Index first, const Vector3d& u, doubl
 }  // namespace
 
 RiggingBalance::RiggingBalance(std::vector<RiggingRope> ropes, int hooks,
-                               Eigen::MatrixXd load_compliance, int bars)
-    : ropes_(std::move(ropes)), bars_(bars), compliance_(std::move(load_compliance)) {
+                               Eigen::MatrixXd compliance, int bars)
+    : ropes_(std::move(ropes)), bars_(bars), compliance_(std::move(compliance)) {
   const auto count = static_cast<Eigen::Index>(ropes_.size());
   elongation_ = MatrixXd::Zero(count, 6 + 6 * bars + 3 * hooks);
   if (compliance_.size() == 0) compliance_ = MatrixXd::Zero(count, count);
   tension_.resize(count);
   for (std::size_t i = 0; i < ropes_.size(); ++i) add_rope(i);
+  turns_freely_ = std::count_if(ropes_.begin(), ropes_.end(), [](const RiggingRope& rope) {
+                    return rope.upper.kind == RiggingEnd::Kind::fixed;
+                  }) == 1;
 }
 
 /// Where the displacements of what a rope ends at begin in x: turn and shift of the load, those of
@@ -95,6 +99,7 @@ Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& fo
   for (const MatrixXd& one : turning_) turning += one;
   std::vector<Eigen::Index> taut;
   VectorXd slackened = force;  // what ropes that are taken off no longer hold
+  VectorXd apart = errors;     // with what load and frames spring back by where they held
   for (Eigen::Index i = 0; i < tension_.size(); ++i)
     if (tension_[i] > 0) taut.push_back(i);
   VectorXd result = VectorXd::Zero(tension_.size());
@@ -102,11 +107,15 @@ Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& fo
     const MatrixXd B = elongation_(taut, Eigen::all);
     const MatrixXd stiffness_of_ropes =
         algebra::inverse_of<Eigen::Dynamic>(compliance_(taut, taut));
-    const VectorXd e = errors(taut);
-    const MatrixXd K = B.transpose() * stiffness_of_ropes * B + turning;
-    // What turns freely (a load about the plumb line of its one hook) stays where it is. Its
-    // stiffness is nil but for rounding, some 1e-13 of the ropes'; that of a pendulum is 1e-5 of
-    // it.
+    const VectorXd e = apart(taut);
+    MatrixXd K = B.transpose() * stiffness_of_ropes * B + turning;
+    // A load on one rope turns freely about it and stays where it is. Where the rope leans in wind,
+    // what holds that turn is so little, and may push it on, that a moment of no matter would turn
+    // the load far.
+    constexpr Eigen::Index about_the_plumb = 2;
+    if (turns_freely_) K(about_the_plumb, about_the_plumb) += K.diagonal().maxCoeff();
+    // What else is free has a stiffness of nil but for rounding, some 1e-13 of the ropes'; that of
+    // a pendulum is 1e-5 of it.
     constexpr double nil = 1e-10;
     const VectorXd x = algebra::least_squares_by_pivots(
         K, slackened + B.transpose() * stiffness_of_ropes * e, nil);
@@ -118,6 +127,7 @@ Eigen::VectorXd RiggingBalance::solve(const VectorXd& errors, const VectorXd& fo
     }
     const Eigen::Index off = taut[lowest];
     slackened += elongation_.row(off).transpose() * tension_[off];
+    apart -= compliance_.col(off) * tension_[off];
     turning -= turning_[off];
     taut.erase(taut.begin() + lowest);
   }
@@ -134,19 +144,24 @@ Eigen::VectorXd RiggingBalance::with_moment(const Vector3d& moment_W) const {
   return solve(VectorXd::Zero(tension_.size()), force);
 }
 
-Eigen::VectorXd RiggingBalance::largest_by_tolerance(const VectorXd& tolerance) const {
+void RiggingBalance::visit_sets(const VectorXd& tolerance,
+                                const std::function<void(const VectorXd&)>& visit) const {
   std::vector<Eigen::Index> inexact;
   for (Eigen::Index i = 0; i < tolerance.size(); ++i)
     if (tolerance[i] > 0) inexact.push_back(i);
   if (inexact.size() > most_toleranced)
     throw std::invalid_argument("too many ropes for every set of their tolerances");
-  VectorXd largest = tension_;
   for (unsigned set = 0; set < 1U << inexact.size(); ++set) {
     VectorXd errors = VectorXd::Zero(tolerance.size());
     for (std::size_t i = 0; i < inexact.size(); ++i)
       errors[inexact[i]] = (set >> i & 1U) != 0 ? tolerance[inexact[i]] : -tolerance[inexact[i]];
-    largest = largest.cwiseMax(with_length_errors(errors));
+    visit(with_length_errors(errors));
   }
+}
+
+Eigen::VectorXd RiggingBalance::largest_by_tolerance(const VectorXd& tolerance) const {
+  VectorXd largest = tension_;
+  visit_sets(tolerance, [&](const VectorXd& tension) { largest = largest.cwiseMax(tension); });
   return largest;
 }
 

@@ -253,4 +253,45 @@ std::array<MemberForces, 4> RectangularFrame::largest_forces(
   return largest;
 }
 
+Eigen::MatrixXd RectangularFrame::flexibility(const std::vector<Vector3d>& points) const {
+  if (points.size() != node_of_.size())
+    throw std::invalid_argument("a frame's flexibility is that of its points");
+  const auto columns = 3 * static_cast<Eigen::Index>(points.size());
+  const Eigen::Index size = freedoms * static_cast<Eigen::Index>(nodes_.size());
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(size, columns);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto at = freedoms * static_cast<Eigen::Index>(node_of_[i]);
+    const Vector3d arm = points[i] - nodes_[node_of_[i]];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Eigen::Index column = 3 * static_cast<Eigen::Index>(i) + axis;
+      loads(at + axis, column) = 1;
+      loads.col(column).segment<3>(at + 3) = arm.cross(Vector3d::Unit(axis));
+    }
+  }
+  loads -= at_corners_alike(loads);
+  Eigen::MatrixXd moved(size - freedoms, columns);
+  for (Eigen::Index column = 0; column < columns; ++column)
+    moved.col(column) = held_.solve(loads.col(column).tail(size - freedoms));
+  // What is in balance does no work on the rigid motion by which the first corner stays in place.
+  return loads.bottomRows(size - freedoms).transpose() * moved;
+}
+
+/// Forces at the corners, as of equal masses that a rigid motion accelerates, with the resultants of
+/// loads at the nodes.
+Eigen::MatrixXd RectangularFrame::at_corners_alike(const Eigen::MatrixXd& loads) const {
+  Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(loads.rows(), 6);
+  Eigen::MatrixXd of_masses = rigid;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto at = freedoms * static_cast<Eigen::Index>(i);
+    rigid.block<6, 6>(at, 0).setIdentity();
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      rigid.col(3 + axis).segment<3>(at) = Vector3d::Unit(axis).cross(nodes_[i]);
+    const bool is_corner = i == 0 || side_of_[i] != side_of_[i - 1];
+    if (is_corner) of_masses.middleRows<3>(at) = rigid.middleRows<3>(at);
+  }
+  // By the middle of the frame, its principal axes: the masses' own matrix is diagonal.
+  const Eigen::VectorXd mass = (rigid.transpose() * of_masses).diagonal();
+  return of_masses * mass.cwiseInverse().asDiagonal() * (rigid.transpose() * loads);
+}
+
 }  // namespace blocklift::structure

@@ -66,6 +66,19 @@ class RectangularFrame {
   /// acceleration is asked for. What turning fast does (centrifugal forces) is left out.
   std::array<MemberForces, 4> largest_forces(const std::vector<PointForce>& forces) const;
 
+  /// How its points move under forces at them, 3 rows and columns a point, m/N, against the mean
+  /// rigid motion of its corners, on which loads alike at all four keep forces in balance that are
+  /// not.
+  ///
+  /// Corners pressed up and down by turns, +P, -P, +P, -P, move by w, sides bent antisymmetrically
+  /// and twisted: P / w = (4 / L^2) / (L / (6 E I_1) + W / (2 G J_2)) + (4 / W^2) / (W / (6 E I_2) +
+  /// L / (2 G J_1)), I about the level axis, by slope and deflection (Timoshenko, Strength of
+  /// materials I, 1955), each corner's bending moment of one side being the other's torque.
+  /// @param points those that it was made with, in their order; each moves with its place of the
+  ///   frame as if by a rigid arm.
+  /// @throws std::invalid_argument for another number of points.
+  Eigen::MatrixXd flexibility(const std::vector<Eigen::Vector3d>& points) const;
+
   const FrameMember& member(std::size_t side) const { return side % 2 == 0 ? along_ : across_; }
 
   /// The corners in the order of their numbers, z = 0.
@@ -98,6 +111,7 @@ class RectangularFrame {
   void add_nodes(const std::vector<Eigen::Vector3d>& points);
   void add_stretches();
   Balance balance(const std::vector<PointForce>& forces) const;
+  Eigen::MatrixXd at_corners_alike(const Eigen::MatrixXd& loads) const;
   LineLoad line_load(const Stretch& stretch, const Balance& balance) const;
   Vector12 displacements(const Stretch& stretch, const Eigen::VectorXd& all) const;
   void take_largest(const Stretch& stretch, const LineLoad& load, const Vector12& ends,

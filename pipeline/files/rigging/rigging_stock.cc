@@ -102,7 +102,8 @@ Format<StockSpreader> stock_spreader_format() {
                 "its keys, as a case has them under spreaders")
       .required("working_load", &StockSpreader::working_load,
                 quantity(Dimension::load, Range::positive()),
-                "that hangs below it, on all its ends or corners alike")
+                "that hangs below it, on all its ends or corners alike, without skew by wrong "
+                "lengths of slings")
       .required(
           "sling_angle", &StockSpreader::sling_angle,
           quantity(Dimension::angle, Range::inside(0, std::numbers::pi / 2)),

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/checks/frame_compliance.h"
 #include "pipeline/standards/standard_assessment.h"
 #include "tests/pipeline/spreader_lift.h"
 
@@ -106,6 +107,111 @@ TEST(FrameSkew, StandsInTheChainOfTheFrame) {
   EXPECT_NEAR(result.chains[1].standard_utilisation(), 0.75, 1e-12);
   EXPECT_NEAR(result.chains[1].simulated_utilisation(), 0.75, 1e-12);
   EXPECT_NEAR(result.chains[2].standard_utilisation(), 0.3125, 1e-12);
+}
+
+/// The row of skew in the chain of a frame with slings' lengths to a tolerance.
+ChainStep skew_step(std::optional<double> by_rules, std::optional<double> computed) {
+  StandardInCase standard;
+  standard.rules.name = "Rules";
+  NamedFactor matched;
+  matched.name = {"matched", {}};
+  matched.value = 1.25;
+  matched.clause = "1";
+  standard.rules.skew = {matched};
+  standard.skew = Located<std::string>{"matched", {}};
+  LiftFacts facts;
+  SpreaderFacts frame;
+  frame.name = "F1";
+  frame.load = {100e3, 100e3, 0, 0, 1, 1};
+  frame.borne_at_rest = frame.borne_in_motion = 400e3;
+  frame.is_frame = true;
+  frame.skew_by_rules = by_rules;
+  frame.skew_computed = computed;
+  facts.spreaders = {frame};
+  facts.spreader_factor = 1;
+  const StandardAssessment result = assess_standard(standard, facts);
+  for (const ChainStep& step : result.chains[1].steps)
+    if (step.name.find("skew") != std::string::npos) return step;
+  return {};
+}
+
+// It takes the less of both, and says so; where no four slings meet it is the slings' own factor.
+TEST(FrameSkew, TakesTheLessOfRigidCornersAndOfTolerances) {
+  EXPECT_EQ(skew_step(3, 1.4).standard, 1.4);
+  EXPECT_EQ(skew_step(3, 1.4).simulated, 1.4);
+  EXPECT_NE(skew_step(3, 1.4).formula.find("3 with the slings of a diagonal"), std::string::npos);
+  EXPECT_EQ(skew_step(3, 4).standard, 3);
+  EXPECT_EQ(skew_step(3, 4).simulated, 4);
+  EXPECT_EQ(skew_step({}, 1.4).standard, 1.25);
+  EXPECT_EQ(skew_step({}, 1.4).simulated, 1.4);
+  EXPECT_EQ(skew_step(3, {}).simulated, 3);
+  EXPECT_NE(skew_step(3, {}).formula.find("no tolerance of lengths"), std::string::npos);
+  EXPECT_EQ(skew_step({}, {}).standard, 1.25);
+  EXPECT_NE(skew_step({}, {}).formula.find("no four of them meet"), std::string::npos);
+}
+
+// The frame hangs on four slings of d longer and shorter by turns; what is below it is plumb, on a
+// rigid load. By least work (Castigliano) the change T of each sling is d over what gives way along
+// it: its own length over E A, the corner's way up against the frame's warping and the ropes below,
+// c = h^2 / (k_w + k_below), and the shear in the frame's plane, a^2 W^2 (1 / k_1 + 1 / k_2) / 24,
+// with the sling's direction (a, b, h) and k = E I / l of the sides.
+TEST(FrameSkew, IsStiffnessTimesMismatch) {
+  const SpreaderInCase& frame = lift_of_frame().in_case();
+  const double L = frame.length.value, W = *frame.width, height = 2, weight = 100e3;
+  const structure::FrameMember side = frame.member(), across = frame.cross_member();
+  const double E = bar_modulus, G = E / 2.6;
+  TolerancedRigging rigging;
+  rigging.hooks = 1;
+  rigging.bars.resize(1);
+  const double sling = std::hypot(L / 2, W / 2, height), below = 3;
+  const double of_sling = 6e-8, of_below = 2e-7;  // m/N
+  for (const Vector3& corner : structure::RectangularFrame::corners(L, W)) {
+    RiggingRope up, down;
+    up.lower = down.upper = {RiggingEnd::Kind::bar, 0, corner};
+    up.upper = {RiggingEnd::Kind::hook, 0, Vector3::Zero()};
+    up.direction_W = (Vector3(0, 0, height) - corner) / sling;
+    up.tension = weight / 4 / up.direction_W.z();
+    up.length = sling;
+    up.compliance = of_sling;
+    down.lower = {RiggingEnd::Kind::load, -1, corner - Vector3(0, 0, 0.001)};
+    down.tension = weight / 4;
+    down.length = below;
+    down.compliance = of_below;
+    rigging.ropes.push_back(up);
+    rigging.ropes.push_back(down);
+  }
+  RiggingRope tackle;
+  tackle.lower = {RiggingEnd::Kind::hook, 0, Vector3::Zero()};
+  tackle.tension = weight;
+  tackle.length = 30;
+  tackle.compliance = 1e-8;
+  rigging.ropes.push_back(tackle);
+
+  const double h = height / sling, a = L / 2 / sling, error = 1e-3;
+  const auto part = [&](const structure::FrameMember& bent, const structure::FrameMember& twisted) {
+    const double l = bent.column.length;
+    return 4 / (l * l) /
+           (l / (6 * E * bent.column.second_moments[0]) +
+            twisted.column.length / (2 * G * twisted.torsion_constant));
+  };
+  const double warping = part(side, across) + part(across, side);
+  const double k_1 = E * side.column.second_moments[1] / L;
+  const double k_2 = E * across.column.second_moments[1] / W;
+  const double gives_way =
+      of_sling + h * h / (warping + 1 / of_below) + a * a * W * W * (1 / k_1 + 1 / k_2) / 24;
+  const double change = error / gives_way;
+  EXPECT_LT(change, 0.25 * error / of_sling);      // the frame gives way more than the slings
+  EXPECT_NEAR(change, 3401.70727, 1e-6 * change);  // of beams and ropes assembled in Python (numpy)
+
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(9);
+  for (int i = 0; i < 4; ++i) errors[2 * i] = i % 2 == 0 ? error : -error;
+  const Eigen::VectorXd tension = balance_of(rigging, {&frame}).with_length_errors(errors);
+  const double change_below = change * h / (1 + warping * of_below);
+  for (int i = 0; i < 4; ++i) {
+    const double sign = i % 2 == 0 ? -1 : 1;
+    EXPECT_NEAR(tension[2 * i] - rigging.ropes[2 * i].tension, sign * change, 1e-6 * change);
+    EXPECT_NEAR(tension[2 * i + 1] - weight / 4, sign * change_below, 1e-6 * change);
+  }
 }
 
 }  // namespace

@@ -107,6 +107,29 @@ TEST(RiggingBalance, HangsOnADiagonalWhereTheOtherIsSlack) {
   EXPECT_NEAR(tension[3] / slings.tension, 2, 2.5e-3);
 }
 
+// Wind at the load leans all that hangs on one tackle by 2 mrad: tensions share as without it, but
+// for that angle. What holds the load about its tackle is then 1e-8 of the ropes' stiffness, and the
+// moment would turn it by radians.
+TEST(RiggingBalance, SharesAsInCalmAirWhereWindLeansTheTackle) {
+  const Eigen::Matrix3d lean = Eigen::AngleAxisd(2e-3, Vector3d(0.6, 0.8, 0)).toRotationMatrix();
+  FourSlings calm, windy;
+  calm.ropes.erase(calm.ropes.begin());  // three slings: by statics
+  windy.ropes.erase(windy.ropes.begin());
+  calm.ropes[1].tension *= 0.01;
+  windy.ropes[1].tension *= 0.01;
+  for (RiggingRope& rope : windy.ropes) {
+    rope.direction_W = lean * rope.direction_W;
+    rope.lower.r_W = lean * rope.lower.r_W;
+  }
+  const Vector3d moment(3e3, -5e3, 0);
+  const VectorXd in_calm = RiggingBalance(calm.ropes, 1).with_moment(moment);
+  const VectorXd in_wind = RiggingBalance(windy.ropes, 1).with_moment(moment);
+  for (int i = 0; i < 3; ++i) {
+    const double change = in_calm[i] - calm.ropes[i].tension;
+    EXPECT_NEAR(in_wind[i] - windy.ropes[i].tension, change, 0.02 * std::abs(change) + 1) << i;
+  }
+}
+
 // A beam on two plumb ropes: dT = M / L by statics; a moment about +y presses the end at +x down.
 TEST(RiggingBalance, BearsAMomentByStatics) {
   std::vector<RiggingRope> ropes(2);
@@ -188,6 +211,38 @@ TEST(RiggingBalance, SkewsFourSlingsBelowAFrameByThemselves) {
     EXPECT_NEAR(with_over[i], above.tension + sign * change_over, 1e-6 * change) << i;
     EXPECT_NEAR(with_over[5 + i], weight / 4, 1e-6 * change) << i;
   }
+}
+
+// Four plumb ropes at -3, -1, 1 and 3 m on a beam that gives way as F says; the second one is so long
+// that it hangs slack. By statics its share goes half to the first and half to the third, and what
+// is free is t (1, -3, 2) on the first, the third and the fourth: least work makes it
+//   t = -n . (F p + e) / (n . F n),
+// p with the slack rope's own -T, by which the beam springs back there.
+TEST(RiggingBalance, ALoadSpringsBackWhereARopeIsSlack) {
+  std::vector<RiggingRope> ropes;
+  const VectorXd at = (VectorXd(4) << -3, -1, 1, 3).finished();
+  const double share = 1e4, own = 1e-6;
+  for (int i = 0; i < 4; ++i) {
+    RiggingRope& rope =
+        ropes.emplace_back(plumb({RiggingEnd::Kind::load, -1, {at[i], 0, 1e-6}},
+                                 {RiggingEnd::Kind::fixed, -1, Vector3d::Zero()}, share));
+    rope.compliance = own;
+    rope.length = 1e6;  // so long that it turns nothing
+  }
+  MatrixXd compliance(4, 4);  // of the beam at the ropes, m/N
+  compliance << 5, 2, 1, -1, 2, 4, 2, 1, 1, 2, 4, 2, -1, 1, 2, 5;
+  compliance *= 1e-6;
+  VectorXd errors = VectorXd::Zero(4);
+  errors[1] = 1;
+  errors[3] = 2e-3;
+  const VectorXd tension = RiggingBalance(ropes, 0, compliance).with_length_errors(errors);
+  const MatrixXd F = compliance + own * MatrixXd::Identity(4, 4);
+  const VectorXd p = (VectorXd(4) << share / 2, -share, share / 2, 0).finished();
+  const VectorXd n = (VectorXd(4) << 1, 0, -3, 2).finished();
+  const VectorXd expected =
+      VectorXd::Constant(4, share) + p - n.dot(F * p + errors) / n.dot(F * n) * n;
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(tension[i], expected[i], 1e-5 * share) << i;
+  EXPECT_GT(expected.minCoeff(), -1e-9);
 }
 
 TEST(RiggingBalance, RefusesMoreSetsThanItCanTry) {

@@ -187,5 +187,50 @@ TEST(RectangularFrameTest, RefusesWhatIsNoFrame) {
   EXPECT_THROW(frame.largest_forces({{}}), std::invalid_argument);
 }
 
+// Two second methods: slope and deflection in closed form, and an independent assembly of the beams
+// in Python (numpy, 12 x 12 stiffnesses, pseudo-inverse for the free body), which gave the figure.
+TEST(RectangularFrameTest, CornersRackOutOfItsPlaneByTheClosedForm) {
+  const LoadedRectangle loaded;
+  const auto corners = RectangularFrame::corners(long_side, short_side);
+  const std::vector<Vector3d> points(corners.begin(), corners.end());
+  const Eigen::MatrixXd C =
+      RectangularFrame(loaded.along, loaded.across, points).flexibility(points);
+  Eigen::VectorXd by_turns = Eigen::VectorXd::Zero(12);
+  for (int i = 0; i < 4; ++i) by_turns[3 * i + 2] = i % 2 == 0 ? 1 : -1;
+  const auto part = [](const FrameMember& bent, const FrameMember& twisted) {
+    const double l = bent.column.length;
+    return 4 / (l * l) /
+           (l / (6 * side_modulus * bent.column.second_moments[0]) +
+            twisted.column.length / (2 * side_shear_modulus * twisted.torsion_constant));
+  };
+  const double stiffness = part(loaded.along, loaded.across) + part(loaded.across, loaded.along);
+  const double found = 4 / by_turns.dot(C * by_turns);  // P / w of each corner
+  EXPECT_NEAR(found, stiffness, 1e-9 * stiffness);
+  EXPECT_NEAR(found, 1391717.98564, 1e-6 * found);
+  EXPECT_NEAR((C - C.transpose()).norm(), 0, 1e-12 * C.norm());
+}
+
+// In its plane slings of one diagonal press the corners and those of the other pull: a shear psi, in
+// which the sides store 12 psi^2 / (1 / k_1 + 1 / k_2), k = E I / l of bending in the plane. Pulls
+// (a, b) along both axes, a / b = L / W, do the work 2 a W psi.
+TEST(RectangularFrameTest, CornersRackInItsPlaneByTheClosedForm) {
+  const LoadedRectangle loaded;
+  const auto corners = RectangularFrame::corners(long_side, short_side);
+  const std::vector<Vector3d> points(corners.begin(), corners.end());
+  const Eigen::MatrixXd C =
+      RectangularFrame(loaded.along, loaded.across, points).flexibility(points);
+  Eigen::VectorXd pulls = Eigen::VectorXd::Zero(12);
+  const double a = 0.6, b = a * short_side / long_side;
+  for (int i = 0; i < 4; ++i) {
+    const double sign = i % 2 == 0 ? -1 : 1;
+    pulls[3 * i] = sign * a * (corners[i].x() > 0 ? 1 : -1);
+    pulls[3 * i + 1] = sign * b * (corners[i].y() > 0 ? 1 : -1);
+  }
+  const double k_1 = side_modulus * loaded.along.column.second_moments[1] / long_side;
+  const double k_2 = side_modulus * loaded.across.column.second_moments[1] / short_side;
+  const double work = std::pow(2 * a * short_side, 2) * (1 / k_1 + 1 / k_2) / 24;
+  EXPECT_NEAR(pulls.dot(C * pulls), work, 1e-9 * work);
+}
+
 }  // namespace
 }  // namespace blocklift::structure
