@@ -131,7 +131,8 @@ class Axes {
 };
 
 /// The same in a motion after another.
-Eigen::VectorXd turned(const Law& turn, const Eigen::Ref<const Eigen::VectorXd>& resultants) {
+Eigen::VectorXd turned_resultants(const Law& turn,
+                                  const Eigen::Ref<const Eigen::VectorXd>& resultants) {
   return (turn * resultants.reshaped(6, resultants.size() / 6)).reshaped();
 }
 
@@ -236,8 +237,8 @@ Resultants recover(const ElasticModel& model, const Axes& axes, const Points& po
   for (int cell = 0; cell < cells; ++cell)
     for (int i = 0; i < per_cell; ++i)
       recovered.col(points.of(cell, i)) +=
-          turned(axes.to_point(cell, i),
-                 at_nodes.col(static_cast<Eigen::Index>(per_cell) * cell + i)) /
+          turned_resultants(axes.to_point(cell, i),
+                            at_nodes.col(static_cast<Eigen::Index>(per_cell) * cell + i)) /
           points.share(points.of(cell, i));
   return recovered;
 }
@@ -268,7 +269,8 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Axes& axes, const P
     for (int cell = first; cell < first + count; ++cell) {
       const Resultants s_h = resultants_of(model, own, rule.topRows<2>(), cell, motions, heat);
       for (int i = 0; i < space.nodes_per_shell(); ++i)
-        at_nodes.col(i) = turned(axes.to_cell(cell, i), recovered.col(points.of(cell, i)));
+        at_nodes.col(i) =
+            turned_resultants(axes.to_cell(cell, i), recovered.col(points.of(cell, i)));
       const Resultants smooth = at_nodes * values;
       const Shell& shell = model.mesh().shells[space.shells()[cell].shell];
       const bool is_layered = model.mesh().section_of(shell).laminate >= 0;

@@ -31,8 +31,8 @@ struct Square {
 /// The squares (50 x 50 mm in IACS CSR, part 1, chapter 7, section 3) belong to the structure, not
 /// to the mesh: they lie along the outlines of the plates' fields, flush with their corners, one
 /// behind the other there and farther apart towards the middle, and on a lattice between. A field's
-/// narrow end takes a smaller square. Closed plating without corners, and plating that turns by more
-/// than 60 degrees, has them in the middles of the shells of the mesh. The mean strain is the
+/// narrow end takes a smaller square. Closed plating without corners, and plating that turns by
+/// more than 60 degrees, has them in the middles of the shells of the mesh. The mean strain is the
 /// integral of the displacement along the square's outline,
 ///   mean e_ab = 1/A int sym(u_a nu_b) ds,   mean k_ab = 1/A int sym((theta x n)_a nu_b) ds,
 /// which converges with the displacement, also where the strain itself has no limit. Of cells of

@@ -12,8 +12,6 @@
 namespace blocklift::structure {
 namespace {
 
-using std::numbers::pi;
-
 /// Adds a triangle over a chart, curved of an order, with its corners at places of the chart.
 void add_curved_triangle(Mesh& mesh, const testing::Chart& chart, int order,
                          const Eigen::Matrix<double, 2, 3>& corners) {
@@ -42,7 +40,7 @@ Mesh quarter_of_triangles(int pairs, int order) {
   material.poisson_ratio = 0;
   Mesh mesh = testing::empty_mesh(material, 0.02);
   const auto chart = [](double x, double y) -> Vector3 {
-    return {std::cos(pi / 2 * x), 0.2 * y, std::sin(pi / 2 * x)};
+    return {std::cos(std::numbers::pi / 2 * x), 0.2 * y, std::sin(std::numbers::pi / 2 * x)};
   };
   for (int i = 0; i < pairs; ++i) {
     const double left = static_cast<double>(i) / pairs, right = (i + 1.0) / pairs;
@@ -55,8 +53,8 @@ Mesh quarter_of_triangles(int pairs, int order) {
   return mesh;
 }
 
-/// By how much the ring gives way to two opposite forces, a share of P R^3 / (E I) (pi / 8 - 1 / pi)
-/// (Timoshenko 1955, article 80).
+/// By how much the ring gives way to two opposite forces, a share of
+/// P R^3 / (E I) (pi / 8 - 1 / pi) (Timoshenko 1955).
 double flexibility_share(const Mesh& mesh, int degree) {
   const Space space(mesh, {degree, {}});
   const auto is_on_plane = [](int component) {
@@ -75,7 +73,7 @@ double flexibility_share(const Mesh& mesh, int degree) {
                                         }),
                      fixed);
   return -testing::displacement_at(space, motion, {0, 0.1, 1}).z() /
-         (force / (210e9 * inertia) * (pi / 8 - 1 / pi));
+         (force / (210e9 * inertia) * (std::numbers::pi / 8 - 1 / std::numbers::pi));
 }
 
 // The least share that is not told of is 0.98, of degree 3; the largest that is 0.87, of degree 2.

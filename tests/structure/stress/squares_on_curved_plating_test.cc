@@ -15,8 +15,6 @@
 namespace blocklift::structure {
 namespace {
 
-using std::numbers::pi;
-
 Material without_lateral_strain() {
   Material material = testing::plain_steel();
   material.poisson_ratio = 0;
@@ -24,7 +22,8 @@ Material without_lateral_strain() {
 }
 
 /// A strip of a cylinder about the y axis, from an angle of nothing on.
-Mesh strip(double radius, double width, double turn, int cells, double thickness, int order) {
+Mesh strip_of_cylinder(double radius, double width, double turn, int cells, double thickness,
+                       int order) {
   return testing::sheet_mesh(
       [=](double x, double y) -> Vector3 {
         return {radius * std::cos(turn * x), width * y, radius * std::sin(turn * x)};
@@ -60,16 +59,17 @@ std::vector<Case> cases() {
   return all;
 }
 
-// A ring pulled together by two opposite forces (Timoshenko 1955, article 75): with the angle from
-// the middle between them N = -P / 2 cos, M = P R (cos / 2 - 1 / pi). The shell's strain e + z k
-// leaves M / R out of the thickness' mean: n = N - M / R. The largest bending stress is 190 times the
-// largest of N / A; the strain of the displacements had up to five times the bending stress with
-// degree 1, three times with 2 and 1.2 times with 3.
+// A ring pulled together by two opposite forces (Timoshenko 1955): with the angle from the middle
+// between them N = -P / 2 cos, M = P R (cos / 2 - 1 / pi). The shell's strain e + z k leaves M / R
+// out of the thickness' mean: n = N - M / R. The largest bending stress is 190 times the largest of
+// N / A; the strain of the displacements had up to five times the bending stress with degree 1,
+// three times with 2 and 1.2 times with 3.
 TEST(SquaresOnCurvedPlating, RingUnderTwoOppositeForces) {
   const double radius = 1, width = 0.2, t = 0.02, force = 1000;
   for (const Case& c : cases()) {
     const ElasticModel model(
-        strip(radius, width, pi / 2, static_cast<int>(std::lround(90 / c.angle)), t, c.order),
+        strip_of_cylinder(radius, width, std::numbers::pi / 2,
+                          static_cast<int>(std::lround(90 / c.angle)), t, c.order),
         {c.degree, {}});
     std::vector<FixedUnknown> fixed;
     testing::hold(model.space(), is_at(0, 0), {0, 4, 5}, fixed);
@@ -85,11 +85,12 @@ TEST(SquaresOnCurvedPlating, RingUnderTwoOppositeForces) {
     const CheckedStress checked(model, motion);
     ASSERT_GT(checked.squares().size(), 30U);
     const double modulus = width * t * t / 6;
-    const double largest_bending = force * radius / pi / modulus;
+    const double largest_bending = force * radius / std::numbers::pi / modulus;
     for (std::size_t s = 0; s < checked.squares().size(); ++s) {
       const Vector3& centre = checked.squares()[s].centre_B;
       const double cosine = centre.x() / std::hypot(centre.x(), centre.z());
-      const double n = -force / 2 * cosine, m = force * radius * (cosine / 2 - 1 / pi);
+      const double n = -force / 2 * cosine,
+                   m = force * radius * (cosine / 2 - 1 / std::numbers::pi);
       EXPECT_NEAR(along_strip(checked, s), (n - m / radius) / (width * t), 0.01 * largest_bending)
           << "degree " << c.degree << ", order " << c.order << ", " << c.angle << " degrees, at "
           << centre.transpose();
@@ -101,10 +102,11 @@ TEST(SquaresOnCurvedPlating, RingUnderTwoOppositeForces) {
 // the length.
 TEST(SquaresOnCurvedPlating, DeepArchInPureBending) {
   const double radius = 0.5, width = 0.2, t = 0.05, turn = 1e-3;
-  const double bending = 210e9 * turn / (pi * radius) * t / 2;
+  const double bending = 210e9 * turn / (std::numbers::pi * radius) * t / 2;
   for (const Case& c : cases()) {
     const ElasticModel model(
-        strip(radius, width, pi, static_cast<int>(std::lround(180 / c.angle)), t, c.order),
+        strip_of_cylinder(radius, width, std::numbers::pi,
+                          static_cast<int>(std::lround(180 / c.angle)), t, c.order),
         {c.degree, {}});
     std::vector<FixedUnknown> fixed;
     const auto at_end = [&](double side) {
@@ -159,7 +161,8 @@ TEST(SquaresOnCurvedPlating, PinchedCylinderHasTheStressOfAFineMesh) {
   const double radius = 3, half_length = 3, force = 1e5;
   const Mesh mesh = testing::sheet_mesh(
       [&](double x, double y) -> Vector3 {
-        return {radius * std::cos(pi / 2 * x), half_length * y, radius * std::sin(pi / 2 * x)};
+        return {radius * std::cos(std::numbers::pi / 2 * x), half_length * y,
+                radius * std::sin(std::numbers::pi / 2 * x)};
       },
       8, 8, 0.03, testing::plain_steel(), 4);
   const auto solved = [&](const ElasticModel& model) {
