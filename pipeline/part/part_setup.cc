@@ -202,8 +202,8 @@ class ModelMaker {
           "only nodes of outer faces that face another body are joined; leave join out if the mesh "
           "is one body");
     diagnostics_.error(file_.join->within.mark,
-                       fmt::format("no node of a body lies within {:.6g} mm of another body, so "
-                                   "that nothing is joined",
+                       fmt::format("no outer face of a body has a node that faces another body "
+                                   "within {:.6g} mm, so that nothing is joined",
                                    1e3 * *within),
                        hints);
   }

@@ -15,6 +15,7 @@
 #include "structure/index.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/mesh/element_tables.h"
+#include "structure/mesh/place_grid.h"
 
 namespace blocklift::structure {
 
@@ -69,50 +70,18 @@ std::vector<OuterFace> find_outer_faces(const PartMesh& mesh) {
   return outer;
 }
 
-/// Boxes of solids on a grid, for those near a place.
-class SolidGrid {
- public:
-  void add(int solid, const Eigen::AlignedBox3d& box) { boxes_.emplace_back(solid, box); }
+using SolidBox = std::pair<int, Eigen::AlignedBox3d>;  // of an element
 
-  void finish() {
-    double largest = 0, sum = 0;
-    for (const auto& [solid, box] : boxes_) {
-      largest = std::max(largest, box.sizes().maxCoeff());
-      sum += box.sizes().maxCoeff();
-    }
-    constexpr double most_cells = 8;  // that a box may take along an axis
-    size_ = std::max(largest / most_cells,
-                     sum / static_cast<double>(std::max<std::size_t>(boxes_.size(), 1)));
-    for (int b = 0; b < static_cast<int>(boxes_.size()); ++b) {
-      const Cell low = cell_of(boxes_[at(b)].second.min()),
-                 high = cell_of(boxes_[at(b)].second.max());
-      for (int i = low[0]; i <= high[0]; ++i)
-        for (int j = low[1]; j <= high[1]; ++j)
-          for (int k = low[2]; k <= high[2]; ++k) cells_[{i, j, k}].push_back(b);
-    }
+/// Cubes as large as the mean of the boxes, and so large that none is in too many.
+double cube_for(const std::vector<SolidBox>& boxes) {
+  constexpr double most_cubes = 8;  // that a box may take along an axis
+  double largest = 0, sum = 0;
+  for (const auto& [solid, box] : boxes) {
+    largest = std::max(largest, box.sizes().maxCoeff());
+    sum += box.sizes().maxCoeff();
   }
-
-  template <typename Visit>
-  void for_each_near(const Vector3& place, const Visit& visit) const {
-    if (boxes_.empty()) return;
-    const auto cell = cells_.find(cell_of(place));
-    if (cell == cells_.end()) return;
-    for (const int b : cell->second)
-      if (boxes_[at(b)].second.contains(place)) visit(boxes_[at(b)].first);
-  }
-
- private:
-  using Cell = std::array<int, 3>;
-  Cell cell_of(const Vector3& place) const {
-    Cell cell{};
-    for (int a = 0; a < 3; ++a) cell[at(a)] = static_cast<int>(std::floor(place[a] / size_));
-    return cell;
-  }
-
-  std::vector<std::pair<int, Eigen::AlignedBox3d>> boxes_;
-  double size_ = 1;
-  std::map<Cell, std::vector<int>> cells_;
-};
+  return std::max(largest / most_cubes, sum / static_cast<double>(boxes.size()));
+}
 
 /// The nearest place of another body.
 struct Foot {
@@ -161,20 +130,23 @@ class JointFinder {
       const double more = reach_of(solid) + touching * edge;  // curved sides stand out of the nodes
       box.min().array() -= more;
       box.max().array() += more;
-      grid_.add(solid, box);
+      boxes_.emplace_back(solid, box);
       const int kind = mesh_.elements[solid].kind;
       auto& shape = shapes_[kind];
       if (!shape) shape = std::make_unique<ElementShape>(mesh_.kind(solid));
     }
-    grid_.finish();
+    if (boxes_.empty()) return;
+    grid_ = PlaceGrid(cube_for(boxes_));
+    for (int b = 0; b < static_cast<int>(boxes_.size()); ++b) grid_.add(boxes_[at(b)].second, b);
   }
 
   /// The nearest places of other bodies to which one of some directions points.
   Feet feet_of(const Vector3& place, int body, const std::vector<Vector3>& outward) const {
     constexpr double facing = 0.5, rounding = 1e-6;
     Feet feet;
-    grid_.for_each_near(place, [&](int solid) {
-      if (body_of(solid) == body) return;
+    grid_.visit(place, [&](int b) {
+      const auto& [solid, box] = boxes_[at(b)];
+      if (!box.contains(place) || body_of(solid) == body) return;
       Foot foot;
       foot.solid = solid;
       const Eigen::Matrix3Xd places = mesh_.places(solid);
@@ -323,7 +295,8 @@ class JointFinder {
   std::vector<int> body_of_node_;
   std::vector<OuterFace> faces_;
   std::map<int, double> edge_of_solid_;  // the shortest of its outer faces, by element
-  SolidGrid grid_;
+  std::vector<SolidBox> boxes_;          // of solids with outer faces, and their reach
+  PlaceGrid grid_{1};                    // of these
   std::map<int, std::unique_ptr<ElementShape>> shapes_;  // by kind
   std::vector<std::pair<int, Feet>> feet_;               // of nodes that have any
   std::vector<double> edges_;                            // mean of a body's faces there, m

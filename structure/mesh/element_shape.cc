@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -54,19 +55,70 @@ const std::vector<Eigen::Vector4d>& sides_of(int corners) {
   return corners == 4 ? tetrahedron : corners == 5 ? pyramid : corners == 6 ? wedge : hexahedron;
 }
 
-/// Orthonormal local directions along all sides that a place lies on and a wanted step would leave
-/// by.
-Eigen::Matrix3Xd free_ways(int corners, const Vector3& xi, const Vector3& wanted) {
-  constexpr double rounding = 1e-9;
-  std::vector<Vector3> held;
-  for (const Eigen::Vector4d& side : sides_of(corners)) {
-    const Vector3 normal = side.head<3>();
-    if (normal.dot(xi) > side[3] - rounding && normal.dot(wanted) > 0) held.push_back(normal);
+/// The sides that hold a search within an element back, by their numbers.
+class HeldSides {
+ public:
+  HeldSides(int corners, const Vector3& xi) : sides_(&sides_of(corners)) {
+    constexpr double rounding = 1e-9;
+    for (std::size_t s = 0; s < sides_->size(); ++s)
+      if (side(s).head<3>().dot(xi) > side(s)[3] - rounding) held_.push_back(s);
   }
-  if (held.empty()) return Eigen::Matrix3d::Identity();
-  Eigen::MatrixXd normals(3, static_cast<Eigen::Index>(held.size()));
-  for (std::size_t i = 0; i < held.size(); ++i) normals.col(static_cast<Eigen::Index>(i)) = held[i];
-  return algebra::left_null_space(normals, rounding);
+
+  /// Orthonormal local directions along all of them.
+  Eigen::Matrix3Xd ways() const {
+    if (held_.empty()) return Eigen::Matrix3d::Identity();
+    return algebra::left_null_space(normals(), 1e-9);
+  }
+
+  /// Lets the side go that would have to draw most to resist a pull.
+  /// @param pull in local coordinates: minus the slope of half the square of the distance.
+  /// @returns false if all sides push.
+  bool let_go(const Vector3& pull) {
+    if (held_.empty()) return false;
+    const Eigen::VectorXd pushes = algebra::least_squares(normals(), Eigen::MatrixXd(pull));
+    Eigen::Index least = 0;
+    if (pushes.minCoeff(&least) >= 0) return false;
+    held_.erase(held_.begin() + least);
+    return true;
+  }
+
+  /// Holds the first side that a step meets. @returns the share of the step up to there.
+  double meet(const Vector3& xi, const Vector3& change) {
+    double share = 1;
+    std::optional<std::size_t> met;
+    for (std::size_t s = 0; s < sides_->size(); ++s) {
+      const Vector3 normal = side(s).head<3>();
+      const double towards = normal.dot(change);
+      if (towards <= 1e-12 * change.norm() || std::count(held_.begin(), held_.end(), s) > 0)
+        continue;
+      const double up_to = std::max(0.0, (side(s)[3] - normal.dot(xi)) / towards);
+      if (up_to >= share) continue;
+      share = up_to;
+      met = s;
+    }
+    if (met) held_.push_back(*met);
+    return share;
+  }
+
+ private:
+  const Eigen::Vector4d& side(std::size_t s) const { return (*sides_)[s]; }
+
+  Eigen::MatrixXd normals() const {
+    Eigen::MatrixXd columns(3, static_cast<Eigen::Index>(held_.size()));
+    for (std::size_t i = 0; i < held_.size(); ++i)
+      columns.col(static_cast<Eigen::Index>(i)) = side(held_[i]).head<3>();
+    return columns;
+  }
+
+  const std::vector<Eigen::Vector4d>* sides_;
+  std::vector<std::size_t> held_;
+};
+
+Vector3 middle_of(int corners) {
+  return corners == 8   ? Vector3(0, 0, 0)
+         : corners == 4 ? Vector3(0.25, 0.25, 0.25)
+         : corners == 5 ? Vector3(0, 0, 0.25)
+                        : Vector3(1 / 3.0, 1 / 3.0, 0);
 }
 
 }  // namespace
@@ -127,10 +179,7 @@ Vector3 ElementShape::cut_off(const Vector3& xi) const {
 double ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place,
                             Vector3& xi) const {
   constexpr double nowhere = std::numeric_limits<double>::infinity();
-  xi = corners_ == 8   ? Vector3(0, 0, 0)
-       : corners_ == 4 ? Vector3(0.25, 0.25, 0.25)
-       : corners_ == 5 ? Vector3(0, 0, 0.25)
-                       : Vector3(1 / 3.0, 1 / 3.0, 0);
+  xi = middle_of(corners_);
   for (int step = 0; step < 20; ++step) {
     const Vector3 miss = place - nodes * values(xi);
     const Eigen::Matrix3d jacobian = nodes * gradients(xi);
@@ -143,23 +192,45 @@ double ElementShape::locate(const Eigen::Matrix3Xd& nodes, const Vector3& place,
   return (place - nodes * values(xi)).norm();
 }
 
+// Seen from many of its sizes away, a twisted element may have several places that are nearer than
+// all about them; one of these is found.
 double ElementShape::nearest(const Eigen::Matrix3Xd& nodes, const Vector3& place,
                              Vector3& xi) const {
-  constexpr int most_steps = 20;
+  constexpr int most_steps = 40;
   double distance = locate(nodes, place, xi);
-  const double rounding = 1e-12 * (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
-  for (int step = 0; step < most_steps && std::isfinite(distance); ++step) {
+  if (!std::isfinite(distance)) {  // far off, where the element's map may fold
+    xi = middle_of(corners_);
+    distance = (place - nodes * values(xi)).norm();
+  }
+  const double size = (nodes.rowwise().maxCoeff() - nodes.rowwise().minCoeff()).norm();
+  const double rounding = 1e-12 * size;
+  HeldSides held(corners_, xi);
+  for (int step = 0; step < most_steps && distance > rounding; ++step) {
     const Vector3 miss = place - nodes * values(xi);
     const Eigen::Matrix3d jacobian = nodes * gradients(xi);
-    const Vector3 wanted = algebra::solve_square(jacobian, miss);
-    const Eigen::Matrix3Xd ways = free_ways(corners_, xi, wanted);
-    if (!wanted.allFinite() || ways.cols() == 0 || ways.cols() == 3) break;
-    const Vector3 change = ways * algebra::least_squares(jacobian * ways, Eigen::MatrixXd(miss));
-    const Vector3 next = cut_off(xi + change);
-    const double nearer = (place - nodes * values(next)).norm();
-    if (!(nearer < distance - rounding)) break;
+    const Eigen::Matrix3Xd ways = held.ways();
+    Vector3 change = Vector3::Zero();
+    if (ways.cols() > 0)
+      change = ways * algebra::least_squares(jacobian * ways, Eigen::MatrixXd(miss));
+    if ((jacobian * change).norm() <= 1e-9 * size) {
+      if (!held.let_go(jacobian.transpose() * miss)) break;
+      continue;
+    }
+    HeldSides beyond = held;
+    change *= beyond.meet(xi, change);
+    const auto distance_after = [&] {
+      return (place - nodes * values(cut_off(xi + change))).norm();
+    };
+    double nearer = distance_after();
+    for (int half = 0; !(nearer <= distance + rounding) && half < most_steps; ++half) {
+      beyond = held;  // curved so much that the step overshoots
+      change /= 2;
+      nearer = distance_after();
+    }
+    if (!(nearer <= distance + rounding)) break;
+    held = beyond;
     distance = nearer;
-    xi = next;
+    xi = cut_off(xi + change);
   }
   return distance;
 }

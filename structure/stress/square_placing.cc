@@ -11,7 +11,7 @@
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
 #include "structure/mesh/fields/shell_edges.h"
-#include "structure/stress/place_grid.h"
+#include "structure/mesh/place_grid.h"
 #include "structure/stress/square_about.h"
 #include "structure/stress/square_outline.h"
 #include "structure/stress/squares.h"

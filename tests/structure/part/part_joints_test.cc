@@ -189,6 +189,19 @@ TEST(PartJoints, FarSidesStayFree) {
   EXPECT_EQ(joints.meetings[0].tied_nodes, 121);
 }
 
+// Bodies that stand apart by many thicknesses are joined where that is asked for: two thin plates,
+// one above the other, in elements of 20 mm thickness. What of the upper one lies over the lower
+// follows.
+TEST(PartJoints, ReachAsFarAsIsAsked) {
+  const PartModel model = model_of({{"left", {0, 0, 0}, {1, 0.4, 0.02}, {8, 4, 1}},
+                                    {"right", {0.3, 0.1, 0.42}, {0.4, 0.2, 0.02}, {8, 4, 1}}});
+  const PartJoints joints = find_part_joints(model.mesh, {}, 0.401);
+  ASSERT_EQ(joints.meetings.size(), 1U);
+  EXPECT_NEAR(joints.meetings[0].gap, 0.4, 1e-9);
+  EXPECT_NEAR(joints.meetings[0].largest_gap, 0.4, 1e-9);
+  EXPECT_EQ(joints.meetings[0].tied_nodes, 121);
+}
+
 // A small body in the middle of one face of another, which has no node there, follows it.
 TEST(PartJoints, ASmallBodyFollowsALargeFace) {
   const PartModel model = model_of({{"left", {0.4, 0.4, 0.1}, {0.1, 0.1, 0.1}, {1, 1, 1}},

@@ -116,6 +116,43 @@ TEST_P(Kinds, ShapeFunctionsAgreeWithGmsh) {
   }
 }
 
+// No place of a sheared element is nearer than the one that is found, however far off the place is:
+// 25,000 of its places are tried, so that a miss shows as a nearer one.
+TEST_P(Kinds, TheNearestPlaceIsFoundFromFar) {
+  const auto [shape, order] = GetParam();
+  const PartMesh mesh = box(shape, order, Vector3(1, 1, 1), {1, 1, 1});
+  Eigen::Matrix3Xd places = mesh.places(mesh.solids[0]);
+  for (Eigen::Index n = 0; n < places.cols(); ++n) {
+    const Vector3 x = places.col(n);
+    places.col(n) = Vector3(x.x() + 0.8 * x.z(), x.y() + 0.3 * x.x(), 0.1 * x.z());
+  }
+  const ElementKind& kind = mesh.kind(mesh.solids[0]);
+  const ElementShape own(kind);
+  std::vector<Vector3> tried;
+  constexpr int steps = 28;
+  const Vector3 lower = kind.local.rowwise().minCoeff(), upper = kind.local.rowwise().maxCoeff();
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j)
+      for (int k = 0; k <= steps; ++k) {
+        const Vector3 xi =
+            lower + Vector3(i, j, k).cwiseProduct(upper - lower) / static_cast<double>(steps);
+        Vector3 found;  // places beyond the sides of tetrahedra and wedges are none of theirs
+        const Vector3 place = places * own.values(xi);
+        if (own.locate(places, place, found) < 1e-9) tried.push_back(place);
+      }
+  for (const double distance : {0.05, 0.7, 5.0, 60.0})
+    for (int direction = 0; direction < 24; ++direction) {
+      const double turn = 2.4 * direction, up = 1 - (direction + 0.5) / 12;
+      const Vector3 way(std::sqrt(1 - up * up) * std::cos(turn),
+                        std::sqrt(1 - up * up) * std::sin(turn), up);
+      const Vector3 from = places.rowwise().mean() + distance * way;
+      Vector3 xi;
+      const double found = own.nearest(places, from, xi);
+      EXPECT_NEAR((from - places * own.values(xi)).norm(), found, 1e-12 * (1 + distance));
+      for (const Vector3& place : tried) ASSERT_GE((from - place).norm(), found - 1e-8) << distance;
+    }
+}
+
 // Faces by a box are those of the mesh's own group: the same load. Inner faces never count.
 TEST_P(Kinds, FacesAndPointsAreChosenByPlace) {
   const auto [shape, order] = GetParam();

@@ -9,6 +9,7 @@
 
 #include "structure/mesh/files/deck/equations.h"
 #include "structure/mesh/files/deck/label_range.h"
+#include "structure/mesh/files/nastran/case_commands.h"
 #include "structure/mesh/files/nastran/model.h"
 #include "structure/mesh/files/nastran/temperatures.h"
 
@@ -329,8 +330,8 @@ class CaseControl {
   /// Loads of case control that no card read here says: enforced lengths, loads of before, matrices
   /// and loads in time.
   static bool asks_for_a_load(std::string_view key) {
-    static constexpr std::array<std::string_view, 7> beginnings{"DEFO", "STATS", "K2GG", "M2GG",
-                                                                "K2PP", "P2G",   "DLOA"};
+    static constexpr std::array<std::string_view, 8> beginnings{"DEFO", "STATS", "K2GG", "M2GG",
+                                                                "K2PP", "P2G",   "DLOA", "LOADS"};
     const std::string name = upper(key);
     return std::any_of(beginnings.begin(), beginnings.end(),
                        [&](std::string_view beginning) { return name.starts_with(beginning); });
@@ -366,7 +367,7 @@ class CaseControl {
       next.line = line.line;
       choices_.push_back(next);
       has_subcases_ = true;
-      in_combination_ = false;
+      in_combination_ = in_plots_ = false;
     } else if (is_same(key, "LOAD")) {
       choice.load = number();
       choice.line = line.line;
@@ -379,9 +380,9 @@ class CaseControl {
       choice.line = line.line;
     } else if (upper(key).starts_with("TEMP")) {
       read_temperatures(line, upper(within), is_same(value, "NONE") ? 0 : number(), choice);
-    } else if (is_same(key, "TITLE")) {
+    } else if (is_command(key, "TITLE")) {
       model_.deck.title = std::string(value);
-    } else if (is_same(key, "SUBTITLE") || is_same(key, "LABEL")) {
+    } else if (is_command(key, "SUBTITLE") || is_command(key, "LABEL")) {
       choice.title = std::string(value);
     } else if (is_nastran_mass_factor(line.text)) {
       model_.log.read("case control PARAM WTMASS", line.line);
@@ -392,14 +393,31 @@ class CaseControl {
       model_.log.leave_out(name, "combinations of subcases: each is a load case alone");
       in_combination_ = true;
     } else {
-      const std::string name = "case control " + upper(key.substr(0, key.find_first_of(" \t,(")));
-      model_.log.read(name, line.line);
-      if (asks_for_a_load(key))
-        model_.log.leave_out(name,
-                             "loads other than forces, moments, pressures, gravity and "
-                             "rotation");
-      else
-        model_.log.leave_out_wish(name, "what the solver is to do or print");
+      leave_out(line, key, !within.empty());
+    }
+  }
+
+  /// A command by its first four letters or more.
+  static bool is_command(std::string_view key, std::string_view command) {
+    return key.size() >= 4 && command.starts_with(upper(key));
+  }
+
+  void leave_out(const CaseControlLine& line, std::string_view key, bool has_options) {
+    const std::string command = upper(key.substr(0, key.find_first_of(" \t,(")));
+    // What follows OUTPUT(XYPLOT) and the like are words of their own.
+    if (command == "OUTPUT" && has_options) in_plots_ = true;
+    const bool is_known = in_plots_ || is_case_command(command);
+    if (const std::string meant = is_known ? "" : meant_case_command(command); !meant.empty())
+      throw CardError{fmt::format("{} is not known here (did you mean {}?)", command, meant)};
+    const std::string name = "case control " + command;
+    model_.log.read(name, line.line);
+    if (asks_for_a_load(command)) {
+      model_.log.leave_out(name,
+                           "loads other than forces, moments, pressures, gravity and rotation");
+    } else {
+      model_.log.leave_out_wish(name, "what the solver is to do or print");
+      if (!is_known)
+        model_.log.remark(line.line, name + " is not known here; it is taken for a wish of output");
     }
   }
 
@@ -526,7 +544,7 @@ class CaseControl {
   std::map<long, std::vector<std::pair<long, double>>> combinations_;
   Choice common_;
   std::vector<Choice> choices_;
-  bool has_subcases_ = false, in_combination_ = false;
+  bool has_subcases_ = false, in_combination_ = false, in_plots_ = false;
 };
 
 }  // namespace

@@ -68,6 +68,40 @@ TEST(NastranLoads, WhatIsLeftOutIsSaidAtItsLine) {
       HasSubstr("PLOAD1: loads begin or end between the grids of bars along edges of plates"));
 }
 
+// A misspelt command of case control would leave its case without loads or supports.
+TEST(NastranLoads, MisspeltCaseControlIsRefused) {
+  const auto said = [](const std::string& line) {
+    return complaints_of_nastran("CEND\nSPC = 1\nLOAD = 2\n" + line + "\nBEGIN BULK\n" +
+                                 plate_and_bar + "FORCE,2,2,,100.,0.,0.,1.\nENDDATA\n");
+  };
+  const std::string place = "deck.bdf:4: error: case control: ";
+  EXPECT_THAT(said("TMEP(LOAD) = 4"),
+              HasSubstr(place + "TMEP is not known here (did you mean TEMP?)"));
+  EXPECT_THAT(said("SUBC 1"), HasSubstr(place + "SUBC is not known here (did you mean SUBCASE?)"));
+  EXPECT_THAT(said("SUBCAES 1"), HasSubstr("did you mean SUBCASE?"));
+  EXPECT_THAT(said("LAOD = 3"), HasSubstr("did you mean LOAD?"));
+  EXPECT_THAT(said("SCP = 3"), HasSubstr("did you mean SPC?"));
+  EXPECT_THAT(said("MPCC = 3"), HasSubstr("did you mean MPC?"));
+  // Commands as they are, by their first letters, and the words of plots.
+  for (const std::string line :
+       {"SPCF = ALL", "SPCFORCES(PLOT) = ALL", "DISP(PRINT,PUNCH) = ALL", "ESE(PLOT) = ALL",
+        "GPFO = ALL", "MPCF = ALL", "OLOA = ALL", "SET 1 = 1 THRU 5,\n7", "LABE = x", "LINE = 99",
+        "OUTPUT(XYPLOT)\nSCP 1\nXGRID LINES = YES"})
+    EXPECT_THAT(said(line), IsEmpty()) << line;
+}
+
+TEST(NastranLoads, UnknownCaseControlIsSaid) {
+  const Deck deck = nastran(
+      "CEND\nSPC = 1\nSUBT = by four letters\nQQXYZ = 4\nLOADSET = 3\nLOAD = 2\n"
+      "BEGIN BULK\n" +
+      plate_and_bar + "FORCE,2,2,,100.,0.,0.,1.\nENDDATA\n");
+  ASSERT_EQ(deck.remarks.size(), 1U);
+  EXPECT_THAT(deck.remarks[0].place, HasSubstr("deck.bdf:4"));
+  EXPECT_THAT(deck.remarks[0].text, HasSubstr("case control QQXYZ is not known here"));
+  EXPECT_EQ(deck.load_cases.at(0).title, "by four letters");
+  EXPECT_FALSE(entry(deck, "case control LOADSET").is_wish);
+}
+
 TEST(NastranLoads, LinesThatBearNoLoadAreRefused) {
   const auto said = [](const std::string& cards) {
     return complaints_of_nastran(plate_and_bar + "GRID,5,,0.,4.,0.\nCROD,30,9,4,5\nPROD,9,7,.01\n" +
