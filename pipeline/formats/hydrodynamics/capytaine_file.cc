@@ -10,6 +10,7 @@
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
+#include "pipeline/formats/hydrodynamics/mirrored_headings.h"
 #include "pipeline/formats/hydrodynamics/netcdf_file.h"
 #include "pipeline/formats/hydrodynamics/radiation_check.h"
 #include "pipeline/formats/read_apart.h"
@@ -381,8 +382,10 @@ HydrodynamicFile import_hydrodynamics(const std::filesystem::path& path,
     } catch (const dynamics::ModelError& error) {
       throw HydrodynamicFileError(path.string() + ": " + error.what());
     }
+    const std::string planes = mirror_headings(database);
     const std::string origin =
-        fmt::format("{}{} ({})", imported_from, path.filename().string(), program);
+        fmt::format("{}{}{} ({})", imported_from, path.filename().string(),
+                    planes.empty() ? "" : ", headings mirrored in " + planes, program);
     return HydrodynamicFile{{}, origin, dynamics::make_series(0, {0.0}, {std::move(database)})};
   };
   if (ending == ".1" || ending == ".2" || ending == ".3" || ending == ".hst") {
