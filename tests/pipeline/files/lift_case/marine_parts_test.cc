@@ -355,7 +355,13 @@ TEST(MarineParts, DriftComesFromADatabase) {
   Diagnostics diagnostics;
   const auto file = read_mechanism("mechanism.yaml", library, diagnostics);
   ASSERT_TRUE(file) << diagnostics.to_text();
-  EXPECT_FALSE(radiation_problem(*file).drifting);
+  // What its excitation has in the mean is taken off with the free vessel's motions, along the
+  // database's axes, which are the vessel's own, about its reference point 0.5 m before the origin.
+  const RadiationProblem problem = radiation_problem(*file);
+  ASSERT_TRUE(problem.drifting);
+  const Eigen::MatrixXd& mass = problem.drifting->mass;
+  EXPECT_NEAR(mass(1, 5), -1722e3 * 0.5, 1.0);
+  EXPECT_NEAR(problem.drifting->damping(0, 0), 20e3, 1e-6);
   const dynamics::HydrodynamicSeries series{0, {0.0}, {database}};
   const BuiltMechanism built = build_mechanism(*file, &series);
   const auto drifts = [](const dynamics::LiftSystem& system) {
