@@ -212,8 +212,8 @@ class ErrorOfPanelsOfABroadBox : public ::testing::TestWithParam<std::array<int,
 // Without waves the water moves most sharply round its edges and along its water line: the added
 // mass at infinite frequency has twice the error of the forces in waves, 10 and 15 % in surge and
 // yaw with panels of 2 m. A side of one panel has no coarser one to tell, 26 and 36 %; of three
-// panels one is left over. Against panels that are finer towards the edges, of 0.03 to 0.25 m
-// across them; they are 0.5 % off at the most.
+// panels one is left over. Against panels that are finer
+// towards the edges: half as many again on each side change them by less than 0.5 %.
 TEST_P(ErrorOfPanelsOfABroadBox, HoldsItsAddedMassAtInfiniteFrequency) {
   const auto [along, down] = GetParam();
   DatabaseSettings settings;
