@@ -172,10 +172,11 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   problem.frequencies = radiation_frequencies();
   problem.method = parts_.sea->radiation.method.value;
   problem.headings = default_headings();
-  for (const VesselInCase& vessel : parts_.vessels) {
-    if (vessel.drift.value == DriftMethod::none || problem.given) continue;
-    problem.drifting = free_vessel(vessel, problem.bodies.front().p_BoR_B);
-  }
+  // What a named database's excitation has in the mean by itself is known of waves alone.
+  const bool drifts = std::any_of(
+      parts_.vessels.begin(), parts_.vessels.end(),
+      [](const VesselInCase& vessel) { return vessel.drift.value != DriftMethod::none; });
+  if (drifts && (!problem.given || has_waves())) problem.drifting = free_vessels(problem);
   problem.direct = std::any_of(
       parts_.vessels.begin(), parts_.vessels.end(),
       [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });
@@ -358,23 +359,46 @@ void MarineBuilder::add_restraint(const VesselInCase& vessel, BodyIndex body,
   std::get<std::vector<dynamics::LinearRestraint>>(elements).emplace_back(restraint);
 }
 
-RadiationProblem::FreeVessel MarineBuilder::free_vessel(const VesselInCase& vessel,
-                                                        const Vector3& p_BoR_B) const {
+RadiationProblem::FreeVessels MarineBuilder::free_vessels(const RadiationProblem& problem) const {
+  const auto modes = dynamics::modes_per_body * static_cast<Eigen::Index>(problem.bodies.size());
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(modes, modes);
+  RadiationProblem::FreeVessels all{none, none, none};
+  Eigen::Index first = 0;
+  for (const RadiationProblem::Body& body : problem.bodies) {
+    const auto vessel =
+        std::find_if(parts_.vessels.begin(), parts_.vessels.end(),
+                     [&](const VesselInCase& one) { return one.name.value == body.name; });
+    const RadiationProblem::FreeVessels alone = free_vessel(*vessel, body);
+    all.mass.block<6, 6>(first, first) = alone.mass;
+    all.stiffness.block<6, 6>(first, first) = alone.stiffness;
+    all.damping.block<6, 6>(first, first) = alone.damping;
+    first += dynamics::modes_per_body;
+  }
+  return all;
+}
+
+RadiationProblem::FreeVessels MarineBuilder::free_vessel(const VesselInCase& vessel,
+                                                         const RadiationProblem::Body& body) const {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const VesselModel& model = vessel.model->model;
   const dynamics::Pose& X_WB = start(vessel.name.value);
   const Vector3 p_BoBcm_W = X_WB.R * model.centre_of_mass;
   // Motion of the centre of mass by that of the reference point: displacement + rotation x arm.
   Matrix6 at_centre = Matrix6::Identity();
-  at_centre.topRightCorner<3, 3>() = -dynamics::skew(p_BoBcm_W - X_WB.R * p_BoR_B);
+  at_centre.topRightCorner<3, 3>() = -dynamics::skew(p_BoBcm_W - X_WB.R * body.p_BoR_B);
   Matrix6 turned = Matrix6::Zero();
   turned.topLeftCorner<3, 3>() = X_WB.R;
   turned.bottomRightCorner<3, 3>() = X_WB.R;
   Eigen::Matrix<double, 6, 1> linear;
   const Eigen::Matrix<double, 6, 1> given = vessel.damping.vector();
   linear << given.tail<3>(), given.head<3>();
+  const dynamics::Matrix3 R_WD = X_WB.R * body.X_DB.R.transpose();
+  Matrix6 of_world = Matrix6::Zero();
+  of_world.topLeftCorner<3, 3>() = R_WD;
+  of_world.bottomRightCorner<3, 3>() = R_WD;
+  const Matrix6 from_reference = at_centre * of_world;
   const auto about_reference = [&](const Matrix6& matrix) {
-    return Eigen::MatrixXd(at_centre.transpose() * matrix * at_centre);
+    return Eigen::MatrixXd(from_reference.transpose() * matrix * from_reference);
   };
   const dynamics::Hydrostatics rest =
       calc_hydrostatics(dynamics::HullClusters(vessel.model->hull), X_WB);

@@ -91,9 +91,11 @@ class MarineBuilder {
                      dynamics::ForceElements& elements) const;
   void add_current_load(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
                         dynamics::ForceElements& elements);
-  /// As it floats, with what stands on it at its own centre of mass.
-  RadiationProblem::FreeVessel free_vessel(const VesselInCase& vessel,
-                                           const Vector3& p_BoR_B) const;
+  /// The vessels of the problem's bodies, in their order.
+  RadiationProblem::FreeVessels free_vessels(const RadiationProblem& problem) const;
+  /// One as it floats, with what stands on it at its own centre of mass.
+  RadiationProblem::FreeVessels free_vessel(const VesselInCase& vessel,
+                                            const RadiationProblem::Body& body) const;
   void add_lines(const BodyOf& point, dynamics::ForceElements& elements) const;
   /// A body that makes waves, at rest.
   struct Radiating {

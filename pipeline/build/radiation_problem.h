@@ -39,12 +39,13 @@ struct RadiationProblem {
   dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
   std::vector<dynamics::DampingLid> lids = {};  ///< in D
   Mark place;                                   ///< of what the file says about radiation
-  /// Of the one vessel whose mean drift is asked for, floating freely, 6 x 6 about its reference
-  /// point along the axes of D; none: no drift, or one that `given` tells.
-  struct FreeVessel {
+  /// Where mean drift is asked for: all bodies floating freely, 6N x 6N about their reference
+  /// points along the axes of D; a single body, but for one of `given`. None: no drift, or no
+  /// waves in which that of `given` would matter.
+  struct FreeVessels {
     Eigen::MatrixXd mass, stiffness, damping;
   };
-  std::optional<FreeVessel> drifting = std::nullopt;
+  std::optional<FreeVessels> drifting = std::nullopt;
   bool direct = false;  ///< the surface is marched beside the vessels: no database
   std::vector<dynamics::RegularWave> waves;  ///< that they scatter meanwhile, in D
   dynamics::WaveRamp ramp;

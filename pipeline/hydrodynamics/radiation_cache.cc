@@ -335,14 +335,20 @@ std::vector<dynamics::MemoryStateSpace> find_memories(
 
 namespace {
 
-/// The mean drift forces of a vessel that floats freely, less what the excitation of a simulation
-/// has in the mean by itself (calc_excitation_drift).
-void add_mean_drift(const RadiationProblem::FreeVessel& vessel, bool has_lids,
-                    dynamics::HydrodynamicDatabase& database) {
-  database.hydrostatic_stiffness = vessel.stiffness;
+/// The mean drift forces of a problem's drifting vessels that float freely, or those that a named
+/// database holds of its vessels, less what the excitation of a simulation has in the mean by
+/// itself (calc_excitation_drift).
+void add_mean_drift(const RadiationProblem& problem, dynamics::HydrodynamicDatabase& database) {
+  const RadiationProblem::FreeVessels& vessels = *problem.drifting;
+  const Eigen::MatrixXd stiffness =
+      std::exchange(database.hydrostatic_stiffness, vessels.stiffness);
   const std::vector<Eigen::MatrixXcd> motions =
-      calc_response_amplitudes(database, vessel.mass, vessel.damping);
-  database.mean_drift = calc_mean_drift(database, motions, vessel.damping, has_lids);
+      calc_response_amplitudes(database, vessels.mass, vessels.damping);
+  if (problem.given)
+    database.hydrostatic_stiffness = stiffness;
+  else
+    database.mean_drift =
+        calc_mean_drift(database, motions, vessels.damping, !problem.lids.empty());
   const std::vector<Eigen::MatrixXd> besides = calc_excitation_drift(database, motions);
   for (std::size_t k = 0; k < besides.size(); ++k) database.mean_drift[k] -= besides[k];
 }
@@ -374,7 +380,7 @@ FoundRadiation find_radiation(const RadiationProblem& problem,
     lost = found.lost;
   }
   if (problem.drifting) {
-    add_mean_drift(*problem.drifting, !problem.lids.empty(), series.databases.front());
+    add_mean_drift(problem, series.databases.front());
   }
   // What is taken of a given one for the case's bodies has lost what its maker found out about it.
   const std::span<const dynamics::HydrodynamicDatabase> doubted =

@@ -12,6 +12,7 @@
 #include "dynamics/marine/green/common_poles.h"
 #include "dynamics/marine/green/damping_beyond.h"
 #include "dynamics/marine/green/hull_equations.h"
+#include "dynamics/marine/panels/lone_rows.h"
 #include "dynamics/marine/radiation/database_parts.h"
 #include "dynamics/marine/radiation/retardation_from_damping.h"
 
@@ -140,9 +141,20 @@ class HullComputation {
 };
 
 void HullComputation::add_infinite_frequency() {
-  const MatrixXcd mass = equations_.calc_radiation(equations_.solve(infinite), infinite);
+  const std::vector<HullEquations::Part> parts =
+      equations_.solve(infinite, {.coarser = coarser_.sought()});
+  const MatrixXcd mass = equations_.calc_radiation(parts, infinite);
   account_.reciprocity_error = asymmetry_of(mass);
   database_.infinite_added_mass = 0.5 * (mass.real() + mass.real().transpose());
+  if (!coarser_.sought()) return;
+  coarser_.infinite_mass = equations_.calc_coarser_radiation(parts, infinite).diagonal().real();
+  for (const HullEquations::Part& part : parts) {
+    coarser_.infinite_arms(part.modes) +=
+        calc_coarser_arms(model_, part, equations_.coarser_panels()).real();
+  }
+  const double density = model_.water().density;
+  const VectorXd volumes = database_.infinite_added_mass.diagonal() / density;
+  coarser_.infinite_error = density * calc_error_of_lone_rows(model_, volumes, settings_.rankine);
 }
 
 VectorXcd HullComputation::solve(double frequency) {
@@ -302,7 +314,7 @@ HydrodynamicDatabase HullComputation::run() {
   check_memory(found);
   if (settings_.with_coarser) {
     const PanelClusters& clusters = equations_.coarser_panels().bodies;
-    database_.change_from_coarser = error_of_panels(largest_change(database_, coarser_), clusters);
+    database_.change_from_coarser = calc_radiation_error(database_, coarser_, clusters);
     database_.excitation_change_from_coarser =
         error_of_panels(largest_excitation_change(database_, coarser_), clusters);
   }

@@ -58,10 +58,10 @@ double level_share(const Vector3& field, const Vector3& source, const Vector3& n
 
 double hull_equations_bytes(int unknowns, int parts) {
   const double n = unknowns;
-  // Four real matrices of each part, a quarter of two more at the middles of clusters, and two
+  // Four real matrices of each part, a quarter of four more at the middles of clusters, and two
   // complex ones, one more, and its factors in single precision.
   constexpr double real = sizeof(double), complex = sizeof(Complex);
-  return n * n * (parts * (4.5 * real + 2.0 * complex) + 1.5 * complex);
+  return n * n * (parts * (5.0 * real + 2.0 * complex) + 1.5 * complex);
 }
 
 HullEquations::HullEquations(const PanelModel& model, const Settings& settings)
@@ -182,6 +182,9 @@ void HullEquations::integrate_at_middles() {
       return MatrixXd(-coarser_.bodies.average(areas, of_hull)(coarser_.flat.clusters, Eigen::all));
     };
     at_middles_.push_back({mean(images.source), mean(images.dipole)});
+    const Influence<double>& mirrored = surface_images_[at_middles_.size() - 1];
+    at_middles_without_waves_.push_back(
+        {mean(images.source - 2.0 * mirrored.source), mean(images.dipole - 2.0 * mirrored.dipole)});
   }
   if (rows == 0) return;
   parallel::for_each(hull_count_, settings_.threads, [&](int j) {
@@ -198,6 +201,10 @@ void HullEquations::integrate_at_middles() {
           const double sign = model_.sign(parities_[p], g);
           at_middles_[p].source.col(j) += sign * source;
           at_middles_[p].dipole.col(j) += sign * dipole;
+          // The image in the surface has the other sign there.
+          const double without_waves = k == 1 ? -sign : sign;
+          at_middles_without_waves_[p].source.col(j) += without_waves * source;
+          at_middles_without_waves_[p].dipole.col(j) += without_waves * dipole;
         }
       }
     }
@@ -358,7 +365,11 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency,
       of_means = -(of_source * means.cast<Complex>());
     }
     waves[p] = {};
-    if (extent.coarser) part.coarser_potentials = solve_coarser(p, matrix, of_means, means);
+    if (extent.coarser) {
+      const Influence<double>& at_middles =
+          std::isinf(frequency) ? at_middles_without_waves_[p] : at_middles_[p];
+      part.coarser_potentials = solve_coarser(at_middles, matrix, of_means, means);
+    }
     solve_in_place(matrix, right, "the matrix of the hulls' panels");
     part.potentials = right.topLeftCorner(hull_count_, modes);
     part.scattered = right.topRows(hull_count_).rightCols(scattered.cols());
@@ -368,7 +379,7 @@ std::vector<HullEquations::Part> HullEquations::solve(double frequency,
 
 // Potentials and velocities are constant on the clusters. Equations hold at the middles of those
 // that are flat, but for the waves' smooth share, and in the mean over others. Cells stay.
-MatrixXcd HullEquations::solve_coarser(std::size_t part, const MatrixXcd& matrix,
+MatrixXcd HullEquations::solve_coarser(const Influence<double>& at_middles, const MatrixXcd& matrix,
                                        const MatrixXcd& right, const MatrixXd& velocities) const {
   const Eigen::VectorXd areas = model_.body_areas();
   const Eigen::VectorXd whole = coarser_.bodies.sum(areas);
@@ -384,7 +395,7 @@ MatrixXcd HullEquations::solve_coarser(std::size_t part, const MatrixXcd& matrix
   for (int j = 0; j < matrix.cols(); ++j) {
     for (int i = 0; i < matrix.rows(); ++i) coarser(place(i), place(j)) += share(i) * matrix(i, j);
   }
-  const auto& [source, dipole] = at_middles_[part];
+  const auto& [source, dipole] = at_middles;
   const MatrixXcd of_hull = coarser_.bodies.sum_columns(dipole).cast<Complex>();
   const MatrixXcd of_modes = (source * velocities).cast<Complex>();
   for (std::size_t k = 0; k < coarser_.flat.clusters.size(); ++k) {

@@ -61,7 +61,7 @@ class HullEquations {
   /// What is solved besides the modes' flow.
   struct Extent {
     std::vector<double> headings = {};  ///< of waves whose scattering is sought, rad
-    /// The modes' flow with panels of twice the size, too; of no infinite frequency.
+    /// The modes' flow with panels of twice the size, too.
     bool coarser = false;
   };
   /// @param frequency rad/s; infinite: the flow of an impulse, phi = 0 on the surface.
@@ -94,10 +94,10 @@ class HullEquations {
   Eigen::MatrixXcd make_matrix(const Influence<std::complex<double>>& waves, double frequency,
                                int count) const;
   /// The modes' potentials by clusters of the hulls' panels, on each panel.
-  /// @param right of these velocities. @param part index.
+  /// @param right of these velocities. @param at_middles of the part (at_middles_).
   /// @param velocities of the modes, the mean of its cluster on each panel, a column each.
-  Eigen::MatrixXcd solve_coarser(std::size_t part, const Eigen::MatrixXcd& matrix,
-                                 const Eigen::MatrixXcd& right,
+  Eigen::MatrixXcd solve_coarser(const Influence<double>& at_middles,
+                                 const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right,
                                  const Eigen::MatrixXd& velocities) const;
   struct WaveBlock;
   /// Adds what the waves of panels or cells from `column` on are at the centroids from `row` on,
@@ -124,6 +124,7 @@ class HullEquations {
   /// For each part, what 1/r and its images at flat clusters' middles (rows) are more than in the
   /// mean over the clusters, of the hulls' panels (columns).
   std::vector<Influence<double>> at_middles_;
+  std::vector<Influence<double>> at_middles_without_waves_;  ///< the same of infinite frequency
   /// Of 1/r + 1/r1 + 1/r2 by part, and of 1/r1 alone.
   std::vector<Influence<double>> images_, surface_images_;
 };

@@ -12,13 +12,9 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 void require_motions(const HydrodynamicDatabase& database, const std::vector<MatrixXcd>& motions) {
-  if (database.body_count() != 1) {
-    throw ModelError("the drift of the excitation is sought of " +
-                     std::to_string(database.body_count()) + " bodies, not of one");
-  }
   bool fits = motions.size() == database.frequencies.size();
   for (const MatrixXcd& motion : motions) {
-    fits = fits && motion.rows() == modes_per_body &&
+    fits = fits && motion.rows() == database.mode_count() &&
            motion.cols() == static_cast<Eigen::Index>(database.headings.size());
   }
   if (!fits) {
@@ -27,8 +23,9 @@ void require_motions(const HydrodynamicDatabase& database, const std::vector<Mat
 }
 
 /// Phase of R against the database's origin in waves of a number (rad/m), for each heading.
-Eigen::RowVectorXcd phases_at_reference(const HydrodynamicDatabase& database, double wave_number) {
-  const Vector3& p = database.reference_points[0];
+Eigen::RowVectorXcd phases_at_reference(const HydrodynamicDatabase& database, int body,
+                                        double wave_number) {
+  const Vector3& p = database.reference_points[static_cast<std::size_t>(body)];
   Eigen::RowVectorXcd phases(static_cast<Eigen::Index>(database.headings.size()));
   for (Eigen::Index j = 0; j < phases.size(); ++j) {
     const double heading = database.headings[j];
@@ -47,6 +44,27 @@ Eigen::Vector2cd slope_at(const std::vector<double>& headings, const MatrixXcd& 
   return 0.5 * ((X.col(after) - X.col(j)) / gap_after + (X.col(j) - X.col(before)) / gap_before);
 }
 
+/// Of one body in one frequency (index): surge and sway, for each of headings that go round.
+Eigen::Matrix2Xd drift_of_body(const HydrodynamicDatabase& database, int body,
+                               const std::vector<MatrixXcd>& motions, std::size_t k,
+                               const std::vector<double>& headings) {
+  const Eigen::Index first = modes_per_body * Eigen::Index{body};
+  const double wave_number = calc_wave_number(database.frequencies[k], database.water);
+  const Eigen::RowVectorXcd phases = phases_at_reference(database, body, wave_number);
+  const MatrixXcd X = database.excitation(k).middleRows<2>(first) * phases.asDiagonal();
+  const MatrixXcd xi = motions[k].middleRows<modes_per_body>(first) * phases.asDiagonal();
+  Eigen::Matrix2Xd drift(2, static_cast<Eigen::Index>(headings.size()) - 1);
+  for (Eigen::Index j = 0; j < drift.cols(); ++j) {
+    const std::complex<double> way =
+        wave_number * (std::cos(headings[j]) * xi(surge, j) + std::sin(headings[j]) * xi(sway, j));
+    const Eigen::Vector2cd turned =
+        Eigen::Vector2cd(-X(sway, j), X(surge, j)) - slope_at(headings, X, j);
+    drift.col(j) =
+        0.5 * (X.col(j) * std::conj(way)).imag() + 0.5 * (turned * std::conj(xi(yaw, j))).real();
+  }
+  return drift;
+}
+
 }  // namespace
 
 std::vector<MatrixXd> calc_excitation_drift(const HydrodynamicDatabase& database,
@@ -55,23 +73,16 @@ std::vector<MatrixXd> calc_excitation_drift(const HydrodynamicDatabase& database
   const std::vector<double> headings =
       headings_of_whole_turn("the drift of the excitation", database.headings);
   const auto count = static_cast<Eigen::Index>(headings.size()) - 1;
+  const auto columns = static_cast<Eigen::Index>(database.headings.size());
   std::vector<MatrixXd> drift;
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
-    const double wave_number = calc_wave_number(database.frequencies[k], database.water);
-    const Eigen::RowVectorXcd phases = phases_at_reference(database, wave_number);
-    const MatrixXcd X = database.excitation(k).topRows<2>() * phases.asDiagonal();
-    const MatrixXcd xi = motions[k] * phases.asDiagonal();
-    MatrixXd& D = drift.emplace_back(MatrixXd::Zero(modes_per_body, xi.cols()));
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const std::complex<double> way = wave_number * (std::cos(headings[j]) * xi(surge, j) +
-                                                      std::sin(headings[j]) * xi(sway, j));
-      const Eigen::Vector2cd turned =
-          Eigen::Vector2cd(-X(sway, j), X(surge, j)) - slope_at(headings, X, j);
-      D.col(j).head<2>() =
-          0.5 * (X.col(j) * std::conj(way)).imag() + 0.5 * (turned * std::conj(xi(yaw, j))).real();
+    MatrixXd& D = drift.emplace_back(MatrixXd::Zero(database.mode_count(), columns));
+    for (int body = 0; body < database.body_count(); ++body) {
+      D.block(modes_per_body * Eigen::Index{body}, 0, 2, count) =
+          drift_of_body(database, body, motions, k, headings);
     }
     // 0 and 360 degrees may both be there.
-    D.rightCols(D.cols() - count) = D.leftCols(D.cols() - count).eval();
+    D.rightCols(columns - count) = D.leftCols(columns - count).eval();
   }
   return drift;
 }

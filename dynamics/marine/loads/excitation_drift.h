@@ -21,11 +21,13 @@ namespace blocklift::dynamics {
 /// of the second. Between headings X is linear, so that dX/dtheta is the mean of its slopes on
 /// either side. Of the moment of yaw nothing is told: the radiated waves' force has a share in it.
 ///
-/// @param motions of each frequency, 6 x headings, m/m and rad/m (calc_response_amplitudes).
-/// @returns for each frequency 6 x headings, along the axes of the database: surge and sway (N/m2),
-///   all others zero.
-/// @throws ModelError if the database holds several bodies, the motions are not of its size, or its
-///   headings do not go round a whole turn at most 45 degrees apart.
+/// Several bodies have each their own, by their coupled motions.
+///
+/// @param motions of each frequency, 6N x headings, m/m and rad/m (calc_response_amplitudes).
+/// @returns for each frequency 6N x headings, along the axes of the database: surge and sway
+///   (N/m2), all others zero.
+/// @throws ModelError if the motions are not of the database's size, or its headings do not go
+///   round a whole turn at most 45 degrees apart.
 std::vector<Eigen::MatrixXd> calc_excitation_drift(const HydrodynamicDatabase& database,
                                                    const std::vector<Eigen::MatrixXcd>& motions);
 

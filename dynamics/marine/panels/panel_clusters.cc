@@ -69,9 +69,22 @@ bool may_join(const Cover& a, const Cover& b, double largest) {
          a.box.merged(b.box).diagonal().norm() <= largest;
 }
 
+/// What is left over must make a rectangle with the pair that it joins, or nearly: the middle of an
+/// angle lies outside of it, and its equation would be another cluster's.
+bool may_join_as_third(const Cover& alone, const Cover& pair, double largest) {
+  constexpr double filled = 0.75;
+  if (!may_join(alone, pair, largest)) return false;
+  // The box's shadow along the normal, times the area.
+  const Vector3 area = (alone.area + pair.area).cwiseAbs();
+  const Vector3 size = alone.box.merged(pair.box).sizes();
+  const double shadow = area.x() * size.y() * size.z() + area.y() * size.x() * size.z() +
+                        area.z() * size.x() * size.y();
+  return area.squaredNorm() >= filled * shadow;
+}
+
 /// Joins neighbouring clusters two by two, those first that share the longest edges.
 void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, double largest,
-                PanelClusters& clusters) {
+                LeftOver left_over, PanelClusters& clusters) {
   const std::vector<Cover> covers = find_covers(mesh, clusters);
   std::map<Pair, double> common;
   for (const SharedEdge& edge : edges) {
@@ -84,10 +97,23 @@ void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, dou
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   std::vector<int> renamed(covers.size(), -1);
   int count = 0;
+  std::vector<Cover> joined;
   for (const auto& [pair, length] : ordered) {
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (renamed[a] >= 0 || renamed[b] >= 0 || !may_join(covers[a], covers[b], largest)) continue;
     renamed[a] = renamed[b] = count++;
+    joined.push_back({covers[a].area + covers[b].area, covers[a].box.merged(covers[b].box)});
+  }
+  std::vector<bool> full(joined.size(), left_over == LeftOver::stays);
+  for (const auto& [pair, length] : ordered) {
+    auto alone = static_cast<std::size_t>(pair.first);
+    auto other = static_cast<std::size_t>(pair.second);
+    if (renamed[alone] >= 0) std::swap(alone, other);
+    if (renamed[alone] >= 0 || renamed[other] < 0) continue;
+    const auto cluster = static_cast<std::size_t>(renamed[other]);
+    if (full[cluster] || !may_join_as_third(covers[alone], joined[cluster], largest)) continue;
+    renamed[alone] = renamed[other];
+    full[cluster] = true;
   }
   for (int& name : renamed) {
     if (name < 0) name = count++;
@@ -145,18 +171,19 @@ Eigen::MatrixXd PanelClusters::coarsen(const Eigen::MatrixXd& matrix, const Pane
   return result;
 }
 
-PanelClusters cluster_panels(const PanelMesh& mesh, double largest) {
+PanelClusters cluster_panels(const PanelMesh& mesh, double largest, LeftOver left_over) {
   PanelClusters clusters;
   clusters.count = mesh.size();
   for (int k = 0; k < mesh.size(); ++k) clusters.of_panel.push_back(k);
   const std::vector<SharedEdge> edges = find_shared_edges(mesh);
-  for (int pass = 0; pass < 2; ++pass) join_pairs(mesh, edges, largest, clusters);
+  join_pairs(mesh, edges, largest, LeftOver::stays, clusters);
+  join_pairs(mesh, edges, largest, left_over, clusters);
   return clusters;
 }
 
 Eigen::VectorXd error_of_panels(const Eigen::VectorXd& changes, const PanelClusters& clusters) {
   const auto panels = static_cast<double>(clusters.of_panel.size());
-  const double ratio = std::sqrt(panels / clusters.count);
+  const double ratio = std::min(2.0, std::sqrt(panels / clusters.count));
   if (!(ratio > 1.0))
     return Eigen::VectorXd::Constant(changes.size(), std::numeric_limits<double>::infinity());
   return changes / (ratio - 1.0);
@@ -196,7 +223,7 @@ CoarserPanels make_coarser_panels(const PanelMesh& bodies, const PanelMesh& surf
                                   double largest) {
   PanelClusters of_bodies = cluster_panels(bodies);
   FlatClusters flat = find_flat_clusters(bodies, of_bodies);
-  return {std::move(of_bodies), std::move(flat), cluster_panels(surface, largest)};
+  return {std::move(of_bodies), std::move(flat), cluster_panels(surface, largest, LeftOver::stays)};
 }
 
 }  // namespace blocklift::dynamics

@@ -38,16 +38,26 @@ struct PanelClusters {
                                  const Eigen::VectorXd& row_areas, const PanelClusters& columns);
 };
 
-/// Clusters of up to four panels, of about twice a panel's size and at most `largest` (m) across.
+/// What becomes of a panel whose neighbours all have a partner.
+enum class LeftOver {
+  joins,  ///< a pair beside it, as its third
+  stays,  ///< by itself
+};
+
+/// Clusters of about four panels, of about twice a panel's size and at most `largest` (m) across.
 /// Panels are paired with the neighbour with which they share the longest edge, then the pairs once
-/// more. Those that meet at more than 45 degrees stay apart.
+/// more. Those that meet at more than 45 degrees stay apart. A row that is left over at an edge, of
+/// three for instance, would be as fine there in the coarser mesh as in the finer one, and tell
+/// nothing of the edge.
 PanelClusters cluster_panels(const PanelMesh& mesh,
-                             double largest = std::numeric_limits<double>::infinity());
+                             double largest = std::numeric_limits<double>::infinity(),
+                             LeftOver left_over = LeftOver::joins);
 
 /// The error of panels at first order in their size, from what their forces change by from clusters
 /// of them: 1/(r - 1) times as much, r^2 the panels in a cluster in the mean. The changes
 /// themselves where four are joined everywhere; more where hulls are few panels wide or high, which
-/// leave panels alone. Infinite where none are joined.
+/// leave panels alone. Never less, where threes are joined: those at the edges may be twos.
+/// Infinite where none are joined.
 Eigen::VectorXd error_of_panels(const Eigen::VectorXd& changes, const PanelClusters& clusters);
 
 /// Clusters of several panels that lie in a plane.

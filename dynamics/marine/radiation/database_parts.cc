@@ -138,7 +138,10 @@ CoarserForces::CoarserForces(Eigen::Index modes, std::size_t count, std::size_t 
     : radiation(count, MatrixXcd::Zero(modes, modes)),
       diffraction(headings == 0 ? 0 : count,
                   MatrixXcd::Zero(modes, static_cast<Eigen::Index>(headings))),
-      arms(MatrixXcd::Zero(modes, static_cast<Eigen::Index>(count))) {}
+      arms(MatrixXcd::Zero(modes, static_cast<Eigen::Index>(count))),
+      infinite_mass(Eigen::VectorXd::Zero(modes)),
+      infinite_arms(Eigen::VectorXd::Zero(modes)),
+      infinite_error(Eigen::VectorXd::Zero(modes)) {}
 
 void CoarserForces::miss(const std::vector<int>& modes) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -146,13 +149,33 @@ void CoarserForces::miss(const std::vector<int>& modes) {
   for (MatrixXcd& force : diffraction) force(modes, Eigen::all).setConstant(unknown);
 }
 
-Eigen::VectorXd largest_change(const HydrodynamicDatabase& database, const CoarserForces& coarser) {
+namespace {
+
+/// What a change is, with the arms filled in or without.
+MatrixXd larger_with_or_without(const MatrixXcd& changes, const MatrixXcd& arms) {
+  return changes.cwiseAbs().cwiseMax((changes - arms).cwiseAbs());
+}
+
+}  // namespace
+
+Eigen::VectorXd calc_radiation_error(const HydrodynamicDatabase& database,
+                                     const CoarserForces& coarser, const PanelClusters& clusters) {
+  std::vector<int> modes(static_cast<std::size_t>(database.mode_count()));
+  std::iota(modes.begin(), modes.end(), 0);
   MatrixXcd changes = forces_on_themselves(database);
   for (std::size_t k = 0; k < coarser.radiation.size(); ++k) {
     changes.col(static_cast<Eigen::Index>(k)) -= coarser.radiation[k].diagonal();
   }
-  const MatrixXd filled = (changes - coarser.arms).cwiseAbs();
-  return largest_share(database, changes.cwiseAbs().cwiseMax(filled));
+  const Eigen::VectorXd in_waves =
+      largest_share(database, larger_with_or_without(changes, coarser.arms));
+  const MatrixXd mass = database.infinite_added_mass.diagonal();
+  const MatrixXcd as_force = Complex(0.0, 1.0) * mass;
+  const MatrixXcd change = mass - coarser.infinite_mass, arms = coarser.infinite_arms;
+  const Eigen::VectorXd at_infinity =
+      largest_share(modes, as_force, larger_with_or_without(change, arms));
+  return error_of_panels(in_waves, clusters)
+      .cwiseMax(error_of_panels(at_infinity, clusters) +
+                largest_share(modes, as_force, coarser.infinite_error));
 }
 
 Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
@@ -203,9 +226,8 @@ void add_diffraction(const PanelModel& model, const FlowOfPart& flow, std::size_
   (*coarser)(flow.modes, Eigen::all) += factor * (weighted.transpose() * opposed);
 }
 
-void add_coarser_arms(const PanelModel& model, const FlowOfPart& flow, const CoarserPanels& panels,
-                      const HydrodynamicDatabase& database, std::size_t frequency,
-                      CoarserForces& coarser) {
+Eigen::VectorXcd calc_coarser_arms(const PanelModel& model, const FlowOfPart& flow,
+                                   const CoarserPanels& panels) {
   const Eigen::VectorXd& areas = model.body_areas();
   const auto within = [&](const MatrixXd& values) {
     const MatrixXd means = panels.bodies.average(areas, values);
@@ -219,10 +241,15 @@ void add_coarser_arms(const PanelModel& model, const FlowOfPart& flow, const Coa
   MatrixXcd potentials(flow.potentials.rows(), flow.potentials.cols());
   potentials.real() = within(flow.potentials.real());
   potentials.imag() = within(flow.potentials.imag());
-  const Complex factor(0.0, -2.0 * database.frequencies[frequency] * model.water().density *
-                                model.symmetry().image_count());
+  const double factor = -2.0 * model.water().density * model.symmetry().image_count();
+  return factor * weighted.cast<Complex>().cwiseProduct(potentials).colwise().sum().transpose();
+}
+
+void add_coarser_arms(const PanelModel& model, const FlowOfPart& flow, const CoarserPanels& panels,
+                      const HydrodynamicDatabase& database, std::size_t frequency,
+                      CoarserForces& coarser) {
   coarser.arms(flow.modes, static_cast<Eigen::Index>(frequency)) +=
-      factor * weighted.cast<Complex>().cwiseProduct(potentials).colwise().sum().transpose();
+      Complex(0.0, database.frequencies[frequency]) * calc_coarser_arms(model, flow, panels);
 }
 
 void add_far_field(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,

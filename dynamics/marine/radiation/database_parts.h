@@ -35,16 +35,26 @@ struct CoarserForces {
 
   std::vector<Eigen::MatrixXcd> radiation;    ///< B + i w A, 6N x 6N for each frequency
   std::vector<Eigen::MatrixXcd> diffraction;  ///< 6N x headings for each; empty: not sought
-  /// What of each mode's force on itself lies within the coarser panels (add_coarser_arms); 6N x
+  /// What of each mode's force on itself lies within the coarser panels (calc_coarser_arms); 6N x
   /// frequencies.
   Eigen::MatrixXcd arms;
+  /// The added mass of each mode on itself at infinite frequency, 6N, and the coarser panels' arms
+  /// in it; and what rows of panels that have no coarser ones miss of it (calc_error_of_lone_rows).
+  /// kg, kg m2.
+  Eigen::VectorXd infinite_mass, infinite_arms, infinite_error;
 };
 
-/// The largest_share() by which the forces change from those of coarser panels, B + i w A: with
-/// their arms filled in or without, whichever is more. On broad flat bottoms arms hide the edges'
-/// error: they make turning too easy, at second order in the panels' size, where sharp edges make
-/// it too hard at first. Filled in, what is left is the edges'.
-Eigen::VectorXd largest_change(const HydrodynamicDatabase& database, const CoarserForces& coarser);
+/// The panels' error of each mode's radiation force on itself, relative: the largest over the
+/// frequencies, the infinite among them. There the water moves most sharply round edges and along
+/// water lines, and a shallow hull's error is up to twice that in waves; forces without memory have
+/// it.
+///
+/// From what B + i w A changes by from coarser panels (error_of_panels): with their arms filled in
+/// or without, whichever is more. On broad flat bottoms arms hide the edges' error: they make
+/// turning too easy, at second order in the panels' size, where sharp edges make it too hard at
+/// first. Filled in, what is left is the edges'.
+Eigen::VectorXd calc_radiation_error(const HydrodynamicDatabase& database,
+                                     const CoarserForces& coarser, const PanelClusters& clusters);
 
 /// For each mode, the largest difference of its diffraction from that of coarser panels, over
 /// frequencies and headings, as a share of the largest excitation of the mode over them. Zero for a
@@ -75,15 +85,19 @@ struct FlowOfPart {
 void add_diffraction(const PanelModel& model, const FlowOfPart& flow, std::size_t frequency,
                      HydrodynamicDatabase& database, Eigen::MatrixXcd* coarser = nullptr);
 
-/// Adds what the coarser panels leave out of the part's radiation forces as they have one pressure
-/// and one velocity each: of a mode's force on itself, with v its normal velocity, phi its
-/// potential, both of the finer panels, and means over the flat clusters of these,
+/// What the coarser panels leave out of the part's radiation forces as they have one pressure and
+/// one velocity each: of a mode's force on itself, with v its normal velocity, phi its potential,
+/// both of the finer panels, and means over the flat clusters of these,
 ///
-///   -2 i w rho sum over panels of area (v - mean v)(phi - mean phi),
+///   -2 rho sum over panels of area (v - mean v)(phi - mean phi),
 ///
-/// once for the pressures' arms, and by reciprocity once for the velocities. Nothing where a
-/// cluster moves along its normal as a whole.
-/// @param frequency index.
+/// once for the pressures' arms, and by reciprocity once for the velocities; of its added mass.
+/// Nothing where a cluster moves along its normal as a whole.
+/// @returns of the flow's modes; kg, kg m2.
+Eigen::VectorXcd calc_coarser_arms(const PanelModel& model, const FlowOfPart& flow,
+                                   const CoarserPanels& panels);
+
+/// Adds the part's arms at a frequency (index).
 void add_coarser_arms(const PanelModel& model, const FlowOfPart& flow, const CoarserPanels& panels,
                       const HydrodynamicDatabase& database, std::size_t frequency,
                       CoarserForces& coarser);

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "dynamics/errors.h"
+#include "dynamics/marine/panels/lone_rows.h"
 #include "dynamics/marine/radiation/database_parts.h"
 #include "dynamics/marine/radiation/frequency_domain.h"
 #include "dynamics/marine/radiation/impulse_run.h"
@@ -165,11 +166,15 @@ void PartComputation::add_frequencies(HydrodynamicDatabase& database) const {
 
 void PartComputation::add_coarser(CoarserForces& coarser) const {
   const auto& modes = part_.modes();
+  const MatrixXd& volume = part_.coarser()->infinite_frequency_volume();
+  const FlowOfPart at_infinity{part_.parity(), modes, part_.normal_velocities(),
+                               part_.body_columns()};
+  coarser.infinite_mass(modes) += model_.water().density * volume.diagonal();
+  coarser.infinite_arms(modes) += calc_coarser_arms(model_, at_infinity, *coarser_panels_).real();
   if (!coarser_run_) {
     coarser.miss(modes);
     return;
   }
-  const MatrixXd& volume = part_.coarser()->infinite_frequency_volume();
   for (std::size_t k = 0; k < settings_.frequencies.size(); ++k) {
     const MatrixXd mass = model_.water().density * volume + coarser_run_->added_mass(k);
     coarser.radiation[k](modes, modes) +=
@@ -230,6 +235,14 @@ void PartComputation::add_distant_waves(HydrodynamicDatabase& database) const {
   }
 }
 
+/// Of each mode's added mass on itself at infinite frequency, 6N; kg, kg m2.
+Eigen::VectorXd find_error_of_lone_rows(const PanelModel& model, const DatabaseSettings& settings,
+                                        const HydrodynamicDatabase& database) {
+  const double density = database.water.density;
+  const Eigen::VectorXd volumes = database.infinite_added_mass.diagonal() / density;
+  return density * calc_error_of_lone_rows(model, volumes, settings.rankine);
+}
+
 }  // namespace
 
 void require_panels_for_waves(const PanelModel& model, double frequency) {
@@ -277,6 +290,8 @@ double database_bytes(const PanelModel& model, const DatabaseSettings& settings)
   // The factors that are kept, and a complex system with its factors.
   const double n = surface, all = bodies + n;
   if (settings.with_far_field) bytes += 8.0 * all * all + 32.0 * n * n;
+  // When all else is done.
+  if (settings.with_coarser) bytes = std::max(bytes, lone_rows_bytes(model));
   return bytes;
 }
 
@@ -349,7 +364,8 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
   for (MatrixXd& mass : database.added_mass) mass += database.infinite_added_mass;
   if (settings.with_coarser) {
     const PanelClusters& clusters = rankine.coarser->bodies;
-    database.change_from_coarser = error_of_panels(largest_change(database, coarser), clusters);
+    coarser.infinite_error = find_error_of_lone_rows(model, settings, database);
+    database.change_from_coarser = calc_radiation_error(database, coarser, clusters);
     database.excitation_change_from_coarser =
         error_of_panels(largest_excitation_change(database, coarser), clusters);
   }

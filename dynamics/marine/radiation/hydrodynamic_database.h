@@ -39,9 +39,9 @@ struct HydrodynamicDatabase {
   std::vector<Eigen::MatrixXcd> froude_krylov;  ///< for each frequency, 6N x headings; N/m, N
   std::vector<Eigen::MatrixXcd> diffraction;    ///< of the same shape and units
   /// For each mode, how much its radiation force on itself, B + i w A, changes at most over the
-  /// frequencies from panels of twice the size to these, relative, by error_of_panels where not all
-  /// panels can be taken together; infinite: those have no solution; empty: unknown. At first order
-  /// it is the panels' error itself, at second order three times it.
+  /// frequencies, the infinite among them, from panels of twice the size to these, relative
+  /// (calc_radiation_error); infinite: those have no solution; empty: unknown. At first order it is
+  /// the panels' error itself, at second order three times it.
   Eigen::VectorXd change_from_coarser;
   /// For each mode, how much the force of waves on it changes from panels of twice the size to
   /// these, with its phase: the largest change over frequencies and headings as a share of the
@@ -69,7 +69,7 @@ struct HydrodynamicDatabase {
 /// Changes whenever compute_database, or the meshing of the water's surface, gives other figures
 /// for the same bodies, or tells more of them: what was computed before is then not to be taken for
 /// what would be now.
-inline constexpr int panel_method_version = 12;
+inline constexpr int panel_method_version = 13;
 
 struct DatabaseSettings {
   std::vector<double> frequencies;  ///< rad/s, positive, ascending

@@ -2,11 +2,14 @@
 #include "pipeline/hydrodynamics/given_database.h"
 
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull/hull_shapes.h"
+#include "dynamics/marine/loads/excitation_drift.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 
 namespace blocklift::pipeline {
@@ -93,6 +96,44 @@ TEST(GivenDatabase, ItsPanelsAreDoubted) {
   EXPECT_THAT(found.doubts, ElementsAre(AllOf(StartsWith("The panels are coarse"),
                                               HasSubstr("waves on left in roll changes by 43 %"),
                                               EndsWith("%."))));
+}
+
+// The excitation of a simulation has a mean by itself on a body that moves with the waves: of the
+// drift that a named database holds it is taken off, as of one that is computed. Motions are those
+// of the case's free vessels, and the database's own stiffness stays.
+TEST(GivenDatabase, DriftLosesWhatTheExcitationHasInTheMean) {
+  HydrodynamicDatabase database = two_barges();
+  database.retardation.clear();
+  for (int n = 0; n < 100; ++n)
+    database.retardation.push_back(1e5 * std::exp(-0.2 * n) * Eigen::MatrixXd::Identity(12, 12));
+  database.frequencies = {0.8};
+  database.added_mass = {1e6 * Eigen::MatrixXd::Identity(12, 12)};
+  database.damping = {2e5 * Eigen::MatrixXd::Identity(12, 12)};
+  database.headings.clear();
+  for (int h = 0; h < 8; ++h) database.headings.push_back(h * std::numbers::pi / 4);
+  Eigen::MatrixXcd X(12, 8);
+  for (Eigen::Index m = 0; m < 12; ++m) {
+    for (Eigen::Index h = 0; h < 8; ++h) {
+      X(m, h) = 1e5 * std::polar(1.0, 0.4 * static_cast<double>(m * h));
+    }
+  }
+  database.froude_krylov = {0.5 * X};
+  database.diffraction = {0.5 * X};
+  database.mean_drift = {Eigen::MatrixXd::Constant(12, 8, 7e3)};
+  RadiationProblem problem = problem_with(database);
+  const Eigen::MatrixXd mass = 1.6e6 * Eigen::MatrixXd::Identity(12, 12);
+  problem.drifting = {mass, 8e6 * Eigen::MatrixXd::Identity(12, 12), 0.1 * mass};
+  const FoundRadiation found = find_radiation(problem, {});
+  const HydrodynamicDatabase& taken = found.series->databases.front();
+  EXPECT_EQ(taken.hydrostatic_stiffness.size(), 0);
+  // Of the equation of motion: its matrix is the same number for all modes here.
+  const std::complex<double> stiffness(8e6 - 0.8 * 0.8 * 2.6e6, 0.8 * (2e5 + 1.6e5));
+  const Eigen::MatrixXd besides =
+      calc_excitation_drift(taken, {taken.excitation(0) / stiffness}).at(0);
+  EXPECT_GT(besides.row(dynamics::surge).norm(), 100.0);
+  EXPECT_GT(besides.row(6 + dynamics::sway).norm(), 100.0);
+  EXPECT_LT((taken.mean_drift[0].array() - 7e3 + besides.array()).matrix().norm(),
+            1e-9 * besides.norm());
 }
 
 // In waves of 25 km the pressure of the incident wave is that of still water one metre higher:

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/panel_shapes.h"
+#include "dynamics/marine/panels/rankine_problem.h"
 #include "dynamics/marine/radiation/incident_wave.h"
 #include "tests/dynamics/marine/green/truncated_cylinder.h"
 
@@ -152,6 +154,28 @@ TEST(HullEquations, ScatteringAndClustersAgreeWithTheModes) {
     const double change = std::abs(coarser(mode, mode) / modes(mode, mode) - 1.0);
     EXPECT_GT(change, 1e-3) << mode;
     EXPECT_LT(change, 0.1) << mode;
+  }
+}
+
+// At infinite frequency the clusters' flow is that of the other method, whose matrices of the hull
+// are the same in deep water: second method.
+TEST(HullEquations, ClustersAgreeWithTheMarchAtInfiniteFrequency) {
+  const PanelModel model = make_model({{"cylinder", cylinder_of(24), Vector3::Zero()}},
+                                      {1.0, standard_gravity}, {true, true});
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const HullEquations equations(model, {});
+  const Eigen::MatrixXcd coarser =
+      equations.calc_coarser_radiation(equations.solve(infinite, {.coarser = true}), infinite);
+  RankineSettings settings;
+  settings.coarser = std::make_shared<const CoarserPanels>(
+      make_coarser_panels(model.body_mesh(), model.surface_mesh()));
+  for (const Parity& parity : model.parities()) {
+    const RankinePart part(model, parity, settings);
+    const Eigen::MatrixXd& volume = part.coarser()->infinite_frequency_volume();
+    for (Eigen::Index m = 0; m < volume.rows(); ++m) {
+      const double mass = coarser(part.modes()[m], part.modes()[m]).real();
+      EXPECT_NEAR(mass, volume(m, m), 1e-6 * volume.cwiseAbs().maxCoeff());
+    }
   }
 }
 

@@ -127,7 +127,33 @@ TEST(ExcitationDrift, RefusesOtherMotions) {
               ThrowsMessage<ModelError>(HasSubstr("not those of the database")));
   database.body_names.push_back("other");
   EXPECT_THAT([&] { calc_excitation_drift(database, motions_of_body()); },
-              ThrowsMessage<ModelError>(HasSubstr("2 bodies")));
+              ThrowsMessage<ModelError>(HasSubstr("not those of the database")));
+}
+
+// Each of several bodies has what it would have alone at its place.
+TEST(ExcitationDrift, OfSeveralBodiesIsThatOfEach) {
+  const HydrodynamicDatabase one = excited_body();
+  const auto motions = motions_of_body();
+  HydrodynamicDatabase other = one;
+  other.reference_points = {{-30, 12, 0}};
+  other.diffraction[0] *= 3.0;
+  HydrodynamicDatabase both = one;
+  both.body_names.emplace_back("other");
+  both.reference_points.push_back(other.reference_points[0]);
+  const auto above = [](const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b) {
+    Eigen::MatrixXcd joined(a.rows() + b.rows(), a.cols());
+    joined << a, b;
+    return joined;
+  };
+  both.diffraction[0] = above(one.diffraction[0], other.diffraction[0]);
+  both.froude_krylov[0] = above(one.froude_krylov[0], other.froude_krylov[0]);
+  const Eigen::MatrixXd drift =
+      calc_excitation_drift(both, {above(motions[0], 2.0 * motions[0])}).at(0);
+  const Eigen::MatrixXd of_one = calc_excitation_drift(one, motions).at(0);
+  const Eigen::MatrixXd of_other = calc_excitation_drift(other, {2.0 * motions[0]}).at(0);
+  EXPECT_GT(of_other.norm(), 1.0);
+  EXPECT_LT((drift.topRows<6>() - of_one).norm(), 1e-12 * of_one.norm());
+  EXPECT_LT((drift.bottomRows<6>() - of_other).norm(), 1e-12 * of_other.norm());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "dynamics/marine/panels/panel_mesh.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -8,6 +10,7 @@
 
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/enclosed_surface.h"
+#include "dynamics/marine/panels/lone_rows.h"
 #include "dynamics/marine/panels/panel_clusters.h"
 #include "dynamics/marine/panels/panel_model.h"
 #include "dynamics/marine/panels/panel_shapes.h"
@@ -343,6 +346,38 @@ TEST(PanelModel, FindsThePlanesOfSymmetry) {
   EXPECT_EQ(find_symmetry(spheres({0})), (Symmetry{true, true}));
   EXPECT_EQ(find_symmetry(spheres({-2, 2})), (Symmetry{true, true}));
   EXPECT_EQ(find_symmetry(spheres({0, 3})), (Symmetry{false, true}));
+}
+
+// Of five panels in a row the last has no partner: it goes with the pair beside it, so that nothing
+// is as fine as before. Where rows may be left over it stays.
+TEST(PanelMesh, WhatIsLeftOverGoesWithItsNeighbour) {
+  std::vector<Panel> panels;
+  for (int k = 0; k < 5; ++k) {
+    const double x = 2.0 * k;
+    panels.push_back(make_panel(
+        std::array<Vector3, 4>{{{x, 0, -1}, {x, 2, -1}, {x + 2, 2, -1}, {x + 2, 0, -1}}}));
+  }
+  const PanelMesh row = make_panel_mesh(panels);
+  EXPECT_EQ(cluster_panels(row).count, 1);
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(cluster_panels(row, unlimited, LeftOver::stays).count, 2);
+}
+
+// Sides of one panel become two high; what has a neighbour to go with stays.
+TEST(PanelMesh, LoneRowsAreHalved) {
+  const PanelMesh box = make_box_hull(16.0, 8.0, 2.0, {8, 4, 1, 1.0});
+  const PanelMesh halved = halve_lone_rows(box, {});
+  EXPECT_EQ(box.size(), 8 * 4 + 2 * 8 + 2 * 4);
+  EXPECT_EQ(halved.size(), 8 * 4 + 2 * (2 * 8 + 2 * 4));
+  EXPECT_NEAR(halved.total_area(), box.total_area(), 1e-12);
+  EXPECT_NEAR(halved.displaced_volume(), 16.0 * 8.0 * 2.0, 1e-9);
+  for (const Panel& panel : halved.panels) {
+    EXPECT_NEAR(panel.area, std::abs(panel.normal.z()) < 0.5 ? 2.0 : 4.0, 1e-12);
+  }
+  // Nothing is taken together across a plane of symmetry: a strip along it is halved.
+  const PanelMesh narrow = make_box_hull(16.0, 4.0, 4.0, {8, 2, 2, 1.0});
+  EXPECT_EQ(halve_lone_rows(narrow, {}).size(), narrow.size());
+  EXPECT_EQ(halve_lone_rows(narrow, {false, true}).size(), narrow.size() + 8 * 2 + 2 * 2 * 2);
 }
 
 }  // namespace

@@ -356,7 +356,13 @@ TEST(MarineParts, DriftComesFromADatabase) {
   Diagnostics diagnostics;
   const auto file = read_mechanism("mechanism.yaml", library, diagnostics);
   ASSERT_TRUE(file) << diagnostics.to_text();
-  EXPECT_FALSE(radiation_problem(*file).drifting);
+  // What its excitation has in the mean is taken off with the free vessel's motions, along the
+  // database's axes, which are the vessel's own, about its reference point 0.5 m before the origin.
+  const RadiationProblem problem = radiation_problem(*file);
+  ASSERT_TRUE(problem.drifting);
+  const Eigen::MatrixXd& mass = problem.drifting->mass;
+  EXPECT_NEAR(mass(1, 5), -1722e3 * 0.5, 1.0);
+  EXPECT_NEAR(problem.drifting->damping(0, 0), 20e3, 1e-6);
   const dynamics::HydrodynamicSeries series{0, {0.0}, {database}};
   const BuiltMechanism built = build_mechanism(*file, &series);
   const auto drifts = [](const dynamics::LiftSystem& system) {
@@ -571,26 +577,6 @@ TEST(MarineParts, ComplainsAboutWhatCannotFloat) {
               HasSubstr("lacks the key \"peak_period\""));
   EXPECT_THAT(complaints_of_change("mast: {", "B1: {"),
               HasSubstr("has the name of a body or joint"));
-}
-
-// What the figures of a database tell of its conventions (doubts_about_conventions) is said by the
-// name of the file.
-TEST(VesselDatabase, IsDoubtedByName) {
-  dynamics::HydrodynamicDatabase database;
-  database.body_names = {"float"};
-  database.frequencies = {0.5};
-  database.added_mass = {Eigen::MatrixXd::Identity(6, 6)};
-  database.damping = {Eigen::MatrixXd::Zero(6, 6)};
-  database.headings = {0, 45, 90};  // degrees
-  VesselInCase vessel;
-  vessel.database = Located<std::string>{"rm3.h5", {}};
-  vessel.hydrodynamics = std::make_shared<const dynamics::HydrodynamicDatabase>(database);
-  EXPECT_THAT(
-      doubts_about_database({vessel}),
-      testing::ElementsAre("Database rm3.h5: its 3 headings lie between 0 and 5157 degrees, "
-                           "as if the headings were in degrees, and were read as radians."));
-  vessel.radiation.value = RadiationMethod::none;
-  EXPECT_THAT(doubts_about_database({vessel}), testing::IsEmpty());
 }
 
 }  // namespace

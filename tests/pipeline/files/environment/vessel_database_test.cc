@@ -1,0 +1,32 @@
+#include "pipeline/files/environment/vessel_database.h"
+
+#include <memory>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace blocklift::pipeline {
+namespace {
+
+// What the figures of a database tell of its conventions (doubts_about_conventions) is said by the
+// name of the file.
+TEST(VesselDatabase, IsDoubtedByName) {
+  dynamics::HydrodynamicDatabase database;
+  database.body_names = {"float"};
+  database.frequencies = {0.5};
+  database.added_mass = {Eigen::MatrixXd::Identity(6, 6)};
+  database.damping = {Eigen::MatrixXd::Zero(6, 6)};
+  database.headings = {0, 45, 90};  // degrees
+  VesselInCase vessel;
+  vessel.database = Located<std::string>{"rm3.h5", {}};
+  vessel.hydrodynamics = std::make_shared<const dynamics::HydrodynamicDatabase>(database);
+  EXPECT_THAT(
+      doubts_about_database({vessel}),
+      testing::ElementsAre("Database rm3.h5: its 3 headings lie between 0 and 5157 degrees, "
+                           "as if the headings were in degrees, and were read as radians."));
+  vessel.radiation.value = RadiationMethod::none;
+  EXPECT_THAT(doubts_about_database({vessel}), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
