@@ -68,8 +68,9 @@ bool Snatches::is_alone(std::size_t begin, std::size_t end) const {
 
 bool Snatches::belongs_to(const FaultySamples& snatch, const FaultySamples& one) const {
   constexpr double as_high = 1.5;  // samples need not meet the crest of the snatch itself
-  return one.begin < snatch.end + samples_behind &&
-         std::abs(one.leap) < as_high * std::abs(snatch.leap) && !is_alone(one.begin, one.end);
+  // The dance that goes on behind a spike is the snatch's, and makes no snatch of the spike.
+  return !is_alone(one.begin, one.end) &&
+         (std::abs(one.leap) < as_high * std::abs(snatch.leap) || is_snatch(one));
 }
 
 bool Snatches::dances_behind(const FaultySamples& one) const {
@@ -105,8 +106,8 @@ std::vector<FaultySamples> Snatches::among(const std::vector<FaultySamples>& lea
   std::ranges::sort(in_order, {}, &FaultySamples::begin);
   std::vector<FaultySamples> found;
   for (const FaultySamples& one : in_order) {
-    const bool follows = !found.empty() && belongs_to(found.back(), one);
-    if (follows || is_snatch(one)) found.push_back(one);
+    const bool follows = !found.empty() && one.begin < found.back().end + samples_behind;
+    if (follows ? belongs_to(found.back(), one) : is_snatch(one)) found.push_back(one);
   }
   return found;
 }

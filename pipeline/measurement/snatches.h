@@ -15,7 +15,8 @@ namespace blocklift::pipeline {
 ///     farther than they do elsewhere, and less and less (what an amplifier has swallowed comes
 ///     back from one side).
 /// Leaps that follow a snatch while the load dances belong to it, but for one that stands off
-/// more than twice as far as all about it, or half as far again as the leap before it: a spike.
+/// more than twice as far as all about it: a spike. One half as high again as the leap before it
+/// is a snatch of its own or a spike.
 class Snatches {
  public:
   /// @param limit the shortest leap, in the series' unit.

@@ -17,6 +17,7 @@
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/results/run_identity.h"
 #include "pipeline/measures/measure.h"
+#include "pipeline/report/input_values.h"
 #include "pipeline/results/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/study/asked_figures.h"
@@ -352,11 +353,25 @@ std::vector<int> MemberStore::find_missing(int members) const {
   return missing;
 }
 
+namespace {
+
+/// The values of a study that its members follow from. Limits are held against figures that all
+/// members have: another table of seas, or another alpha factor, computes none of them again.
+std::string values_for_members(const StudyFile& study) {
+  std::string text;
+  for (const InputValue& value : list_input_values(study.yaml))
+    if (value.key != "title" && !value.key.starts_with("limits."))
+      text += fmt::format("{}\n{}\n", value.key, value.value);
+  return text;
+}
+
+}  // namespace
+
 std::string identity_of_study(const StudyFile& study) {
   // What laws from outside do is not known: members that they steered are those of one run.
   if (!study.laws.empty()) return new_run_identity();
   ContentHash hash;
-  hash.add(std::string_view(study.yaml));
+  hash.add(std::string_view(values_for_members(study)));
   hash.add(std::string_view(hash_of_input(read_lift_case(study.case_path()))));
   hash.add(std::string_view(program_version));
   return hash.digits();

@@ -100,7 +100,8 @@ class MemberStore {
   StudyPart part_;
 };
 
-/// Identity of all that the members' figures depend on.
+/// Identity of all that the members' figures depend on: not of the study's limits, its title and
+/// its comments.
 std::string identity_of_study(const StudyFile& study);
 
 }  // namespace blocklift::pipeline

@@ -208,6 +208,38 @@ std::string values_text(const StudyVariable& variable) {
   return text;
 }
 
+const char* copula_in_words(CopulaKind kind) {
+  switch (kind) {
+    case CopulaKind::normal:
+      return "a normal copula";
+    case CopulaKind::student:
+      return "Student's copula";
+    case CopulaKind::clayton:
+      return "Clayton's copula";
+    case CopulaKind::gumbel:
+      return "Gumbel's copula";
+    case CopulaKind::frank:
+      return "Frank's copula";
+    case CopulaKind::unknown:
+      break;
+  }
+  return "";
+}
+
+/// Which values are not drawn independently of each other.
+std::string what_is_joined(const StudyFile& study) {
+  std::string text;
+  for (const StudyCorrelation& one : study.correlations) {
+    text += fmt::format("<p class=\"note\">{} and {} are joined by {}, ",
+                        escape_html(one.of.front().value), escape_html(one.of.back().value),
+                        copula_in_words(one.copula));
+    if (one.degrees) text += fmt::format("{:g} degrees of freedom, ", *one.degrees);
+    text += one.is ? fmt::format("correlation {:g}.</p>\n", *one.is)
+                   : fmt::format("Kendall's tau {:g}.</p>\n", one.kendall.value_or(0));
+  }
+  return text;
+}
+
 /// What the members differ in, in SI units as in study.csv.
 std::string what_varies(const StudyFile& study) {
   std::string text = "<h2>What varies</h2>\n<div class=\"scroll\"><table class=\"words\">\n" +
@@ -219,7 +251,7 @@ std::string what_varies(const StudyFile& study) {
     text +=
         cells({escape_html(variable.name.value), keys, escape_html(values_text(variable))}, "td");
   }
-  return text + "</table></div>\n";
+  return text + "</table></div>\n" + what_is_joined(study);
 }
 
 /// From the middle to the right for what is positive, to the left for what is negative.

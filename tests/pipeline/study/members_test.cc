@@ -42,6 +42,25 @@ class Members : public ::testing::Test {
   const test::TemporaryFolder folder_;
 };
 
+// What is held against the members' figures afterwards computes none of them again.
+TEST_F(Members, DoNotFollowFromLimitsTitlesAndComments) {
+  const auto identity = [&](const std::string& value, const std::string& rest) {
+    folder_.write(
+        "study.yaml",
+        "study: small\ncase: lift\ndesign: grid\nfigures: [ropes.R1.max_dynamic_tension_N]\n"
+        "vary:\n  h: {keys: [ropes.R1.length], values: [2.9 m, " +
+            value +
+            "]}\n  p: {keys: [settle], values: [4 s]}\n"
+            "limits:\n  height: h\n  period: p\n"
+            "  of: [{figure: ropes.R1.max_dynamic_tension_N, at: " +
+            rest);
+    return identity_of_study(read_study("study.yaml"));
+  };
+  const std::string as_it_was = identity("3 m", "30 kN}]\n");
+  EXPECT_EQ(identity("3 m", "31 kN}]\n  alpha: 0.7\ntitle: of today # at noon\n"), as_it_was);
+  EXPECT_NE(identity("3.01 m", "30 kN}]\n"), as_it_was);
+}
+
 // A part of which nothing is known beside a figure makes the whole run of it. The same operations
 // in the same order give the same bits: nothing is tolerated.
 TEST_F(Members, HaveTheFiguresOfAWholeRun) {

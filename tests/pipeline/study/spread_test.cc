@@ -187,7 +187,7 @@ TEST(Spread, ParetoOfAnExponentialTail) {
 TEST(Spread, ParetoWhereValuesTieAtTheThreshold) {
   const auto inverse = [](double share) { return -3 * std::log(1 - share); };
   std::vector<double> values = even_sample(1000, inverse);
-  for (std::size_t i = 880; i < 920; ++i) values[i] = values[900];
+  for (std::size_t i = 860; i < 900; ++i) values[i] = values[900];
   const Spread spread = find_spread("x", values, numbers(1000), Eigen::MatrixXd(1000, 0));
   ASSERT_EQ(spread.extremes.size(), 2U);
   const ExtremeFit& fit = spread.extremes.back();
