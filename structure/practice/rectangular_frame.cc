@@ -276,8 +276,8 @@ Eigen::MatrixXd RectangularFrame::flexibility(const std::vector<Vector3d>& point
   return loads.bottomRows(size - freedoms).transpose() * moved;
 }
 
-/// Forces at the corners, as of equal masses that a rigid motion accelerates, with the resultants of
-/// loads at the nodes.
+/// Forces at the corners, as of equal masses that a rigid motion accelerates, with the resultants
+/// of loads at the nodes.
 Eigen::MatrixXd RectangularFrame::at_corners_alike(const Eigen::MatrixXd& loads) const {
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(loads.rows(), 6);
   Eigen::MatrixXd of_masses = rigid;

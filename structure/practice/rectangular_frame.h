@@ -71,8 +71,8 @@ class RectangularFrame {
   /// not.
   ///
   /// Corners pressed up and down by turns, +P, -P, +P, -P, move by w, sides bent antisymmetrically
-  /// and twisted: P / w = (4 / L^2) / (L / (6 E I_1) + W / (2 G J_2)) + (4 / W^2) / (W / (6 E I_2) +
-  /// L / (2 G J_1)), I about the level axis, by slope and deflection (Timoshenko, Strength of
+  /// and twisted: P / w = (4 / L^2) / (L / (6 E I_1) + W / (2 G J_2)) + (4 / W^2) / (W / (6 E I_2)
+  /// + L / (2 G J_1)), I about the level axis, by slope and deflection (Timoshenko, Strength of
   /// materials I, 1955), each corner's bending moment of one side being the other's torque.
   /// @param points those that it was made with, in their order; each moves with its place of the
   ///   frame as if by a rigid arm.

@@ -94,10 +94,9 @@ double tension_at_rest(const LiftRun& run, const std::string& name) {
   return 0;
 }
 
-LiftCase spreader_case(const test::TemporaryFolder& folder, const std::string& wind = {}) {
+LiftCase spreader_case(const test::TemporaryFolder& folder) {
   // Equilibria are asked for alone: the motion is short and rough.
   test::SampleLift lift = test::spreader_lift();
-  lift.lift_case = test::with(lift.lift_case, "operation:", wind + "operation:");
   for (const auto& [from, to] : {std::pair("by: -1 m", "by: -1 mm"),
                                  {"pause: 2 s", "pause: 0.1 s"},
                                  {"settle: 2 s", "settle: 0 s"},
@@ -158,30 +157,6 @@ TEST(RiggingFacts, CentreBoxBelowASpreaderIsThatOfAShiftedLoad) {
     EXPECT_LT(std::abs(half), 0.3 * std::abs(whole) + 1e-6) << name;
   }
   EXPECT_TRUE(RiggingFacts(lift_case, straight, {}, {}).of_hook(0, 0).bears_all);
-}
-
-// In wind at the hook block the tackle leans. What turns the load about it holds it by next to nothing,
-// or pushes it on; the moment of a moved centre would turn it far, and does not.
-TEST(RiggingFacts, CentreBoxInWindIsThatInCalmAir) {
-  const test::TemporaryFolder folder;
-  const auto box_of = [&](const std::string& wind) {
-    LiftCase lift_case = spreader_case(folder, wind);
-    lift_case.standard->centre_box = Vector3(0.05, 0.05, 0.05);
-    const LiftRun run = run_below_spreader(lift_case, 0.2);
-    const RiggingFacts rigging(lift_case, run, {}, {});
-    std::vector<double> factors;
-    for (const auto* slings : {&rigging.slings(), &rigging.slings_to_bars()})
-      for (const LiftRope& sling : *slings)
-        factors.push_back(*rigging.of_sling(sling, 0).centre_box);
-    return factors;
-  };
-  const std::vector<double> calm = box_of({});
-  const std::vector<double> windy = box_of("wind: {speed: 20 m/s, towards: 30 deg}\n");
-  ASSERT_EQ(calm.size(), 4U);
-  for (std::size_t i = 0; i < calm.size(); ++i) {
-    EXPECT_GT(calm[i], 1.005);
-    EXPECT_NEAR(windy[i], calm[i], 0.02 * (calm[i] - 1)) << i;
-  }
 }
 
 // The same with a sling that is shorter than meant: of all sets of signs the largest.
