@@ -27,6 +27,7 @@
 #include "pipeline/results/sling_summary.h"
 #include "pipeline/results/standard_summary.h"
 #include "pipeline/results/table_summary.h"
+#include "pipeline/results/torsion_doubts.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -546,6 +547,8 @@ Json make_summary(const Assessment& assessment) {
   if (const auto balances = find_table_balances(assessment))
     for (std::string& doubt : list_doubts(*balances))
       summary["warnings"].push_back(std::move(doubt));
+  for (std::string& doubt : list_torsion_doubts(assessment.block))
+    summary["warnings"].push_back(std::move(doubt));
   summary["assumptions"] = list_assumptions(assessment);
   return summary;
 }

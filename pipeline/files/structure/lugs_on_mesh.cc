@@ -109,12 +109,18 @@ class LugsOnMesh {
         const double x = -g.base_left + (g.base_left + g.base_right) * i / steps;
         const Vector3 place = placed->p_BP + placed->R_BP * Vector3(x, -g.height, z);
         if (plates.find(place)) continue;
+        std::vector<std::string> hints{
+            "it lies on a deck or along a plate's edge: look at pin, axis, up, height and base"};
+        if (plates.find(placed->p_BP + placed->R_BP * Vector3(0, -g.height, 0)))
+          hints.emplace_back(
+              "below the pin it stands on a plate: the base is straight, and a curved plate bears "
+              "one along its generators, or one that is so short that it stays in the plate");
         diagnostics_.error(
             lug.padeye->mark,
             fmt::format("the base of lug {}'s padeye is at ({:.6g}, {:.6g}, {:.6g}) m, where the "
                         "block has no plate",
                         lug.name.value, place.x(), place.y(), place.z()),
-            {"it lies on a deck or along a plate's edge: look at pin, axis, up, height and base"});
+            hints);
         return;
       }
   }
