@@ -81,7 +81,7 @@ TEST(FrameSkew, BendsTheCornersInTheirPlane) {
   EXPECT_NEAR(*none, 1, 1e-9);
 }
 
-// The chain has it in place of the slings' factor, by the clause of the rules; a bar has the latter.
+// The chain has it in place of the slings' factor, by the clause of the rules; a bar has that one.
 TEST(FrameSkew, StandsInTheChainOfTheFrame) {
   StandardInCase standard;
   standard.rules.name = "Rules";
@@ -135,7 +135,8 @@ ChainStep skew_step(std::optional<double> by_rules, std::optional<double> comput
   return {};
 }
 
-// It takes the less of both, not below the slings' own, and says so; where no four slings meet it is the slings' own factor.
+// It takes the less of both, not below the slings' own factor, and says so; where no four slings
+// meet it is that factor.
 TEST(FrameSkew, TakesTheLessOfRigidCornersAndOfTolerances) {
   EXPECT_EQ(skew_step(3, 1.4).standard, 1.4);
   EXPECT_EQ(skew_step(3, 1.4).simulated, 1.4);
