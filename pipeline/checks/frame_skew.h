@@ -29,7 +29,7 @@ std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpread
 
 /// The same with the tensions of each set of the slings' length tolerances, above the frame and
 /// below it, the frame giving way to them in its plane and out of it: by stiffness of slings, frame
-/// and load times the mismatch. The least of all sets.
+/// and load times the mismatch. The largest of all sets.
 /// @param in_its_place of the frame, or of another of its size.
 double frame_skew_by_tolerances(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
                                 const LiftCase& lift_case, const LiftRun& lift,

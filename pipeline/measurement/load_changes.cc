@@ -34,8 +34,10 @@ std::optional<TensionJump> jump_at(const TensionPair& pair, double instant) {
       values.push_back(measured.values[i] - part_of_computed * computed[i]);
     return algebra::quantile_of(std::move(values), 0.5);
   };
-  return TensionJump{level(middle, end, scale) - level(begin, middle, scale),
-                     level(begin, middle, 0)};
+  // Jumps of several cells are added up, and the sign of one may be reversed.
+  const double sign = std::copysign(1.0, scale);
+  return TensionJump{sign * (level(middle, end, scale) - level(begin, middle, scale)),
+                     sign * level(begin, middle, 0)};
 }
 
 bool is_taken_over(const TensionJump& own, const std::vector<TensionJump>& others) {

@@ -164,9 +164,8 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
         "Spreaders are rigid in the motion, their mass spread evenly over their bars, or so that "
         "it falls or rises evenly to the centre that is given. As columns "
         "bars and the sides of frames are pinned at their ends, in both planes; what is within a "
-        "frame's sides follows from their stiffness, rigidly joined at the corners. Frames give "
-        "way "
-        "in the standards' step for wrong lengths.");
+        "frame's sides follows from their stiffness, rigidly joined at the corners. "
+        "Frames give way in the standards' step for wrong lengths.");
   }
   list.emplace_back(
       "Drives and winches follow their motion profiles exactly, whatever force that takes.");

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/standards/rigging_balance.h"
+
 namespace blocklift::pipeline {
 
 namespace {
@@ -51,6 +53,50 @@ class FactorsAtLug {
   std::vector<double> factors_;
   double growth_ = 1;
 };
+
+bool has_length_tolerance(const StandardInCase& standard) {
+  return standard.length_tolerance || standard.rules.length_tolerance;
+}
+
+/// Why nothing was computed from tolerances of length of the slings about a frame.
+std::string why_no_tolerances(const StandardInCase& standard) {
+  if (!has_length_tolerance(standard)) return "no tolerance of lengths is given";
+  return fmt::format(
+      "the tolerance of lengths is not worked (more than {} slings have it, or baskets or a rope "
+      "over two hooks bear the load)",
+      RiggingBalance::most_toleranced);
+}
+
+/// What the standard takes for the skew of a frame: that of the rigid frame, or what its lengths'
+/// tolerances make of it, if that is less. It is never less than the slings' own factor by them.
+/// @param of_slings the rules' factor on slings; none or 1: no skew.
+std::optional<double> skew_by_standard(const SpreaderFacts& frame,
+                                       const std::optional<double>& of_slings) {
+  if (!frame.skew_by_rules) return of_slings;
+  if (!frame.skew_computed) return frame.skew_by_rules;
+  return std::min(*frame.skew_by_rules, std::max(*frame.skew_computed, of_slings.value_or(1)));
+}
+
+/// The two figures in words, and which of them the standard's column has.
+std::string frame_skew_in_words(const StandardInCase& standard, const SpreaderFacts& frame,
+                                const std::optional<double>& of_slings) {
+  const std::optional<double>&by_rules = frame.skew_by_rules, &computed = frame.skew_computed;
+  std::string text = "what its sides bear and its corners bend, over that without: ";
+  if (by_rules)
+    text += fmt::format(
+        "{:.3g} with the slings of a diagonal at {:g} times their load on a rigid frame; ",
+        *by_rules, of_slings.value_or(1));
+  else if (of_slings)
+    text += "by the slings' own factor, for no four of them meet over the frame; ";
+  if (!computed) return text + why_no_tolerances(standard) + ", to which it would give way";
+  text += fmt::format("{:.3g} with the worst set of length tolerances, to which it gives way",
+                      *computed);
+  if (by_rules && *computed < *by_rules)
+    text +=
+        "; the standard's column has the less of both, not below the slings' own factor, which is "
+        "this program's reading: to the letter the clause asks for the first figure";
+  return text;
+}
 
 }  // namespace
 
@@ -264,8 +310,11 @@ std::optional<LoadFactors::Factor> LoadFactors::skew(const ComputedFactors& comp
   if (!factor && !computed.skew) return {};
   return Factor{"skew of sling lengths", by_rules, computed.skew ? computed.skew : by_rules,
                 factor ? factor->clause : "",
-                computed.skew ? "computed by re-sharing for all sets of length tolerances"
-                              : standard_.skew->value + "; no tolerance of lengths is given"};
+                computed.skew
+                    ? "computed by re-sharing for all sets of length tolerances"
+                    : standard_.skew->value + (has_length_tolerance(standard_)
+                                                   ? "; not computed from the tolerance of lengths"
+                                                   : "; no tolerance of lengths is given")};
 }
 
 void LoadFactors::add_skew(ChainBuilder& chain, const ComputedFactors& computed) const {
@@ -301,27 +350,12 @@ void LoadFactors::add_frame_skew(ChainBuilder& chain, const SpreaderFacts& frame
     add(chain, slings);
     return;
   }
-  const std::optional<double>&by_rules = frame.skew_by_rules, &computed = frame.skew_computed;
-  std::string text = "what its sides bear and its corners bend, over that without: ";
-  if (by_rules)
-    text += fmt::format(
-        "{:.3g} with the slings of a diagonal at {:g} times their load on a rigid "
-        "frame; ",
-        *by_rules, factor ? factor->value : 1);
-  else if (factor && factor->value > 1)
-    text += "by the slings' own factor, for no four of them meet over the frame; ";
-  if (computed)
-    text += fmt::format("{:.3g} with the worst set of length tolerances, to which it gives way",
-                        *computed);
-  else
-    text += "no tolerance of lengths is given, to which it would give way";
   const std::optional<double> of_slings =
       factor && factor->value > 1 ? std::optional(factor->value) : std::nullopt;
-  std::optional<double> standard = by_rules ? by_rules : of_slings;
-  // Lengths that are known to a tolerance skew it no further than its stiffness makes of them.
-  if (by_rules && computed) standard = std::min(*by_rules, *computed);
-  chain.times(by_rules ? "skew on either diagonal" : "skew of sling lengths", standard,
-              computed ? computed : by_rules, factor ? factor->clause : "", std::move(text));
+  chain.times(frame.skew_by_rules ? "skew on either diagonal" : "skew of sling lengths",
+              skew_by_standard(frame, of_slings),
+              frame.skew_computed ? frame.skew_computed : frame.skew_by_rules,
+              factor ? factor->clause : "", frame_skew_in_words(standard_, frame, of_slings));
 }
 
 void LoadFactors::add_lift_point_consequence(ChainBuilder& chain) const {

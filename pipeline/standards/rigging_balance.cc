@@ -30,6 +30,17 @@ void add_arm(const RiggingEnd& end, Eigen::Index first, const Vector3d& u, doubl
       tension * (u.dot(end.r_W) * Matrix3d::Identity() - (ur + ur.transpose()) / 2);
 }
 
+/// Does it end at a fixed place and hold more than its own hook? An idle tackle beside the one that
+/// bears keeps the load from no turn.
+bool holds_rigging(const RiggingRope& tackle, const std::vector<RiggingRope>& ropes) {
+  if (tackle.upper.kind != RiggingEnd::Kind::fixed || !(tackle.tension > 0)) return false;
+  if (tackle.lower.kind != RiggingEnd::Kind::hook) return true;
+  return std::ranges::any_of(ropes, [&](const RiggingRope& sling) {
+    return sling.upper.kind == RiggingEnd::Kind::hook && sling.upper.index == tackle.lower.index &&
+           sling.tension > 0;
+  });
+}
+
 }  // namespace
 
 RiggingBalance::RiggingBalance(std::vector<RiggingRope> ropes, int hooks,
@@ -40,8 +51,8 @@ RiggingBalance::RiggingBalance(std::vector<RiggingRope> ropes, int hooks,
   if (compliance_.size() == 0) compliance_ = MatrixXd::Zero(count, count);
   tension_.resize(count);
   for (std::size_t i = 0; i < ropes_.size(); ++i) add_rope(i);
-  turns_freely_ = std::count_if(ropes_.begin(), ropes_.end(), [](const RiggingRope& rope) {
-                    return rope.upper.kind == RiggingEnd::Kind::fixed;
+  turns_freely_ = std::ranges::count_if(ropes_, [&](const RiggingRope& rope) {
+                    return holds_rigging(rope, ropes_);
                   }) == 1;
 }
 

@@ -81,7 +81,7 @@ TEST(FrameSkew, BendsTheCornersInTheirPlane) {
   EXPECT_NEAR(*none, 1, 1e-9);
 }
 
-// The chain has it in place of the slings' factor, by the clause of the rules; a bar has the latter.
+// The chain has it in place of the slings' factor, by the clause of the rules; a bar has that one.
 TEST(FrameSkew, StandsInTheChainOfTheFrame) {
   StandardInCase standard;
   standard.rules.name = "Rules";
@@ -135,11 +135,17 @@ ChainStep skew_step(std::optional<double> by_rules, std::optional<double> comput
   return {};
 }
 
-// It takes the less of both, and says so; where no four slings meet it is the slings' own factor.
+// It takes the less of both, not below the slings' own factor, and says so; where no four slings
+// meet it is that factor.
 TEST(FrameSkew, TakesTheLessOfRigidCornersAndOfTolerances) {
   EXPECT_EQ(skew_step(3, 1.4).standard, 1.4);
   EXPECT_EQ(skew_step(3, 1.4).simulated, 1.4);
   EXPECT_NE(skew_step(3, 1.4).formula.find("3 with the slings of a diagonal"), std::string::npos);
+  EXPECT_NE(skew_step(3, 1.4).formula.find("this program's reading"), std::string::npos);
+  EXPECT_EQ(skew_step(3, 4).formula.find("this program's reading"), std::string::npos);
+  EXPECT_EQ(skew_step(3, 1.1).standard, 1.25);  // no less than the slings' own
+  EXPECT_EQ(skew_step(3, 1.1).simulated, 1.1);
+  EXPECT_EQ(skew_step(1.2, 1.1).standard, 1.2);  // the frame as a rigid one does not grow so far
   EXPECT_EQ(skew_step(3, 4).standard, 3);
   EXPECT_EQ(skew_step(3, 4).simulated, 4);
   EXPECT_EQ(skew_step({}, 1.4).standard, 1.25);

@@ -150,6 +150,9 @@ TEST(FaultySamples, AreNoLoadThatAnotherRopeTakesOver) {
   EXPECT_EQ(taken_over.load_changes.front().begin, 300U);
   // Slings lean: the one that takes over gains less.
   EXPECT_THAT(judge_beside(times(0.7), times(1.2)).load_changes, SizeIs(1));
+  // The other cell has its sign reversed.
+  EXPECT_THAT(judge_beside(times(0.7), [&](double t) { return -times(1.3)(t); }).load_changes,
+              SizeIs(1));
   const JudgedSamples alone = judge_beside(times(0.7), swing);
   EXPECT_THAT(alone.load_changes, IsEmpty());
   EXPECT_EQ(count_left_out(alone.faults, 601), 300U);

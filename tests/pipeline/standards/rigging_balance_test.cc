@@ -177,11 +177,20 @@ TEST(RiggingBalance, SharesAsInCalmAirWhereWindLeansTheTackle) {
     rope.length = row.length;
     rope.compliance = row.compliance;
   }
-  const VectorXd tension =
-      RiggingBalance(ropes, 1, {}, 1).with_moment({2.703320504, -15693.33865, 0});
   const std::array<double, 6> change{2584.6, -2528.1, 1373.3, 1295.7, -1373.0, -1295.7};
-  for (int i = 0; i < 6; ++i)
-    EXPECT_NEAR(tension[i] - rows[i].tension, change[i], 5e-4 * std::abs(change[i])) << i;
+  const auto expect_change = [&](const RiggingBalance& balance) {
+    const VectorXd tension = balance.with_moment({2.703320504, -15693.33865, 0});
+    for (int i = 0; i < 6; ++i)
+      EXPECT_NEAR(tension[i] - rows[i].tension, change[i], 5e-4 * std::abs(change[i])) << i;
+  };
+  expect_change(RiggingBalance(ropes, 1, {}, 1));
+  // A second tackle that bears its hook block alone holds no load about the plumb.
+  RiggingRope idle = ropes.back();
+  idle.lower.index = 1;
+  idle.direction_W = Vector3d::UnitZ();
+  idle.tension = 5e3;
+  ropes.push_back(idle);
+  expect_change(RiggingBalance(ropes, 2, {}, 1));
 }
 
 // A beam on two plumb ropes: dT = M / L by statics; a moment about +y presses the end at +x down.

@@ -1,5 +1,5 @@
-// Which waves an irregular sea keeps, for which radiation is computed, and what is doubted of vessels
-// in it.
+// Which waves an irregular sea keeps, for which radiation is computed, and what is doubted of
+// vessels in it.
 #include "pipeline/files/environment/sea_band.h"
 
 #include <cmath>
