@@ -517,10 +517,8 @@ std::string doubt_about_couplings(const HydrodynamicDatabase& database) {
     if (pairs.empty()) continue;
     return fmt::format(
         "{} has added mass in {}, and at no frequency anything that couples them, as if the "
-        "diagonal "
-        "alone had been written: a hull in the water's surface that goes sideways is pressed "
-        "round, "
-        "too",
+        "diagonal alone had been written: a hull in the water's surface that goes sideways is "
+        "pressed round, too",
         database.body_names[static_cast<std::size_t>(first / modes_per_body)],
         fmt::join(pairs, ", and in "));
   }

@@ -7,8 +7,9 @@
 namespace blocklift::pipeline {
 
 /// Adds the waves that a file leaves out because a plane of symmetry gives them: with y = 0,
-/// headings from 0 to 180 degrees make a whole turn; with x = 0, too, those from 0 to 90. Forces and
-/// mean drift of the mirrored waves are the mirror images; headings then ascend from 0.
+/// headings from 0 to 180 degrees make a whole turn; with x = 0, too, those from 0 to 90. Forces
+/// and mean drift of the mirrored waves are the mirror images; headings then ascend from 0. A far
+/// field, which no file of another program holds, is not mirrored.
 ///
 /// Nothing is changed of several bodies, of headings that go round already or would not even so
 /// (gaps of 45 degrees at most), and of a body that is not symmetric as far as its figures tell:
