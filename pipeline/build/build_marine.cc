@@ -176,7 +176,10 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   const bool drifts = std::any_of(
       parts_.vessels.begin(), parts_.vessels.end(),
       [](const VesselInCase& vessel) { return vessel.drift.value != DriftMethod::none; });
-  if (drifts && (!problem.given || has_waves())) problem.drifting = free_vessels(problem);
+  // A body that is lowered, the load perhaps, floats nowhere: beside a named database it is refused
+  // when that is taken (take_given_database).
+  if (drifts && problem.lowered_body() < 0 && (!problem.given || has_waves()))
+    problem.drifting = free_vessels(problem);
   problem.direct = std::any_of(
       parts_.vessels.begin(), parts_.vessels.end(),
       [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });

@@ -44,8 +44,8 @@ Law turn_by_angle(double a, bool is_flipped) {
   return law;
 }
 
-/// Kink from which on plates have resultants of their own, rad: facets of curved plating, such as
-/// those of an octagon, are compared with one another.
+/// Kink from which on plates have resultants of their own, rad, as corners begin for find_facets:
+/// facets of curved plating, such as those of an octagon, are compared with one another.
 constexpr double largest_kink = 46 * std::numbers::pi / 180;
 
 /// Points of recovered resultants: one for each node and field that meet.
@@ -117,7 +117,12 @@ class Axes {
   Law to_point(int cell, int local) const {
     return turn_by_angle(angles_[place(cell, local)], is_flipped_[at(cell)]);
   }
-  Law to_cell(int cell, int local) const { return algebra::inverse_of<6>(to_point(cell, local)); }
+  /// The other way round. To turn and mirror is its own inverse.
+  Law to_cell(int cell, int local) const {
+    const double angle = angles_[place(cell, local)];
+    const bool is_flipped = is_flipped_[at(cell)];
+    return turn_by_angle(is_flipped ? angle : -angle, is_flipped);
+  }
 
  private:
   struct Frame {
@@ -130,7 +135,7 @@ class Axes {
   std::vector<double> angles_;  ///< of each cell's axes against those of its nodes' points
 };
 
-/// The same in a motion after another.
+/// Resultants at one point turned into other axes: six rows for each motion.
 Eigen::VectorXd turned_resultants(const Law& turn,
                                   const Eigen::Ref<const Eigen::VectorXd>& resultants) {
   return (turn * resultants.reshaped(6, resultants.size() / 6)).reshaped();

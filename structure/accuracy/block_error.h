@@ -15,10 +15,10 @@ namespace blocklift::structure {
 /// Membrane forces and moments of each shell cell at its p x p Gauss points, where elements of
 /// degree p are most accurate (Barlow 1976), are carried to its nodes by the polynomials through
 /// these points and averaged there over the cells of one field of plating, which goes on across
-/// kinks of up to 46 degrees: the recovered resultants, as smooth as the motion. With e the difference to the elements' own resultants,
-/// |e|^2 = int e : law^-1 : e dA; the law of layers is their own. Source: Zienkiewicz and Zhu
-/// (1987), Int. J. Numer. Methods Eng. 24, 337-357, with the local smoothing of Hinton and Campbell
-/// (1974).
+/// kinks of up to 46 degrees: the recovered resultants, as smooth as the motion. With e the
+/// difference to the elements' own resultants, |e|^2 = int e : law^-1 : e dA; the law of layers is
+/// their own. Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng. 24, 337-357, with the
+/// local smoothing of Hinton and Campbell (1974).
 /// That of solids is SolidError's. Bars have none: their elements of degree 3 hold what evenly
 /// spread and end loads do.
 struct BlockError {

@@ -21,6 +21,7 @@ std::vector<std::array<bool, 4>> find_joined_sides(const PanelMesh& hull, const 
   for (const SharedEdge& edge : find_shared_edges(hull)) {
     const Panel& first = hull.panels[edge.panels.first];
     const Panel& second = hull.panels[edge.panels.second];
+    // Those at more than 45 degrees cluster_panels leaves apart.
     if (first.normal.dot(second.normal) < std::sqrt(0.5) || in_plane(first, edge.sides.first))
       continue;
     joined[edge.panels.first][edge.sides.first] = true;

@@ -50,7 +50,8 @@ inline constexpr int mean_drift_version = 2;
 std::complex<double> calc_energy_factor(double sent, std::complex<double> shadow, double taken);
 
 /// Power that waves of unit amplitude lose at the body beside what is sent out again (W/m2), by the
-/// far field alone, as the panels gave it, for each frequency and heading: that of the damping if the far field is exact.
+/// far field alone, as the panels gave it, for each frequency and heading: that of the damping if
+/// the far field is exact.
 ///   - rho g c_g/2 (int |H|^2 dt + 2 sqrt(2 pi/k) Re(H(theta) exp(-i pi/4)))
 /// @throws ModelError as calc_mean_drift does.
 std::vector<Eigen::VectorXd> calc_absorbed_power(const HydrodynamicDatabase& database,

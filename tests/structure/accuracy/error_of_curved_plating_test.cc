@@ -43,10 +43,10 @@ double error_of_ring(int degree, int order, int elements, bool is_whole) {
   return estimate_block_error(model, testing::solve(space, load, fixed)).relative;
 }
 
-// Flat facets that meet at 22.5 degrees are the same elements of degree 1 as those of curved shells,
-// of which the curved ones are one field of plating: so is what is said of them. Deflections are 10 %
-// too small there. Facets that were looked at each for itself would say next to nothing. Facets have
-// more of the drilling term than curved shells do, which makes 0.2 % of the estimate.
+// Flat facets that meet at 22.5 degrees are the same elements of degree 1 as those of curved
+// shells, which are one field of plating: so is what is said of them. Deflections are 10 % too
+// small there. Facets that were looked at each for itself would say next to nothing. They have more
+// of the drilling term than curved shells do, which makes 0.2 % of the estimate.
 TEST(ErrorOfCurvedPlating, FacetsAreComparedAcrossTheirKinks) {
   const double of_facets = error_of_ring(1, 1, 16, false),
                of_curved = error_of_ring(1, 2, 16, false);
@@ -55,9 +55,9 @@ TEST(ErrorOfCurvedPlating, FacetsAreComparedAcrossTheirKinks) {
 }
 
 // A closed ring has the error of its quarter: no direction is along the plating all the way round,
-// and one for all of it said 37 and 40 % (degrees 2 and 3) where it is 7 and 0.3 %. Across the forces
-// the moment has a kink, which the mean at the nodes there rounds off: 10 % of the little of degree
-// 3.
+// and one for all of it said 37 and 40 % (degrees 2 and 3) where it is 7 and 0.3 %. Across the
+// forces the moment has a kink, which the mean at the nodes there rounds off: 10 % of the little of
+// degree 3.
 TEST(ErrorOfCurvedPlating, ClosedRingHasThatOfItsQuarter) {
   for (const int degree : {1, 2, 3}) {
     const double quarter = error_of_ring(degree, degree, 16, false);

@@ -211,8 +211,8 @@ TEST(RectangularFrameTest, CornersRackOutOfItsPlaneByTheClosedForm) {
 }
 
 // In its plane slings of one diagonal press the corners and those of the other pull: a shear psi,
-// in which the sides store 12 psi^2 / (1 / k_1 + 1 / k_2), k = E I / l of bending in the plane. Pulls
-// (a, b) along both axes, a / b = L / W, do the work 2 a W psi.
+// in which the sides store 12 psi^2 / (1 / k_1 + 1 / k_2), k = E I / l of bending in the plane.
+// Pulls (a, b) along both axes, a / b = L / W, do the work 2 a W psi.
 TEST(RectangularFrameTest, CornersRackInItsPlaneByTheClosedForm) {
   const LoadedRectangle loaded;
   const auto corners = RectangularFrame::corners(long_side, short_side);

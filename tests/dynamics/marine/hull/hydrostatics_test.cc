@@ -179,7 +179,7 @@ TEST(FloatingPosition, SaysThatAHullIsTooHeavy) {
       ThrowsMessage<ModelError>(HasSubstr("would have to displace 87.8049 m3; it encloses 80 m3")));
 }
 
-// 700 g of a box that encloses 80 m3, 0.7 kg in place of 0.7 t or 700 t in kg: no draught is left.
+// A box that encloses 80 m3 with 0.7 kg, where 0.7 t may be meant: no draught is left.
 TEST(FloatingPosition, SaysThatAHullIsTooLight) {
   const HullClusters box(make_box({10, 4, 2}, {5, 2, 2, 1}));
   EXPECT_THAT([&] { find_floating_position(box, {.mass = 0.7, .p_BoBcm_B = Vector3::Zero()}); },

@@ -141,6 +141,9 @@ TEST(MarineParts, LoweredLoadSharesTheWaterOfTheVessels) {
   dynamics::calc_loads(built.system, 0, nullptr, w);
   EXPECT_EQ(w.water_shares.weight[0], 1);
   EXPECT_EQ(w.added()->matrix.bottomRows(6).norm(), 0);
+  // What is lowered floats nowhere: no motions of free vessels are made of such a problem.
+  lift_case->vessels[0].drift.value = DriftMethod::newman;
+  EXPECT_FALSE(radiation_problem(*lift_case).drifting);
 }
 
 TEST(MarineParts, ComplainsAboutDraughts) {
