@@ -176,9 +176,15 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   const bool drifts = std::any_of(
       parts_.vessels.begin(), parts_.vessels.end(),
       [](const VesselInCase& vessel) { return vessel.drift.value != DriftMethod::none; });
+  // Nor is it known where vessels move on a stiffness of their own in place of their hull's.
+  const bool is_on_own_stiffness =
+      std::any_of(parts_.vessels.begin(), parts_.vessels.end(), [](const VesselInCase& vessel) {
+        return vessel.linear_buoyancy && vessel.linear_buoyancy->stiffness;
+      });
   // A body that is lowered, the load perhaps, floats nowhere: beside a named database it is refused
   // when that is taken (take_given_database).
-  if (drifts && problem.lowered_body() < 0 && (!problem.given || has_waves()))
+  if (drifts && problem.lowered_body() < 0 &&
+      (!problem.given || (has_waves() && !is_on_own_stiffness)))
     problem.drifting = free_vessels(problem);
   problem.direct = std::any_of(
       parts_.vessels.begin(), parts_.vessels.end(),

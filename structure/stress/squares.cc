@@ -55,7 +55,7 @@ void find_shares(const Space& space, const FieldWalker& walker, const CellFinder
   }
 }
 
-/// Calls visit(place in its cell, its shell, share of the square's area) for those of the Gauss
+/// Calls visit(place in its cell, place in its shell, share of the square's area) for those of the Gauss
 /// points within a square below which there is plating. @returns are there all of them?
 template <typename Visit>
 bool visit_inner_points(const FieldWalker& walker, const CellFinder& cells, const Square& square,
@@ -67,7 +67,7 @@ bool visit_inner_points(const FieldWalker& walker, const CellFinder& cells, cons
       const Vector3 place = square.centre_B + (square.size * side_points[i] - half) * square.e_1 +
                             (square.size * side_points[j] - half) * square.e_2;
       if (const auto found = walker.find(place, start_of(square)))
-        visit(cells.find(*found), found->shell, side_weights[i] * side_weights[j]);
+        visit(cells.find(*found), *found, side_weights[i] * side_weights[j]);
       else
         are_all = false;
     }
@@ -78,7 +78,9 @@ bool visit_inner_points(const FieldWalker& walker, const CellFinder& cells, cons
 template <typename Visit>
 void for_each_inner_point(const FieldWalker& walker, const CellFinder& cells, const Square& square,
                           const Visit& visit) {
-  const auto without_shell = [&](const CellPlace& at, int, double weight) { visit(at, weight); };
+  const auto without_shell = [&](const CellPlace& at, const ShellPlace&, double weight) {
+    visit(at, weight);
+  };
   if (!visit_inner_points(walker, cells, square, without_shell))
     throw std::logic_error("a square of the checked stress leaves its field of plates");
 }
@@ -171,12 +173,13 @@ std::optional<Eigen::MatrixXd> integrate_membrane(const Mesh& mesh, const FieldW
   const Vector3 normal = square.e_1.cross(square.e_2);
   std::optional<Eigen::MatrixXd> strain;
   double weights = 0;
-  visit_inner_points(walker, cells, square, [&](const CellPlace& at, int shell, double weight) {
-    const double side = normal_of(mesh, {shell, {0.5, 0.5}}).dot(normal) < 0 ? -1 : 1;
-    const Eigen::MatrixXd here = weight * strains.at(at.cell, at.xi, square.e_1, side);
-    strain = strain ? *strain + here : here;
-    weights += weight;
-  });
+  visit_inner_points(
+      walker, cells, square, [&](const CellPlace& at, const ShellPlace& place, double weight) {
+        const double side = normal_of(mesh, place).dot(normal) < 0 ? -1 : 1;
+        const Eigen::MatrixXd here = weight * strains.at(at.cell, at.xi, square.e_1, side);
+        strain = strain ? *strain + here : here;
+        weights += weight;
+      });
   // A hole within the square has the strain of the rest.
   if (strain) *strain *= square.size * square.size / weights;
   return strain;
