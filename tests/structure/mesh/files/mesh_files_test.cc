@@ -123,12 +123,12 @@ TEST_F(MeshFiles, AbaqusIncludesNothingFromOutsideItsFolder) {
   EXPECT_EQ(error_of(write("bricks.inp", deck)), "");  // out and in again
   deck.replace(deck.find("../"), 3, "../../");
   EXPECT_THAT(error_of(write("bricks.inp", deck)),
-              testing::AllOf(testing::HasSubstr("bricks.inp:11: *INCLUDE: \"../../"),
-                             testing::HasSubstr("lies outside the folder of this mesh")));
+              ::testing::AllOf(::testing::HasSubstr("bricks.inp:11: *INCLUDE: \"../../"),
+                               ::testing::HasSubstr("lies outside the folder of this mesh")));
   fs::create_symlink("/etc/hostname", fs::path(write("unused", "")).parent_path() / "link.inc");
   deck = two_bricks;
   deck.replace(deck.find("upper.inc"), 9, "link.inc");
-  EXPECT_THAT(error_of(write("bricks.inp", deck)), testing::HasSubstr("lies outside"));
+  EXPECT_THAT(error_of(write("bricks.inp", deck)), ::testing::HasSubstr("lies outside"));
 }
 
 // The lines of data of a keyword alone, below it or named by it.
@@ -142,7 +142,7 @@ TEST_F(MeshFiles, AbaqusReadsLinesOfDataFromFilesOfTheirOwn) {
   std::string deck = two_bricks;
   deck.replace(deck.find("*INCLUDE"), 25, "*NODE, INPUT=../../upper.inc");
   EXPECT_THAT(error_of(write("bricks.inp", deck)),
-              testing::HasSubstr("bricks.inp:11: *NODE: \"../../upper.inc\" lies outside"));
+              ::testing::HasSubstr("bricks.inp:11: *NODE: \"../../upper.inc\" lies outside"));
 }
 
 TEST_F(MeshFiles, AbaqusSetsStayInBounds) {
@@ -166,7 +166,7 @@ TEST_F(MeshFiles, ScriptsOfGmshReachNothingElse) {
         "Field[1] = Structured;\nField[1].FileName = \"aside.geo\";"})
     for (const std::string ending : {".geo", ".shape", ".msh"})
       EXPECT_THAT(error_of(write("box" + ending, box + statement)),
-                  testing::ContainsRegex("line [34]: [A-Za-z]+ may reach other files"))
+                  ::testing::ContainsRegex("line [34]: [A-Za-z]+ may reach other files"))
           << statement << ending;
   EXPECT_EQ(error_of(write("box.geo", box + "// Include \"aside.geo\";\n/* Merge */ Printf(\"> "
                                             "Save; %g\", 1);\nMesh.MeshSizeMax = 1;\n")),
