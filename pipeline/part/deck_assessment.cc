@@ -151,12 +151,10 @@ std::vector<std::string> remarks_on_triangles(const DeckAssessment& assessment) 
   const std::vector<int> found = structure::find_locking_triangles(mesh, degree);
   if (found.empty()) return {};
   return {fmt::format(
-      "{} curved triangles rise over the plane of their corners by more than {} their thickness, "
+      "{} curved triangles rise over the plane of their corners by more than their thickness, "
       "element {} the most: with degree {} they are far too stiff in bending and show too little "
-      "of "
-      "its stress; --degree {}, quadrangles or smaller triangles are not",
-      found.size(), degree == 2 ? "a tenth of" : "all of", mesh.shells[found.front()].label, degree,
-      degree + 1)};
+      "of its stress; --degree {}, quadrangles or smaller triangles are not",
+      found.size(), mesh.shells[found.front()].label, degree, degree + 1)};
 }
 
 }  // namespace blocklift::pipeline
