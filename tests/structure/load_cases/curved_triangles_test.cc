@@ -117,8 +117,8 @@ TEST(CurvedTriangles, PipeBendsByMomentsAlongItsGenerator) {
 }
 
 // MacNeal and Harder (1985): a quarter of a hemisphere of 10 m, 40 mm thick, with a hole of 18
-// degrees, pulled and pushed at its rim; 0.0935 m by fine meshes (Simo, Fox, Rifai 1989). With 8 x 8
-// squares of two triangles it is 0.0878.
+// degrees, pulled and pushed at its rim; 0.0935 m by fine meshes (Simo, Fox, Rifai 1989). With
+// 8 x 8 squares of two triangles it is 0.0878.
 TEST(CurvedTriangles, HemisphereWithAHoleIsPulledOutOfRound) {
   for (const auto& [cells, tolerance] : {std::pair(8, 0.07)}) {
     SCOPED_TRACE(cells);
