@@ -153,11 +153,12 @@ std::vector<std::string> remarks_on_triangles(const DeckAssessment& assessment) 
   int enough = degree + 1;
   while (!structure::find_locking_triangles(mesh, enough).empty()) ++enough;
   return {fmt::format(
-      "{} curved triangle{} over the plane of the corners by more than {} the thickness, element "
-      "{} the most: in degree {} such triangles are far too stiff in bending and show too little "
-      "of its stress; --degree {}, quadrangles or smaller triangles are not",
-      found.size(), found.size() == 1 ? " rises" : "s rise", degree == 2 ? "a tenth of" : "all of",
-      mesh.shells[found.front()].label, degree, enough)};
+      "{} curved triangle{} over the plane of the corners by more than the thickness, element {} "
+      "the "
+      "most: in degree {} such triangles are far too stiff in bending and show too little of its "
+      "stress; --degree {}, quadrangles or smaller triangles are not",
+      found.size(), found.size() == 1 ? " rises" : "s rise", mesh.shells[found.front()].label,
+      degree, enough)};
 }
 
 }  // namespace blocklift::pipeline

@@ -12,6 +12,8 @@
 
 #include "algebra/products.h"
 #include "structure/formulation/gauss_line.h"
+#include "structure/formulation/shell_law.h"
+#include "structure/formulation/triangle_sides.h"
 #include "structure/index.h"
 #include "structure/space/space_implementation.h"
 
@@ -26,13 +28,6 @@ dealii::Quadrature<2> quadrature_of(const Eigen::Matrix2Xd& points) {
   for (Eigen::Index q = 0; q < points.cols(); ++q) list.emplace_back(points(0, q), points(1, q));
   return dealii::Quadrature<2>(list);
 }
-
-/// Of G t, but for facets of curved plating. All of it makes a box with two cells a side 2 % too
-/// stiff in torsion, a hundredth 0.1 %.
-constexpr double drilling_share = 0.01;
-
-/// The same of facets. All of it makes a hemisphere of 16 x 16 bilinear ones 3 % too stiff.
-double drilling_share_of_facets(int degree) { return degree == 1 ? 0.1 : 1; }
 
 /// Geometry of a shell's surface at a point, by the unit coordinates.
 struct Surface {
@@ -74,11 +69,6 @@ Surface surface_at(const dealii::FEValues<2, 3>& values, unsigned q) {
   surface.dn_2 = turn(1);
   return surface;
 }
-
-/// Shape functions at a point and their derivatives by the unit coordinates.
-struct Shapes {
-  Eigen::RowVectorXd value, d_1, d_2;
-};
 
 std::vector<Shapes> tabulate(const Space::Implementation& own, const Eigen::Matrix2Xd& points) {
   const auto nodes = static_cast<Eigen::Index>(own.shell_order.size());
@@ -275,6 +265,39 @@ struct ShellOperator::TiedStrains {
   Eigen::MatrixXd to_rule;        ///< points of the cell's rule x points of the table
 };
 
+/// Strains of a triangle along its sides.
+struct ShellOperator::TriangleTies {
+  TriangleTies(const Space& space, const Eigen::Matrix2Xd& wanted)
+      : table(space.implementation(), places_on_triangle(), flags_of_strains(space.mesh())) {
+    for (Eigen::Index q = 0; q < wanted.cols(); ++q) {
+      to_stretches.push_back(shares_of_stretches(wanted(0, q), wanted(1, q)));
+      to_shears.push_back(shares_of_shears(wanted(0, q), wanted(1, q)));
+    }
+  }
+
+  /// The surface by r and s.
+  static Surface on_triangle(Surface surface, double xi, double eta) {
+    surface.g_1 /= 1 - eta;
+    surface.dn_1 /= 1 - eta;
+    surface.area /= 1 - eta;
+    surface.g_2 += xi * surface.g_1;
+    surface.dn_2 += xi * surface.dn_1;
+    return surface;
+  }
+
+  /// A flat triangle cannot lock, and its own strains are exact about curved openings, too.
+  bool is_flat() const {
+    const Vector3 normal = tangents_at(table.values, 0).n;
+    for (unsigned k = 1; k < table.values.n_quadrature_points; ++k)
+      if ((tangents_at(table.values, k).n - normal).squaredNorm() > 1e-12) return false;
+    return true;
+  }
+
+  Tabulation table;
+  std::vector<Eigen::Matrix<double, 3, 9>> to_stretches;  ///< at the wanted points
+  std::vector<Eigen::Matrix<double, 2, 8>> to_shears;
+};
+
 /// The cell's Gauss points, for means over it.
 struct ShellOperator::Mean {
   explicit Mean(const Space& space)
@@ -309,6 +332,7 @@ struct ShellOperator::Mean {
   std::vector<Eigen::Matrix3d> to_mean;  ///< membrane strains' shares in their mean along e_1, e_2
   double area = 0;
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> strains;
+  std::unique_ptr<TriangleTies> triangle;  ///< in place of means, of degree 2
 };
 
 ShellOperator::~ShellOperator() = default;
@@ -333,6 +357,7 @@ ShellOperator::ShellOperator(const Space& space, const Eigen::Matrix2Xd& points,
     tie(few, many, {membrane_11, shear_1});
     tie(many, few, {membrane_22, shear_2});
     tie(few, few, {membrane_12});
+    if (space.degree() == 2) mean_->triangle = std::make_unique<TriangleTies>(space, points);
   }
 }
 
@@ -378,6 +403,11 @@ void ShellOperator::reinit(int cell) {
   mean_->strains.resize(3, 0);
   if (!is_balanced) find_mean_strains(offset);
   tie_strains(offset);
+  // Where a triangle is divided, cells away from the point are no triangles.
+  if (mean_->triangle && !ties_membrane_ && located.origin.y() + located.size > 1 - 1e-9) {
+    mean_->triangle->table.values.reinit(iterator);
+    tie_sides_of_triangle(offset);
+  }
   for (std::size_t q = 0; q < points_.size(); ++q) {
     Rows& strain = points_[q].strain;
     strain.middleRows<3>(membrane_11) =
@@ -436,52 +466,58 @@ void ShellOperator::tie_strains(double offset) {
   }
 }
 
+// What the six nodes of a triangle strain, by shears and stretches of its sides, and what the ninth
+// node adds.
+void ShellOperator::tie_sides_of_triangle(double offset) {
+  static thread_local Rows rows;
+  static thread_local Eigen::Matrix<double, 9, Eigen::Dynamic, Eigen::RowMajor> stretches;
+  static thread_local Eigen::Matrix<double, 8, Eigen::Dynamic, Eigen::RowMajor> shears;
+  const Eigen::Index columns = points_.front().strain.cols();
+  rows.resize(shell_strains, columns);
+  stretches.resize(9, columns);
+  shears.resize(8, columns);
+  const TriangleTies& ties = *mean_->triangle;
+  const bool is_flat = ties.is_flat();
+  const auto find_strains = [&](const Surface& surface, const Shapes& shapes) {
+    for (const ShellStrain strain : {membrane_11, membrane_22, membrane_12, shear_1, shear_2})
+      if (!is_flat || strain >= shear_1)
+        covariant_strain(surface, shapes, strain, offset, rows.row(strain));
+  };
+  constexpr std::array<double, 3> of_r{1, 0, -1}, of_s{0, 1, 1};  // along r, s and s - r
+  const Eigen::Matrix2Xd& places = places_on_triangle();
+  for (Eigen::Index k = 0; k < places.cols(); ++k) {
+    const double xi = places(0, k), eta = places(1, k);
+    find_strains(TriangleTies::on_triangle(
+                     surface_for(offset, ties.table.values, static_cast<unsigned>(k)), xi, eta),
+                 functions_of_triangle(xi * (1 - eta), eta));
+    const Eigen::Index side = k / 3, on_side = k % 3;  // of the three sides, and the centroid
+    if (side == 3)
+      shears.bottomRows<2>() = rows.middleRows<2>(shear_1);
+    else if (on_side < 2)
+      shears.row(2 * side + on_side) =
+          of_r[at(side)] * rows.row(shear_1) + of_s[at(side)] * rows.row(shear_2);
+    if (is_flat || side == 3) continue;
+    if (side < 2)
+      stretches.row(k) = rows.row(side == 0 ? membrane_11 : membrane_22);
+    else
+      stretches.row(k) =
+          (rows.row(membrane_11) + rows.row(membrane_22) - rows.row(membrane_12)) / 2;
+  }
+  for (std::size_t q = 0; q < points_.size(); ++q) {
+    const Eigen::Vector2d place = places_.col(static_cast<Eigen::Index>(q));
+    find_strains(surface_for(offset, table_->values, static_cast<unsigned>(q)),
+                 beyond_triangle(table_->shapes[q], place.x(), place.y()));
+    Rows& strain = points_[q].strain;
+    strain.middleRows<2>(shear_1) = ties.to_shears[q] * shears + rows.middleRows<2>(shear_1);
+    if (!is_flat)
+      strain.middleRows<3>(membrane_11) =
+          ties.to_stretches[q] * stretches + rows.middleRows<3>(membrane_11);
+  }
+}
+
 bool ShellOperator::is_used(const TiedStrains& tie) const {
   return std::any_of(tie.strains.begin(), tie.strains.end(),
                      [&](ShellStrain strain) { return is_tied(strain); });
-}
-
-Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
-                                                                        double thickness) {
-  const double e = material.youngs_modulus, nu = material.poisson_ratio, t = thickness,
-               g = material.shear_modulus();
-  Eigen::Matrix3d plane;
-  plane << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
-  plane *= e / (1 - nu * nu);
-  Eigen::Matrix<double, shell_strains, shell_strains> law;
-  law.setZero();
-  law.block<3, 3>(membrane_11, membrane_11) = t * plane;
-  law.block<3, 3>(curvature_11, curvature_11) = t * t * t / 12 * plane;
-  law(shear_1, shear_1) = law(shear_2, shear_2) = 5.0 / 6 * g * t;
-  law(drilling, drilling) = drilling_share * g * t;
-  return law;
-}
-
-Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Mesh& mesh,
-                                                                        const Shell& shell,
-                                                                        const Vector3& e_1,
-                                                                        const Vector3& e_2,
-                                                                        double thickness) {
-  const ShellSection& section = mesh.section_of(shell);
-  Eigen::Matrix<double, shell_strains, shell_strains> law =
-      shell_stiffness_law(mesh.material_of(shell), thickness);
-  if (section.laminate < 0) return law;
-  const Laminate& laminate = mesh.laminates[section.laminate];
-  law.block<3, 3>(membrane_11, membrane_11) = laminate.membrane;
-  law.block<3, 3>(membrane_11, curvature_11) = law.block<3, 3>(curvature_11, membrane_11) =
-      laminate.coupling;
-  law.block<3, 3>(curvature_11, curvature_11) = laminate.bending;
-  law.block<2, 2>(shear_1, shear_1) = laminate.shear;
-  // Strains along the laminate's axes from those along e_1 and e_2.
-  const double angle = std::atan2(shell.laminate_axis.dot(e_2), shell.laminate_axis.dot(e_1));
-  const double c = std::cos(angle), s = std::sin(angle);
-  Eigen::Matrix<double, shell_strains, shell_strains> turn;
-  turn.setIdentity();
-  for (const int first : {static_cast<int>(membrane_11), static_cast<int>(curvature_11)})
-    turn.block<3, 3>(first, first) << c * c, s * s, c * s, s * s, c * c, -c * s, -2 * c * s,
-        2 * c * s, c * c - s * s;
-  turn.block<2, 2>(shear_1, shear_1) << c, s, -s, c;
-  return turn.transpose() * law * turn;
 }
 
 ShellStiffness::ShellStiffness(const Space& space)
@@ -504,8 +540,7 @@ const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
     if (q == 0 || is_uneven) {
       root = shell_stiffness_law(space_.mesh(), shell, points[q].e_1, points[q].e_2,
                                  points[q].thickness);
-      if (is_facet)
-        root(drilling, drilling) *= drilling_share_of_facets(space_.degree()) / drilling_share;
+      if (is_facet) root(drilling, drilling) *= drilling_of_facets(space_.degree());
       root = root.llt().matrixU().toDenseMatrix();
     }
     rooted_.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)).noalias() =

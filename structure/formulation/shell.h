@@ -52,10 +52,14 @@ struct ShellPoint {
 /// which is no parallelogram is given back evenly, so that constant stress does the same work on
 /// tied strains as on those of the displacements: without it distorted cells fail the patch test
 /// (for the mean of assumed strains see Simo and Hughes 1986). A triangle is a cell with an edge
-/// that is a point, towards which xi loses its meaning: from degree 2 on its membrane strains are
-/// those of the displacements, for tied ones lock. Source of the drilling term: Hughes and Brezzi
-/// (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121, with a hundredth of their stiffness G t:
-/// where plates meet, the slope of one is the drilling of another. Facets that stand for curved
+/// that is a point, towards which xi loses its meaning: ties along xi and eta lock. Of degree 2 its
+/// shear strains and, if it is curved, its membrane strains are tied along its three sides (MITC6a
+/// of Lee and Bathe 2004, Comput. Struct. 82): those of its six nodes. What the ninth node of the
+/// cell, within it, moves besides strains as the displacements have it; it has no part in rigid
+/// motion. Other triangles have the membrane strains of the displacements. Source of the
+/// drilling term: Hughes and Brezzi (1989), Comput. Methods Appl. Mech. Eng. 72, 105-121, with a
+/// hundredth of their stiffness G t: where plates meet, the slope of one is the drilling of
+/// another. Facets that stand for curved
 /// plating (find_facets) have all of it, of degree 1 a tenth. Where they meet, a twisting moment
 /// leaves its part across the kink to their drilling; what gives way there adds to the twist a
 /// share that goes with (thickness / radius)^2 over that of G t, however fine the facets are: with
@@ -82,6 +86,7 @@ class ShellOperator {
  private:
   struct Tabulation;
   struct TiedStrains;
+  struct TriangleTies;
   struct Mean;
   bool is_tied(int strain) const {
     return is_tied_[strain] && (ties_membrane_ || strain > membrane_12);
@@ -89,6 +94,7 @@ class ShellOperator {
   /// Has the cell any of the strains that are tied there?
   bool is_used(const TiedStrains& tie) const;
   void tie_strains(double offset);
+  void tie_sides_of_triangle(double offset);
   void find_mean_strains(double offset);
 
   const Space& space_;

@@ -114,7 +114,7 @@ std::vector<int> fastened_off_straight_shells(const Mesh& mesh) {
 std::vector<int> find_locking_triangles(const Mesh& mesh, int degree) {
   std::vector<std::pair<double, int>> found;
   if (degree < 2 || degree > 3) return {};
-  const double limit = degree == 2 ? 0.1 : 1;
+  constexpr double limit = 1;
   for (std::size_t s = 0; s < mesh.shells.size(); ++s) {
     const Shell& shell = mesh.shells[s];
     if (!shell.is_triangle() || shell.curvature < 0) continue;

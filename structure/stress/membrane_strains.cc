@@ -24,8 +24,8 @@ Eigen::Matrix3d turn_by(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 /// Where strains of a kind of cells are found.
 struct MembraneStrains::Sampling {
-  Sampling(const Space& space, int count, ShellOperator::Source source)
-      : places(gauss_places(count)), strains(space, square_rule(count).topRows<2>(), source) {}
+  Sampling(const Space& space, int count)
+      : places(gauss_places(count)), strains(space, square_rule(count).topRows<2>()) {}
   /// Polynomials through the points, xi fastest.
   Eigen::VectorXd shares_at(const Eigen::Vector2d& xi) const {
     const std::vector<double> x = lagrange_at(places, xi.x()), y = lagrange_at(places, xi.y());
@@ -58,13 +58,10 @@ const MembraneStrains::Known& MembraneStrains::know(int cell) {
   auto found = std::make_unique<Known>();
   Known& known = *found;
   const int degree = space_.degree();
-  const bool is_untied =
+  const bool is_triangle =
       degree > 1 && space_.mesh().shells[space_.shells()[cell].shell].is_triangle();
-  std::unique_ptr<Sampling>& sampling = is_untied ? of_triangles_ : of_squares_;
-  if (!sampling)
-    sampling =
-        is_untied ? std::make_unique<Sampling>(space_, degree, ShellOperator::Source::displacements)
-                  : std::make_unique<Sampling>(space_, degree + 1, ShellOperator::Source::ties);
+  std::unique_ptr<Sampling>& sampling = is_triangle ? of_triangles_ : of_squares_;
+  if (!sampling) sampling = std::make_unique<Sampling>(space_, is_triangle ? degree : degree + 1);
   known.sampling = sampling.get();
   known.along = space_.place(cell, {1, 0.5}) - space_.place(cell, {0, 0.5});
   Eigen::MatrixXd local(6 * space_.nodes_per_shell(), motions_.cols());

@@ -16,8 +16,9 @@ namespace blocklift::structure {
 /// ShellOperator, which do the work, have nothing of it.
 ///
 /// They are found at the (p + 1) x (p + 1) Gauss points of a cell, along axes of their own there,
-/// and interpolated. Triangles have no tied strains from degree 2 on: theirs are those of the
-/// displacements at p x p Gauss points, where elements of degree p are most accurate (Barlow 1976).
+/// and interpolated; in triangles from degree 2 on at p x p. Those that a curved triangle of
+/// degree 2 has tied along its sides are linear, for which that is enough. The others' are those of
+/// the displacements, and there elements of degree p are most accurate (Barlow 1976).
 ///
 /// One object serves one thread.
 class MembraneStrains {

@@ -31,9 +31,11 @@ ShellStress::ShellStress(const Space& space, const Eigen::Matrix2Xd& points)
       of_squares_at_(points),
       of_triangles_at_(pulled_in(points)),
       of_squares_(space, points) {
-  if (points.cols() > 0 && has_triangles(space.mesh()))
-    of_triangles_ = std::make_unique<ShellOperator>(space, of_triangles_at_,
-                                                    ShellOperator::Source::displacements);
+  if (points.cols() == 0 || !has_triangles(space.mesh())) return;
+  // Ties along xi mean nothing near the edge that is a point, but those along the sides do.
+  const auto source =
+      space.degree() == 2 ? ShellOperator::Source::ties : ShellOperator::Source::displacements;
+  of_triangles_ = std::make_unique<ShellOperator>(space, of_triangles_at_, source);
 }
 
 Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::MatrixXd>& motions,

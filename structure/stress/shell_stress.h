@@ -29,9 +29,9 @@ enum ShellStressRow {
 /// At the height z above the mid-surface of a plate of thickness t the stress is membrane + 2 z / t
 /// bending, and across the plate 3/2 (1 - (2 z / t)^2) of the mean shear. Where an edge of a
 /// triangle is a point no strain is defined there; it is taken a hundredth of the cell away. In
-/// triangles of degree 2 and above strains are those of the displacements: near that point tied
+/// triangles of degree 3 and above strains are those of the displacements: near that point tied
 /// strains, interpolated along tangents that shrink with the distance from it, are divided by its
-/// square.
+/// square. Those of degree 2 are tied along the sides, as the stiffness has them.
 ///
 /// One object serves one thread.
 class ShellStress {
