@@ -154,9 +154,8 @@ std::vector<std::string> remarks_on_triangles(const DeckAssessment& assessment) 
   while (!structure::find_locking_triangles(mesh, enough).empty()) ++enough;
   return {fmt::format(
       "{} curved triangle{} over the plane of the corners by more than the thickness, element {} "
-      "the "
-      "most: in degree {} such triangles are far too stiff in bending and show too little of its "
-      "stress; --degree {}, quadrangles or smaller triangles are not",
+      "the most: in degree {} such triangles are far too stiff in bending and show too little of "
+      "its stress; --degree {}, quadrangles or smaller triangles are not",
       found.size(), found.size() == 1 ? " rises" : "s rise", mesh.shells[found.front()].label,
       degree, enough)};
 }
