@@ -11,6 +11,7 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/lost_processes.h"
 #include "pipeline/command_line/stress_of_deck.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/library/model_library.h"
@@ -257,7 +258,7 @@ int stress(const StressOptions& options) {
                                                          : stress_of_part(options);
   };
   if (structure::ProcessGroup::launched() == 1) return run();
-  const structure::ProcessGroup& group = structure::ProcessGroup::of_this_run();
+  const structure::ProcessGroup& group = join_launched_processes();
   if (!group.leads()) {
     structure::follow_factor_team(group);
     return exit_code::done;

@@ -15,6 +15,7 @@
 #include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/held_signals.h"
+#include "pipeline/command_line/lost_processes.h"
 #include "pipeline/command_line/slurm_jobs.h"
 #include "pipeline/command_line/sweep_team.h"
 #include "pipeline/command_line/worker_process.h"
@@ -103,8 +104,7 @@ std::vector<std::string> arguments_of_process(const SweepOptions& options, const
 
 /// The other processes that a launcher has started with this one; null: there are none.
 const structure::ProcessGroup* launched_group() {
-  return structure::ProcessGroup::launched() > 1 ? &structure::ProcessGroup::of_this_run()
-                                                 : nullptr;
+  return structure::ProcessGroup::launched() > 1 ? &join_launched_processes() : nullptr;
 }
 
 /// Workers of this process: one on each processor, or one of each process of several.

@@ -3,7 +3,6 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -11,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/command_line/lost_processes.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/terminal/run_log.h"
 
@@ -26,13 +26,6 @@ constexpr int most_losses = 3;
 
 /// Words that processes post to one another.
 enum class Word : int { begin, order, answer, alive, end, leave };
-
-/// A process of which nothing is heard for so long is taken for lost, s.
-double silence_of_lost() {
-  const char* text = std::getenv("BLOCKLIFT_LOST_AFTER");
-  const double seconds = text ? std::atof(text) : 0;
-  return seconds > 0 ? seconds : 60;
-}
 
 bool is_past(Clock::time_point moment, double seconds) {
   return Clock::now() - moment > std::chrono::duration<double>(seconds);

@@ -109,6 +109,19 @@ TEST_F(ParallelSweep, DoesWithoutAProcessWhereTheLauncherBearsIt) {
   expect_figures_of_alone("out");
 }
 
+// MPI joins all processes or none, and waits for one that will never come.
+TEST_F(ParallelSweep, EndsWhereAProcessIsLostBeforeItHasJoined) {
+  folder_.write("second.sh", "kill -9 $$\n");
+  const Outcome outcome = test::run_command(
+      launcher + ("--enable-recovery -x BLOCKLIFT_LOST_AFTER=1 -n 1 " + std::string(program)) +
+      "sweep study.yaml -o out : -n 1 sh second.sh");
+  // The launcher that bears losses calls this 0, whatever its processes ended with.
+  EXPECT_THAT(outcome.out,
+              HasSubstr("2 processes were started, and not all of them have joined for 1 s"));
+  EXPECT_THAT(outcome.err, HasSubstr("the processes have not joined for 5 s"));
+  EXPECT_FALSE(fs::exists("out"));
+}
+
 TEST_F(ParallelSweep, GivesALostWorkersMemberToAnother) {
   run_alone();
   const Outcome outcome = test::run_command(
