@@ -14,7 +14,9 @@ TEST(VesselDatabase, IsDoubtedByName) {
   dynamics::HydrodynamicDatabase database;
   database.body_names = {"float"};
   database.frequencies = {0.5};
-  database.added_mass = {Eigen::MatrixXd::Identity(6, 6)};
+  Eigen::MatrixXd added_mass = Eigen::MatrixXd::Identity(6, 6);
+  added_mass(0, 4) = added_mass(4, 0) = added_mass(1, 3) = added_mass(3, 1) = 0.1;
+  database.added_mass = {added_mass};
   database.damping = {Eigen::MatrixXd::Zero(6, 6)};
   database.headings = {0, 45, 90};  // degrees
   VesselInCase vessel;
