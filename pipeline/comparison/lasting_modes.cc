@@ -72,6 +72,11 @@ std::vector<LastingMode> lasting_modes(const Json& list) {
   if (!list.is_array() || !std::ranges::all_of(list, is_mode)) return {};
   std::vector<LastingMode> modes;
   for (const Json& row : list) {
+    if (!row.contains("energy_share_by_body")) {
+      // Nothing tells who leads: the mode keeps its name.
+      modes.push_back({row.at("name").get<std::string>(), &row, true});
+      continue;
+    }
     const std::optional<Lead> lead = lead_of(row);
     if (!lead) continue;
     modes.push_back({lead->body + ": " + motion_of(row.at("name").get<std::string>()), &row,
