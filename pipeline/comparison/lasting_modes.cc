@@ -29,6 +29,7 @@ struct Lead {
 
 /// The body with most of the energy; none if it is one of a crane.
 std::optional<Lead> lead_of(const Json& row) {
+  // Alike bodies share alike; a tenth is for what a plan that is compared changes in that.
   constexpr double equally = 0.9;
   const auto shares = row.find("energy_share_by_body");
   if (shares == row.end() || !shares->is_object()) return std::nullopt;

@@ -16,6 +16,7 @@ using dynamics::modes_per_body;
 using Signs = std::array<double, modes_per_body>;
 
 constexpr double turn_of_waves = 2 * std::numbers::pi, same_heading = 1e-6;
+/// Less than what panels of a mesh without that symmetry err by, which is per cents.
 constexpr double negligible = 0.01;
 
 /// What the mirror makes of surge, sway, heave, roll, pitch and yaw.

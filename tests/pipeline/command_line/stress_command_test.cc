@@ -388,7 +388,7 @@ TEST_F(StressCommand, BodiesAreJoinedWhereAsked) {
 TEST_F(StressCommand, AJoinThatJoinsNothingIsRefused) {
   folder_.write("bar.geo", two_bars);
   change("supports:", "join: {within: 0.1 mm}\nsupports:");
-  expect_refused(AllOf(HasSubstr("bar.yaml:"), HasSubstr("within 0.1 mm of another body"),
+  expect_refused(AllOf(HasSubstr("bar.yaml:"), HasSubstr("faces another body within 0.1 mm"),
                        HasSubstr("across 0.5 mm")));
 }
 
