@@ -12,10 +12,8 @@
 #include <fmt/format.h>
 
 #include "pipeline/assessment/assess.h"
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/expect_command.h"
 #include "pipeline/command_line/held_signals.h"
-#include "pipeline/command_line/processor.h"
 #include "pipeline/command_line/progress_line.h"
 #include "pipeline/comparison/expected_figures.h"
 #include "pipeline/declaration/asked_changes.h"
@@ -28,6 +26,8 @@
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results/summary_file.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/processes/exit_code.h"
+#include "pipeline/processes/processor.h"
 #include "pipeline/report/lift_frames.h"
 #include "pipeline/report/report.h"
 #include "pipeline/results/load_case_decks.h"

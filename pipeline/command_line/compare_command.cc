@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/comparison/comparison.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/comparison/compared_result.h"
 #include "pipeline/formats/atomic_file.h"
+#include "pipeline/processes/exit_code.h"
 
 namespace blocklift::pipeline {
 namespace {

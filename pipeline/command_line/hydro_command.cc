@@ -17,7 +17,6 @@
 
 #include "dynamics/errors.h"
 #include "pipeline/build/keel_clearance.h"
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/files/vessel/wetted_mesh.h"
 #include "pipeline/formats/atomic_file.h"
@@ -25,6 +24,7 @@
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"

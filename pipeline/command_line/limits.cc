@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "dynamics/marine/panels/rankine_problem.h"
-#include "pipeline/command_line/exit_code.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
 #include "structure/limits.h"

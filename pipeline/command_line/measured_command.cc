@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/quantity.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results_store.h"
 #include "pipeline/measurement/measured_lift.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/command_line/exit_code.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/templates/new_case.h"
 
 namespace blocklift::pipeline {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/progress_line.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/rigging/rig_lift.h"
 #include "pipeline/rigging/rigged_case.h"
 #include "pipeline/terminal/run_log.h"

@@ -9,14 +9,14 @@
 #include <fmt/format.h>
 
 #include "pipeline/assessment/assess.h"
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/command_line/held_signals.h"
-#include "pipeline/command_line/lost_processes.h"
 #include "pipeline/command_line/stress_of_deck.h"
 #include "pipeline/files/file_kind.h"
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/part/deck_assessment.h"
 #include "pipeline/part/part_assessment.h"
+#include "pipeline/processes/exit_code.h"
+#include "pipeline/processes/lost_processes.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"
 #include "structure/stress_tensor.h"

@@ -15,7 +15,6 @@
 
 #include "pipeline/build/build_mechanism.h"
 #include "pipeline/build/stiffener_plates.h"
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/asked_changes.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/files/file_kind.h"
@@ -28,6 +27,7 @@
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/table_balance.h"
 #include "pipeline/part/part_assessment.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/results/doubts.h"
 #include "pipeline/results/mesh_page.h"
 #include "pipeline/results/table_summary.h"

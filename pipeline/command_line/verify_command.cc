@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pipeline/command_line/exit_code.h"
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/library/model_library.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
 #include "pipeline/terminal/text_table.h"

@@ -1,4 +1,4 @@
-#include "pipeline/command_line/worker_process.h"
+#include "pipeline/processes/worker_process.h"
 
 #include <spawn.h>
 #include <sys/prctl.h>
@@ -21,7 +21,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/command_line/exit_code.h"
+#include "pipeline/processes/exit_code.h"
 
 namespace blocklift::pipeline {
 namespace {

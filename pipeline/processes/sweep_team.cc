@@ -1,4 +1,4 @@
-#include "pipeline/command_line/sweep_team.h"
+#include "pipeline/processes/sweep_team.h"
 
 #include <poll.h>
 
@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/command_line/lost_processes.h"
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/processes/lost_processes.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/command_line/worker_process.h"
+#include "pipeline/processes/worker_process.h"
 #include "structure/process_group.h"
 
 namespace blocklift::pipeline {

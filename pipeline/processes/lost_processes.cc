@@ -1,4 +1,4 @@
-#include "pipeline/command_line/lost_processes.h"
+#include "pipeline/processes/lost_processes.h"
 
 #include <unistd.h>
 
@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/command_line/exit_code.h"
+#include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {

@@ -1,4 +1,4 @@
-#include "pipeline/command_line/slurm_jobs.h"
+#include "pipeline/processes/slurm_jobs.h"
 
 #include <unistd.h>
 

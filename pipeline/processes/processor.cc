@@ -1,4 +1,4 @@
-#include "pipeline/command_line/processor.h"
+#include "pipeline/processes/processor.h"
 
 #include <dlfcn.h>
 #include <unistd.h>
