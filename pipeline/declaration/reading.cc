@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "pipeline/declaration/due_text.h"
+
 namespace blocklift::pipeline {
 namespace {
 
@@ -88,10 +90,7 @@ void Reading::merge_entries(const YAML::Node& merged, int merge_depth, EntryList
 
 bool Reading::has_value(const Entry& entry, const ValueDescription& due) {
   if (!entry.value.IsNull()) return true;
-  const bool are_many =
-      due.kind == ValueDescription::Kind::table || due.kind == ValueDescription::Kind::names_to;
-  error(entry.mark, fmt::format("{} has no value; {} {} due", entry.key, due.phrase(),
-                                are_many ? "are" : "is"));
+  error(entry.mark, fmt::format("{} has no value; {}", entry.key, due_text(due)));
   return false;
 }
 

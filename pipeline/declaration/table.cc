@@ -5,6 +5,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include "pipeline/declaration/due_text.h"
+
 namespace blocklift::pipeline::table_detail {
 
 namespace {
@@ -25,13 +27,6 @@ bool may_be_unread(const ValueDescription& value) {
   using Kind = ValueDescription::Kind;
   return value.kind == Kind::quantity || value.kind == Kind::measure ||
          value.kind == Kind::number || value.kind == Kind::integer || value.kind == Kind::choice;
-}
-
-/// "a mass is due", "the keys of a load are due".
-std::string due_text(const ValueDescription& value) {
-  using Kind = ValueDescription::Kind;
-  const bool are_many = value.kind == Kind::table || value.kind == Kind::names_to;
-  return value.phrase() + (are_many ? " are due" : " is due");
 }
 
 /// What stands behind a comma of "length: 3,5 m" within braces is read as a key without a value.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "structure/formulation/shell.h"
 #include "structure/index.h"
 #include "structure/mesh/fields/fields.h"
+#include "structure/mesh/fields/shell_edges.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/space/joints.h"
 #include "structure/stress/shell_stress.h"
@@ -43,10 +43,6 @@ Law turn_by_angle(double a, bool is_flipped) {
   law.bottomRightCorner<3, 3>() = (is_flipped ? -1 : 1) * turn;
   return law;
 }
-
-/// Kink from which on plates have resultants of their own, rad, as corners begin for find_facets:
-/// facets of curved plating, such as those of an octagon, are compared with one another.
-constexpr double largest_kink = 46 * std::numbers::pi / 180;
 
 /// Points of recovered resultants: one for each node and field that meet.
 class Points {
@@ -302,7 +298,8 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Motions& motions, i
   const Space& space = model.space();
   SquaredNorms norms(static_cast<Eigen::Index>(space.shells().size()), motions.cols());
   if (space.shells().empty()) return norms;
-  const PlateFields fields = find_fields(model.mesh(), largest_kink);
+  // Facets of curved plating are compared with one another.
+  const PlateFields fields = find_fields(model.mesh(), corner_kink);
   const Points points(space, fields);
   const Axes axes(space, fields, points);
   for (Eigen::Index first = 0; first < motions.cols(); first += together) {

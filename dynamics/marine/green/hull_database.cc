@@ -329,8 +329,12 @@ double hull_database_bytes(const PanelModel& model, const DatabaseSettings& sett
   const WaterPlaneCells cells =
       make_water_plane_cells(find_water_lines(model.bodies()), regions, model.symmetry(),
                              std::sqrt(model.body_areas().mean()));
-  return hull_equations_bytes(model.body_mesh().size() + cells.size(),
-                              static_cast<int>(model.parities().size()));
+  const int unknowns = model.body_mesh().size() + cells.size();
+  const int parts = static_cast<int>(model.parities().size());
+  const double equations = hull_equations_bytes(unknowns, parts);
+  if (!settings.with_coarser) return equations;
+  // What lone rows miss is found beside the matrices.
+  return std::max(equations, hull_matrices_bytes(unknowns, parts) + lone_rows_bytes(model));
 }
 
 HydrodynamicDatabase compute_hull_database(const PanelModel& model,

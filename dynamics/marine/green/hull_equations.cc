@@ -56,12 +56,18 @@ double level_share(const Vector3& field, const Vector3& source, const Vector3& n
 
 }  // namespace
 
+double hull_matrices_bytes(int unknowns, int parts) {
+  const double n = unknowns;
+  // Four of each part, and a quarter of four more at the middles of clusters.
+  return n * n * parts * 5.0 * sizeof(double);
+}
+
 double hull_equations_bytes(int unknowns, int parts) {
   const double n = unknowns;
-  // Four real matrices of each part, a quarter of four more at the middles of clusters, and two
-  // complex ones, one more, and its factors in single precision.
-  constexpr double real = sizeof(double), complex = sizeof(Complex);
-  return n * n * (parts * (5.0 * real + 2.0 * complex) + 1.5 * complex);
+  // Beside the real matrices two complex ones of each part, one more, and its factors in single
+  // precision.
+  constexpr double complex = sizeof(Complex);
+  return hull_matrices_bytes(unknowns, parts) + n * n * (parts * 2.0 + 1.5) * complex;
 }
 
 HullEquations::HullEquations(const PanelModel& model, const Settings& settings)

@@ -12,6 +12,9 @@
 
 namespace blocklift::dynamics {
 
+/// Memory (bytes) of the real matrices alone, which are kept from one frequency to the next.
+double hull_matrices_bytes(int unknowns, int parts);
+
 /// Memory (bytes) that HullEquations take at their peak, while one frequency is solved.
 /// @param unknowns panels and cells that are computed with. @param parts even and odd ones.
 double hull_equations_bytes(int unknowns, int parts);

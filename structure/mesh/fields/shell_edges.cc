@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -68,13 +67,12 @@ double kink_between(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b
 
 std::vector<bool> find_facets(const Mesh& mesh) {
   constexpr double smooth = 0.01;  // rad
-  constexpr double corner = 46 * std::numbers::pi / 180;
   std::vector<bool> is_facet(mesh.shells.size(), false);
   for (const auto& [key, sides] : collect_edges(mesh))
     for (std::size_t i = 0; i < sides.size(); ++i)
       for (std::size_t j = i + 1; j < sides.size(); ++j) {
         const double kink = kink_between(mesh, sides[i], sides[j]);
-        if (kink > smooth && kink < corner)
+        if (kink > smooth && kink < corner_kink)
           is_facet[sides[i].shell] = is_facet[sides[j].shell] = true;
       }
   return is_facet;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -46,8 +47,11 @@ Eigen::Matrix<double, 3, 2> tangents(const Mesh& mesh, int shell, const Eigen::V
 /// the shells' normals are on does not matter.
 double kink_between(const Mesh& mesh, const EdgeOfShell& a, const EdgeOfShell& b);
 
+/// Kink from which on plating has a corner, rad: an octagon is still round.
+inline constexpr double corner_kink = 46 * std::numbers::pi / 180;
+
 /// Which shells are facets of curved plating: those that meet another one at a kink that is neither
-/// nothing nor a corner of the structure (more than 46 degrees, so that an octagon is still round).
+/// nothing nor a corner of the structure (corner_kink).
 std::vector<bool> find_facets(const Mesh& mesh);
 
 }  // namespace blocklift::structure
