@@ -212,8 +212,8 @@ class ErrorOfPanelsOfABroadBox : public ::testing::TestWithParam<std::array<int,
 // Without waves the water moves most sharply round its edges and along its water line: the added
 // mass at infinite frequency has twice the error of the forces in waves, 10 and 15 % in surge and
 // yaw with panels of 2 m. A side of one panel has no coarser one to tell, 26 and 36 %; of three
-// panels one is left over. Against panels that are finer
-// towards the edges: half as many again on each side change them by less than 0.5 %.
+// panels one is left over. Against panels that are finer towards the edges: half as many again on
+// each side change them by less than 0.5 %.
 TEST_P(ErrorOfPanelsOfABroadBox, HoldsItsAddedMassAtInfiniteFrequency) {
   const auto [along, down] = GetParam();
   DatabaseSettings settings;
@@ -295,10 +295,8 @@ TEST_P(ErrorOfPanelsOfABroadCylinder, HoldsThatOfPitch) {
   const auto& said = database.change_from_coarser;
   std::printf("error of pitch %.3f, estimated %.3f, of roll %.3f\n", error, said[pitch],
               said[roll]);
-  // 24 panels round it are said too well: 14.7 % for 12.4, 17.0 for 15.6, 17.2 for 16.1. Its odd
-  // rows of panels join others only where that leaves nearly a rectangle.
   for (const int mode : {pitch, roll}) {
-    EXPECT_LT(error, 1.2 * said[mode]);
+    EXPECT_LT(error, said[mode]);
     EXPECT_LT(said[mode], 3.0 * error);
   }
 }

@@ -12,7 +12,7 @@ enum class PanelMethod {
 
 /// Changes whenever compute_hull_database gives other figures for the same bodies, the
 /// estimate of the panels' error among them.
-inline constexpr int hull_method_version = 4;
+inline constexpr int hull_method_version = 5;
 
 /// The database of a model's bodies by a method.
 /// @param groups of bodies far from each other, of which the Green function needs to know nothing.

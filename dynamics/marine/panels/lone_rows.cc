@@ -8,28 +8,6 @@
 namespace blocklift::dynamics {
 namespace {
 
-/// For each panel, which of its sides have a panel behind them to be taken together with.
-std::vector<std::array<bool, 4>> find_joined_sides(const PanelMesh& hull, const Symmetry& planes) {
-  std::vector<std::array<bool, 4>> joined(hull.panels.size(), {false, false, false, false});
-  const auto in_plane = [&](const Panel& panel, int side) {
-    const double tolerance = 1e-6 * panel.diameter();
-    const Vector3& a = panel.vertices[side];
-    const Vector3& b = panel.vertices[(side + 1) % panel.vertex_count];
-    return (planes.x && std::abs(a.x()) + std::abs(b.x()) < tolerance) ||
-           (planes.y && std::abs(a.y()) + std::abs(b.y()) < tolerance);
-  };
-  for (const SharedEdge& edge : find_shared_edges(hull)) {
-    const Panel& first = hull.panels[edge.panels.first];
-    const Panel& second = hull.panels[edge.panels.second];
-    // Those at more than 45 degrees cluster_panels leaves apart.
-    if (first.normal.dot(second.normal) < std::sqrt(0.5) || in_plane(first, edge.sides.first))
-      continue;
-    joined[edge.panels.first][edge.sides.first] = true;
-    joined[edge.panels.second][edge.sides.second] = true;
-  }
-  return joined;
-}
-
 std::array<Panel, 2> cut_sides(const Panel& panel, int side) {
   const auto vertex = [&](int k) { return panel.vertices[(side + k) % 4]; };
   const Vector3 here = 0.5 * (vertex(0) + vertex(1)), there = 0.5 * (vertex(2) + vertex(3));
@@ -51,17 +29,19 @@ std::vector<WettedBody> halve_bodies(const PanelModel& model, bool& changed) {
 }  // namespace
 
 PanelMesh halve_lone_rows(const PanelMesh& hull, const Symmetry& planes) {
-  const std::vector<std::array<bool, 4>> joined = find_joined_sides(hull, planes);
+  const auto beside = find_what_is_beside(hull, find_shared_edges(hull), planes);
   std::vector<Panel> panels;
   for (std::size_t k = 0; k < hull.panels.size(); ++k) {
     std::vector<Panel> pieces{hull.panels[k]};
-    for (const int side : {0, 1}) {
+    for (const std::size_t side : {0, 1}) {
       // What lies beside the panel at two opposite sides: the other two are cut.
-      const int beside = 1 - side;
-      if (hull.panels[k].vertex_count != 4 || joined[k][beside] || joined[k][beside + 2]) continue;
+      const std::size_t other = 1 - side;
+      if (hull.panels[k].vertex_count != 4 || beside[k][other] == Beside::panel ||
+          beside[k][other + 2] == Beside::panel)
+        continue;
       std::vector<Panel> cut;
       for (const Panel& piece : pieces) {
-        for (const Panel& half : cut_sides(piece, side)) cut.push_back(half);
+        for (const Panel& half : cut_sides(piece, static_cast<int>(side))) cut.push_back(half);
       }
       pieces = std::move(cut);
     }

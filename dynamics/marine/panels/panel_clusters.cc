@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -48,61 +50,178 @@ std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh) {
 
 namespace {
 
+constexpr double cos_45 = 0.70710678118654752;
+
+bool may_meet(const Vector3& a, const Vector3& b) {
+  return a.dot(b) > cos_45 * a.norm() * b.norm();
+}
+
+}  // namespace
+
+std::vector<std::array<Beside, 4>> find_what_is_beside(const PanelMesh& mesh,
+                                                       const std::vector<SharedEdge>& edges,
+                                                       const Symmetry& planes) {
+  const auto in_plane = [&](const Panel& panel, int side) {
+    const double tolerance = 1e-6 * panel.diameter();
+    const Vector3& a = panel.vertices[side];
+    const Vector3& b = panel.vertices[(side + 1) % panel.vertex_count];
+    return (planes.x && std::abs(a.x()) + std::abs(b.x()) < tolerance) ||
+           (planes.y && std::abs(a.y()) + std::abs(b.y()) < tolerance);
+  };
+  std::vector<std::array<Beside, 4>> beside(mesh.panels.size());
+  for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
+    beside[k].fill(Beside::edge);
+    for (int side = 0; side < mesh.panels[k].vertex_count; ++side) {
+      if (in_plane(mesh.panels[k], side)) beside[k][static_cast<std::size_t>(side)] = Beside::image;
+    }
+  }
+  for (const SharedEdge& edge : edges) {
+    if (!may_meet(mesh.panels[edge.panels.first].normal, mesh.panels[edge.panels.second].normal))
+      continue;
+    for (const auto& [panel, side] : {std::pair(edge.panels.first, edge.sides.first),
+                                      std::pair(edge.panels.second, edge.sides.second)}) {
+      if (beside[panel][side] != Beside::image) beside[panel][side] = Beside::panel;
+    }
+  }
+  return beside;
+}
+
+namespace {
+
 /// What a cluster covers.
 struct Cover {
   Vector3 area = Vector3::Zero();  ///< sum of areas times normals, m2
   Eigen::AlignedBox3d box;
+  std::vector<int> panels;
+  bool at_edge = false;  ///< of the hull
 };
 
-std::vector<Cover> find_covers(const PanelMesh& mesh, const PanelClusters& clusters) {
+std::vector<Cover> find_covers(const PanelMesh& mesh, const std::vector<SharedEdge>& edges,
+                               const PanelClusters& clusters) {
+  const auto beside = find_what_is_beside(mesh, edges, mesh.symmetry);
   std::vector<Cover> covers(static_cast<std::size_t>(clusters.count));
   for (std::size_t k = 0; k < mesh.panels.size(); ++k) {
     Cover& cover = covers[clusters.of_panel[k]];
     cover.area += mesh.panels[k].area * mesh.panels[k].normal;
     for (const Vector3& vertex : mesh.panels[k].vertices) cover.box.extend(vertex);
+    cover.panels.push_back(static_cast<int>(k));
+    for (std::size_t side = 0; static_cast<int>(side) < mesh.panels[k].vertex_count; ++side)
+      cover.at_edge = cover.at_edge || beside[k][side] == Beside::edge;
   }
   return covers;
 }
 
+Cover merged(const Cover& a, const Cover& b) {
+  Cover both{a.area + b.area, a.box.merged(b.box), a.panels, a.at_edge || b.at_edge};
+  both.panels.insert(both.panels.end(), b.panels.begin(), b.panels.end());
+  return both;
+}
+
 bool may_join(const Cover& a, const Cover& b, double largest) {
-  return a.area.dot(b.area) > std::sqrt(0.5) * a.area.norm() * b.area.norm() &&
-         a.box.merged(b.box).diagonal().norm() <= largest;
+  return may_meet(a.area, b.area) && a.box.merged(b.box).diagonal().norm() <= largest;
 }
 
 /// What is left over must make a rectangle with the pair that it joins, or nearly: the middle of an
 /// angle lies outside of it, and its equation would be another cluster's.
-bool may_join_as_third(const Cover& alone, const Cover& pair, double largest) {
-  constexpr double filled = 0.75;
-  if (!may_join(alone, pair, largest)) return false;
-  // The box's shadow along the normal, times the area.
-  const Vector3 area = (alone.area + pair.area).cwiseAbs();
-  const Vector3 size = alone.box.merged(pair.box).sizes();
-  const double shadow = area.x() * size.y() * size.z() + area.y() * size.x() * size.z() +
-                        area.z() * size.x() * size.y();
-  return area.squaredNorm() >= filled * shadow;
+bool make_rectangle(const PanelMesh& mesh, const Cover& alone, const Cover& pair) {
+  constexpr double filled = 0.9;
+  const Vector3 area = alone.area + pair.area, normal = area.normalized();
+  const Panel& panel = mesh.panels[alone.panels.front()];
+  const Vector3 side = panel.vertices[1] - panel.vertices[0];
+  const Vector3 e_1 = (side - normal * normal.dot(side)).normalized(), e_2 = normal.cross(e_1);
+  Eigen::AlignedBox2d box;
+  for (const Cover* cover : {&alone, &pair}) {
+    for (const int k : cover->panels) {
+      for (const Vector3& vertex : mesh.panels[k].vertices)
+        box.extend(Eigen::Vector2d(e_1.dot(vertex), e_2.dot(vertex)));
+    }
+  }
+  return area.norm() >= filled * box.volume();
 }
 
-/// Joins neighbouring clusters two by two, those first that share the longest edges.
-void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, double largest,
-                LeftOver left_over, PanelClusters& clusters) {
-  const std::vector<Cover> covers = find_covers(mesh, clusters);
+/// Clusters that may be joined, and the length of the edges that they share, m.
+using Neighbours = std::pair<Pair, double>;
+
+/// Those that share the longest edges come first.
+std::vector<Neighbours> find_neighbours(const std::vector<SharedEdge>& edges, double largest,
+                                        const PanelClusters& clusters,
+                                        const std::vector<Cover>& covers) {
   std::map<Pair, double> common;
   for (const SharedEdge& edge : edges) {
     const int a = clusters.of_panel[edge.panels.first];
     const int b = clusters.of_panel[edge.panels.second];
     if (a != b) common[{std::min(a, b), std::max(a, b)}] += edge.length;
   }
-  std::vector<std::pair<Pair, double>> ordered(common.begin(), common.end());
+  std::vector<Neighbours> ordered;
+  for (const auto& [pair, length] : common) {
+    if (may_join(covers[pair.first], covers[pair.second], largest))
+      ordered.emplace_back(pair, length);
+  }
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
+  return ordered;
+}
+
+/// Pairs among neighbours that are as good as each other. Clusters with the fewest choices come
+/// first: a row is joined from its ends, so that none of an even row is left over.
+std::vector<Pair> pair_equals(std::span<const Neighbours> neighbours,
+                              const std::vector<int>& renamed) {
+  std::map<int, std::set<std::size_t>> choices;
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    const auto& [a, b] = neighbours[k].first;
+    if (renamed[a] >= 0 || renamed[b] >= 0) continue;
+    choices[a].insert(k);
+    choices[b].insert(k);
+  }
+  std::set<std::pair<std::size_t, std::size_t>> waiting;  // the fewer choices of the two, which
+  const auto key = [&](std::size_t k) {
+    const auto& [a, b] = neighbours[k].first;
+    return std::pair(std::min(choices.at(a).size(), choices.at(b).size()), k);
+  };
+  for (const auto& [cluster, own] : choices)
+    for (const std::size_t k : own) waiting.insert(key(k));
+  std::vector<Pair> pairs;
+  while (!waiting.empty()) {
+    const auto [a, b] = pairs.emplace_back(neighbours[waiting.begin()->second].first);
+    std::set<std::size_t> gone = choices.at(a);
+    gone.insert(choices.at(b).begin(), choices.at(b).end());
+    std::set<int> losers;
+    for (const std::size_t k : gone)
+      losers.insert({neighbours[k].first.first, neighbours[k].first.second});
+    for (const int cluster : losers)
+      for (const std::size_t k : choices.at(cluster)) waiting.erase(key(k));
+    for (const int cluster : losers)
+      std::erase_if(choices.at(cluster), [&](std::size_t k) { return gone.contains(k); });
+    for (const int cluster : losers)
+      for (const std::size_t k : choices.at(cluster)) waiting.insert(key(k));
+  }
+  return pairs;
+}
+
+/// Where neighbours end that share edges as long as the first's, but for what files round.
+std::size_t end_of_equals(std::span<const Neighbours> ordered) {
+  constexpr double equal = 0.99;
+  return static_cast<std::size_t>(
+      std::ranges::find_if(
+          ordered, [&](const Neighbours& n) { return n.second < equal * ordered.front().second; }) -
+      ordered.begin());
+}
+
+/// Joins neighbouring clusters two by two, those first that share the longest edges.
+void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, double largest,
+                LeftOver left_over, PanelClusters& clusters) {
+  const std::vector<Cover> covers = find_covers(mesh, edges, clusters);
+  const std::vector<Neighbours> ordered = find_neighbours(edges, largest, clusters, covers);
   std::vector<int> renamed(covers.size(), -1);
   int count = 0;
   std::vector<Cover> joined;
-  for (const auto& [pair, length] : ordered) {
-    const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    if (renamed[a] >= 0 || renamed[b] >= 0 || !may_join(covers[a], covers[b], largest)) continue;
-    renamed[a] = renamed[b] = count++;
-    joined.push_back({covers[a].area + covers[b].area, covers[a].box.merged(covers[b].box)});
+  for (std::span<const Neighbours> rest = ordered; !rest.empty();) {
+    const std::size_t end = end_of_equals(rest);
+    for (const auto& [a, b] : pair_equals(rest.first(end), renamed)) {
+      renamed[a] = renamed[b] = count++;
+      joined.push_back(merged(covers[a], covers[b]));
+    }
+    rest = rest.subspan(end);
   }
   std::vector<bool> full(joined.size(), left_over == LeftOver::stays);
   for (const auto& [pair, length] : ordered) {
@@ -111,7 +230,10 @@ void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, dou
     if (renamed[alone] >= 0) std::swap(alone, other);
     if (renamed[alone] >= 0 || renamed[other] < 0) continue;
     const auto cluster = static_cast<std::size_t>(renamed[other]);
-    if (full[cluster] || !may_join_as_third(covers[alone], joined[cluster], largest)) continue;
+    if (full[cluster] || !covers[alone].at_edge ||
+        !may_join(covers[alone], joined[cluster], largest) ||
+        !make_rectangle(mesh, covers[alone], joined[cluster]))
+      continue;
     renamed[alone] = renamed[other];
     full[cluster] = true;
   }
@@ -186,7 +308,7 @@ Eigen::VectorXd error_of_panels(const Eigen::VectorXd& changes, const PanelClust
   const double ratio = std::min(2.0, std::sqrt(panels / clusters.count));
   if (!(ratio > 1.0))
     return Eigen::VectorXd::Constant(changes.size(), std::numeric_limits<double>::infinity());
-  return changes / (ratio - 1.0);
+  return caution_with_panels * changes / (ratio - 1.0);
 }
 
 FlatClusters find_flat_clusters(const PanelMesh& mesh, const PanelClusters& clusters) {

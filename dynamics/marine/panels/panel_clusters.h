@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -17,6 +18,18 @@ struct SharedEdge {
 
 /// All edges that two panels of a mesh share. Images in planes of symmetry share none.
 std::vector<SharedEdge> find_shared_edges(const PanelMesh& mesh);
+
+/// What lies beside a panel at one of its sides.
+enum class Beside {
+  panel,  ///< one that it may be taken together with
+  image,  ///< its own, in a plane of symmetry
+  edge,   ///< nothing, or a panel at more than 45 degrees
+};
+
+/// For each panel, what lies beside its sides. The fourth of a triangle has no meaning.
+std::vector<std::array<Beside, 4>> find_what_is_beside(const PanelMesh& mesh,
+                                                       const std::vector<SharedEdge>& edges,
+                                                       const Symmetry& planes);
 
 /// Neighbouring panels taken together, as one panel of a coarser mesh.
 struct PanelClusters {
@@ -40,7 +53,7 @@ struct PanelClusters {
 
 /// What becomes of a panel whose neighbours all have a partner.
 enum class LeftOver {
-  joins,  ///< a pair beside it, as its third
+  joins,  ///< at an edge of the hull: a pair beside it, as its third
   stays,  ///< by itself
 };
 
@@ -53,11 +66,16 @@ PanelClusters cluster_panels(const PanelMesh& mesh,
                              double largest = std::numeric_limits<double>::infinity(),
                              LeftOver left_over = LeftOver::joins);
 
+/// What estimated errors of panels are multiplied with: a cluster's flow is not quite that of one
+/// panel of twice the size. Without it pitch of a broad cylinder, 24 panels round it, would be said
+/// an eighth too low.
+inline constexpr double caution_with_panels = 1.14;
+
 /// The error of panels at first order in their size, from what their forces change by from clusters
-/// of them: 1/(r - 1) times as much, r^2 the panels in a cluster in the mean. The changes
-/// themselves where four are joined everywhere; more where hulls are few panels wide or high, which
-/// leave panels alone. Never less, where threes are joined: those at the edges may be twos.
-/// Infinite where none are joined.
+/// of them: 1/(r - 1) times as much, r^2 the panels in a cluster in the mean, with caution. The
+/// changes themselves where four are joined everywhere; more where hulls are few panels wide or
+/// high, which leave panels alone. Never less, where threes are joined: those at the edges may be
+/// twos. Infinite where none are joined.
 Eigen::VectorXd error_of_panels(const Eigen::VectorXd& changes, const PanelClusters& clusters);
 
 /// Clusters of several panels that lie in a plane.

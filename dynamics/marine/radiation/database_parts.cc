@@ -175,7 +175,7 @@ Eigen::VectorXd calc_radiation_error(const HydrodynamicDatabase& database,
       largest_share(modes, as_force, larger_with_or_without(change, arms));
   return error_of_panels(in_waves, clusters)
       .cwiseMax(error_of_panels(at_infinity, clusters) +
-                largest_share(modes, as_force, coarser.infinite_error));
+                caution_with_panels * largest_share(modes, as_force, coarser.infinite_error));
 }
 
 Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,

@@ -363,6 +363,18 @@ TEST(PanelMesh, WhatIsLeftOverGoesWithItsNeighbour) {
   EXPECT_EQ(cluster_panels(row, unlimited, LeftOver::stays).count, 2);
 }
 
+// A row that is even has none left over, wherever rounding has its longest edge.
+TEST(PanelMesh, OfEvenRowsNothingIsLeftOver) {
+  for (const int meridians : {24, 48}) {
+    const PanelMesh cylinder = make_vertical_cylinder(
+        10.0, 5.0, true, {.meridians = meridians, .parallels = meridians / 12, .grading = 1.0});
+    const PanelModel quarter({{"cylinder", cylinder, Vector3::Zero()}}, {}, {1000.0, 9.80665},
+                             {true, true});
+    const PanelClusters clusters = cluster_panels(quarter.body_mesh());
+    EXPECT_EQ(4 * clusters.count, quarter.body_mesh().size()) << meridians;
+  }
+}
+
 // Sides of one panel become two high; what has a neighbour to go with stays.
 TEST(PanelMesh, LoneRowsAreHalved) {
   const PanelMesh box = make_box_hull(16.0, 8.0, 2.0, {8, 4, 1, 1.0});

@@ -291,13 +291,14 @@ TEST_P(ClustersOfABox, AreAMeshOfTwiceTheSize) {
 INSTANTIATE_TEST_SUITE_P(Depths, ClustersOfABox,
                          ::testing::Values(std::numeric_limits<double>::infinity(), 4.05));
 
-// Four panels in each cluster: the change is the error at first order. Of three and of none it is
-// more, and not known.
+// Four panels in each cluster: the change is the error at first order, with caution. Of three
+// and of none it is more, and not known.
 TEST(PanelClusters, ErrorIsTheChangeAtFirstOrder) {
   const Eigen::VectorXd change = Eigen::VectorXd::Constant(6, 0.1);
   const PanelClusters fours{{0, 0, 0, 0, 1, 1, 1, 1}, 2}, threes{{0, 0, 0, 1, 1, 1}, 2};
-  EXPECT_NEAR(error_of_panels(change, fours)[0], 0.1, 1e-12);
-  EXPECT_NEAR(error_of_panels(change, threes)[5], 0.1 / (std::sqrt(3.0) - 1.0), 1e-12);
+  EXPECT_NEAR(error_of_panels(change, fours)[0], caution_with_panels * 0.1, 1e-12);
+  EXPECT_NEAR(error_of_panels(change, threes)[5],
+              caution_with_panels * 0.1 / (std::sqrt(3.0) - 1.0), 1e-12);
   EXPECT_TRUE(std::isinf(error_of_panels(change, {{0, 1, 2}, 3})[0]));
 }
 
