@@ -3,7 +3,8 @@
     check_references.py MODELS [NAME ...]
 
 A figure of a file is met where it lies within the tolerance that the file gives; each must be found
-by the equations in mechanisms.py. Those of pendulum, four-bar and two-four-bars are published ones.
+by the equations in mechanisms.py. Those of Andrews' squeezer, which are published ones beside
+others of more digits, are not among them.
 """
 
 import re

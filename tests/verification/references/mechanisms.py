@@ -228,5 +228,23 @@ def bricard():
     return found
 
 
+def pendulum():
+    """A point mass on a rod, by the angle from the plumb."""
+    times = [5.0, 10.0]
+    path = one_coordinate(lambda t: (1 + 0j, -G * cmath.cos(t)), -math.pi / 2, 0.0, times, 0.02)
+    return {time: {("mass", "x"): math.sin(t), ("mass", "y"): -math.cos(t)}
+            for time, (t, _, _) in zip(times, path)}
+
+
+def four_bars(count):
+    """Equal posts that turn together by q, with bars between their tops that do not turn."""
+    mass = (count + 1) / 3 + count
+    weight = G * ((count + 1) / 2 + count)
+    path = one_coordinate(lambda q: (mass + 0j, weight * cmath.cos(q)), 0.0, -1.0, [10.0], 0.02)
+    q = path[0][0]
+    return {10.0: {("B0", "x"): -math.sin(q), ("B0", "y"): math.cos(q)}}
+
+
 ALL = {"open-chain": open_chain, "paper-loop": paper_loop,
-       "spatial-slider-crank": spatial_slider_crank, "heavy-top": heavy_top, "bricard": bricard}
+       "spatial-slider-crank": spatial_slider_crank, "heavy-top": heavy_top, "bricard": bricard,
+       "pendulum": pendulum, "four-bar": lambda: four_bars(1), "two-four-bars": lambda: four_bars(2)}
