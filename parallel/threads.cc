@@ -21,6 +21,9 @@ int usable_threads() {
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+// By threads of the standard library and not TBB's, which deal.II brings: the caller says how many
+// there are, the exception that is thrown on does not depend on their order, and the dynamics need
+// nothing that the structure's libraries bring.
 void in_batches(int count, int batch_size, int threads,
                 const std::function<void(int first, int count)>& work) {
   if (threads <= 0) threads = usable_threads();

@@ -3,6 +3,9 @@
 #include <cstring>
 #include <stdexcept>
 
+// In place of deal.II's Utilities::pack, which gives an object to Boost's archives: arrays and
+// Eigen's matrices are put one after another as they lie in memory, and who fills a packet reads
+// none of deal.II's headers.
 namespace blocklift::structure {
 
 void Packet::append(const void* data, std::size_t size) {

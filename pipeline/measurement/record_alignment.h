@@ -19,10 +19,11 @@ struct ChannelToAlign {
 /// A record's channels by the clock of the lift, with what is not credible told apart.
 struct AlignedChannels {
   TimeShift clock;
-  bool is_found = false;                                 ///< not given
-  std::vector<std::vector<FaultySamples>> faults;        ///< of each channel, among its own samples
-  std::vector<std::vector<FaultySamples>> snatches;      ///< likewise: they were not computed
-  std::vector<std::vector<FaultySamples>> load_changes;  ///< likewise
+  bool is_found = false;  ///< not given
+  // Of each channel, among its own samples.
+  std::vector<std::vector<FaultySamples>> faults;
+  std::vector<std::vector<FaultySamples>> snatches;  ///< they were not computed
+  std::vector<std::vector<FaultySamples>> load_changes;
 };
 
 /// Finds the clock of a record (find_time_shift) and the faults of its channels (find_faults),

@@ -55,8 +55,8 @@ void find_shares(const Space& space, const FieldWalker& walker, const CellFinder
   }
 }
 
-/// Calls visit(place in its cell, place in its shell, share of the square's area) for those of the Gauss
-/// points within a square below which there is plating. @returns are there all of them?
+/// Calls visit(place in its cell, place in its shell, share of the square's area) for those of the
+/// Gauss points within a square below which there is plating. @returns are there all of them?
 template <typename Visit>
 bool visit_inner_points(const FieldWalker& walker, const CellFinder& cells, const Square& square,
                         const Visit& visit) {

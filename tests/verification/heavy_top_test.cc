@@ -37,7 +37,7 @@ TEST(HeavyTop, QuaternionAtTwoTenthsOfASecond) {
   EXPECT_LT((quaternion - reference).cwiseAbs().maxCoeff(), 1e-9) << quaternion.transpose();
 }
 
-// Independent Runge-Kutta integration, ten digits: centre of mass at 1 s.
+// Euler's equations integrated by tests/verification/references: centre of mass at 1 s.
 TEST(HeavyTop, CentreOfMassAtOneSecond) {
   const Mechanism mechanism = heavy_top();
   const Vector3 p = point_position(run(mechanism, 1.0, 200000).kinematics(), 1, {0, 1, 0});

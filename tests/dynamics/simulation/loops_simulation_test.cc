@@ -73,7 +73,7 @@ TEST(LoopSimulation, AndrewsSqueezersForces) {
   }
 }
 
-// IFToMM A04: own Runge-Kutta values of the references page, good to 9 digits.
+// IFToMM A04: values of tests/verification/references, good to 9 digits.
 TEST(LoopSimulation, BricardsLinkage) {
   const LiftSystem system = samples::mechanism_alone(
       samples::bricard_linkage(), Eigen::VectorXd::Zero(5), Eigen::VectorXd::Zero(5), 10.0);

@@ -16,9 +16,9 @@ namespace blocklift::dynamics::test {
 ///
 /// With zeta the height over the bottom and s the water under the cylinder, of unit velocities:
 /// beneath it a_0/2 R_0 + sum a_n R_n(r) cos(n pi zeta/s), in heave (zeta^2 - r^2/2)/(2 s) and in
-/// pitch (r^3/4 - zeta^2 r)/(2 s) besides; around it sum b_k S_k(r) Z_k(zeta), Z_0 of the travelling
-/// wave, Z_k of those that decay, of which the mean square over the depth is 1. Potential and radial
-/// velocity are the same at the radius.
+/// pitch (r^3/4 - zeta^2 r)/(2 s) besides; around it sum b_k S_k(r) Z_k(zeta), Z_0 of the
+/// travelling wave, Z_k of those that decay, of which the mean square over the depth is 1.
+/// Potential and radial velocity are the same at the radius.
 class ShallowCylinder {
  public:
   /// @param radius, draught, depth m. @param gravity m/s2.
