@@ -66,6 +66,8 @@ std::vector<Place> places_of(const HistoryState& state) {
 
 void write_unit_stress(ResultsWriter& file, const structure::UnitResponses& responses,
                        const HistoryAssessment& history) {
+  const std::vector<Place> known = places_of(history.dynamic_state);
+  if (known.empty()) return;
   const std::string whole = layout::join(layout::structure_group, layout::history);
   const std::string group = layout::join(whole, "unit_stress");
   const UnitLoads loads = unit_loads_of(responses);
@@ -78,7 +80,7 @@ void write_unit_stress(ResultsWriter& file, const structure::UnitResponses& resp
   std::vector<std::string> names;
   std::vector<Eigen::Vector3d> points;
   std::vector<double> stress;
-  for (const Place& place : places_of(history.dynamic_state)) {
+  for (const Place& place : known) {
     names.push_back(place.name);
     points.push_back(place.extreme->point_B);
     const RowMajorMatrix by_component = place.extreme->unit_stress;
