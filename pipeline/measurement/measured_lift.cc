@@ -37,9 +37,9 @@ bool is_surrounding(const MeasuredChannel& channel) {
 }
 
 /// Says how the clock of one record was found.
-AlignedRecord record_of(const MeasuredRecord& record, const AlignedChannels& aligned,
+AlignedRecord record_of(const MeasuredRecord& record, const AlignedChannels& aligned, bool is_given,
                         std::vector<std::string>& doubts) {
-  AlignedRecord one{record.file, aligned.clock.shift, std::nullopt};
+  AlignedRecord one{record.file, aligned.clock.shift, std::nullopt, is_given};
   if (!aligned.is_found) return one;
   one.found = aligned.clock;
   if (one.found->is_doubtful())
@@ -136,7 +136,7 @@ void take_record(const MeasuredRecord& record, const ResultsReader& results,
            "nothing in this record or in what was computed of it moves, so that the "
            "two cannot be aligned",
            {"--shift says by how many seconds the clock of the lift is ahead of the record's"});
-  lift.records.push_back(record_of(record, *aligned, lift.doubts));
+  lift.records.push_back(record_of(record, *aligned, given.has_value(), lift.doubts));
   for (std::size_t k = 0; k < channels.size(); ++k) {
     HeldChannel& channel = channels[k];
     channel.measured = on_clock(std::move(channel.measured), aligned->clock);

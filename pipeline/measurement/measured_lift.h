@@ -33,7 +33,8 @@ struct MeasurementSettings {
 struct AlignedRecord {
   std::string file;
   double shift = 0;                ///< s, what was added to its instants
-  std::optional<TimeShift> found;  ///< how the shift was found; none where it was given
+  std::optional<TimeShift> found;  ///< how the shift was found; none where it was not
+  bool is_given = false;           ///< wind and waves alone go without both: their shift is zero
 };
 
 /// Samples of a channel that were not believed.

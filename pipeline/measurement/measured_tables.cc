@@ -12,13 +12,17 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr char coordinates[] = "xyz";
 
+std::string how_aligned(const AlignedRecord& record) {
+  if (record.found) return "found";
+  return record.is_given ? "given" : "not needed";
+}
+
 MeasuredTable clocks_table(const MeasuredLift& lift) {
   MeasuredTable table{"Clocks", {{"record"}, {"shift s", 5}, {"correlation", 3}, {"how"}}, {}};
   // To a millisecond however long ago a clock began: --shift takes it as it stands.
   for (const AlignedRecord& record : lift.records)
     table.rows.push_back({record.file, fmt::format("{:.3f}", record.shift),
-                          record.found ? record.found->correlation : unknown,
-                          std::string(record.found ? "found" : "given")});
+                          record.found ? record.found->correlation : unknown, how_aligned(record)});
   return table;
 }
 

@@ -22,13 +22,14 @@ double mean_over_time(const TimeSeries& series) {
   return integral_of(series).back() / (series.time.back() - series.time.front());
 }
 
-/// Root of the mean square about a value, linear between samples.
+/// Root of the mean square about a value. Squares and not values are taken as linear between
+/// samples: chords cut off the crests of waves, of a 4 s wave at 1.28 Hz 12 % of its height.
 double deviation_about(const TimeSeries& series, double mean) {
   double sum = 0;
   for (std::size_t i = 1; i < series.size(); ++i) {
     const double a = series.values[i - 1] - mean;
     const double b = series.values[i] - mean;
-    sum += (series.time[i] - series.time[i - 1]) * (a * a + a * b + b * b) / 3;
+    sum += (series.time[i] - series.time[i - 1]) * (a * a + b * b) / 2;
   }
   return std::sqrt(sum / (series.time.back() - series.time.front()));
 }

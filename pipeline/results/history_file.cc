@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/formats/results/results_layout.h"
+#include "pipeline/results/unit_stress_file.h"
 
 namespace blocklift::pipeline {
 
@@ -81,6 +82,7 @@ void write_block_history(ResultsWriter& file, const structure::Surface& surface,
     write(layout::static_state, one.static_von_mises, one.static_normal);
     write(layout::dynamic_state, one.dynamic_von_mises, one.dynamic_normal);
   }
+  write_unit_stress(file, responses, history);
 }
 
 }  // namespace blocklift::pipeline

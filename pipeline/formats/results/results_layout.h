@@ -97,7 +97,7 @@
 ///     plate                            [c]  0 main plate, 1, 2 cheek plates in front and behind
 ///     von_mises                        Pa [c], of the mean stress   force   N [3], of the pin
 ///   /structure/history/points/<name>   point m [3]; <state>/von_mises, <state>/normal_stress
-///                                      Pa [n]
+///                                      Pa [n];   unit_stress/, <state>/factors: unit_stress_file.h
 ///
 /// summary.json, one object; everything but case may be missing, null stands for "not known"; what
 /// is simulated and not assessed has no verdict

@@ -9,7 +9,8 @@
     tension = result.history("dynamic").tension.sel(rope="R3")
 
 The package runs the program `blocklift` in a process of its own (see :func:`executable`) and reads
-the files that it writes; lifts whose drives are steered by laws of Python run in this process. All numbers are in SI units; arrays carry theirs in the attribute `units`.
+the files that it writes; lifts whose drives are steered by laws of Python run in this process. All
+numbers are in SI units; arrays carry theirs in the attribute `units`.
 """
 
 from .case import Case

@@ -49,8 +49,8 @@ def assess(case: Path, folder: Path, laws: Mapping[str, LawOrClass], decks: bool
 
 
 def sweep(study: Path, folder: Path, laws: Mapping[str, LawOrClass]) -> None:
-    """Runs a study in this process, a member after another, and writes its results. What is doubtful
-    about them is a LiftWarning."""
+    """Runs a study in this process, a member after another, and writes its results. What is
+    doubtful about them is a LiftWarning."""
     for doubt in load().sweep(os.fspath(study), os.fspath(folder), os.fspath(executable()),
                               _checked(laws)):
         warnings.warn(doubt, LiftWarning, stacklevel=2)

@@ -82,11 +82,11 @@ def version() -> str:
 
 
 def new(kind: str, folder: str | os.PathLike[str]) -> Path:
-    """Writes a commented case that runs into a new folder, to begin with: "two-hoists", "turn-over",
-    "study", ..., as `blocklift new` does. Returns the folder.
+    """Writes a commented case that runs into a new folder, to begin with: "two-hoists",
+    "turn-over", "study", ..., as `blocklift new` does. Returns the folder.
 
-    Raises InputError if the folder is there already, ValueError, with all kinds, if there is no such
-    kind.
+    Raises InputError if the folder is there already, ValueError, with all kinds, if there is no
+    such kind.
     """
     run(["new", kind, folder])
     return Path(folder)

@@ -1,6 +1,7 @@
 #include "pipeline/measurement/measured_lift.h"
 
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -268,6 +269,19 @@ TEST(Surroundings, HaveMeanGustHeightAndPeriod) {
   EXPECT_NEAR(waves_of(waves).significant_height, 4 * 1.5 / std::sqrt(2.0), 1e-3);
   ASSERT_TRUE(waves_of(waves).zero_crossing_period);
   EXPECT_NEAR(*waves_of(waves).zero_crossing_period, 8, 1e-3);
+}
+
+// A buoy samples a wave a few times: over whole periods the sum of the squares of a sine's samples
+// is half of their number, however few they are beyond two a period.
+TEST(Surroundings, HeightIsThatOfCoarseSamplesToo) {
+  for (const int per_period : {3, 5, 12}) {
+    TimeSeries waves;
+    for (int i = 0; i <= 20 * per_period; ++i) {
+      waves.time.push_back(6.0 * i / per_period);
+      waves.values.push_back(0.5 * std::sin(2 * std::numbers::pi * i / per_period));
+    }
+    EXPECT_NEAR(waves_of(waves).significant_height, 4 * 0.5 / std::sqrt(2.0), 1e-9) << per_period;
+  }
 }
 
 }  // namespace

@@ -213,6 +213,7 @@ class ResultTest(InATemporaryFolder):
         self.assertLess(surface["quads"].max(), len(surface["points"]))
         self.assertEqual(len(surface["dynamic"]), len(surface["points"]))
         self.check_stress(result)
+        self.check_unit_responses(result)
         with self.assertRaises(KeyError):
             result.history("yesterday")
         with self.assertRaises(KeyError):
@@ -241,9 +242,31 @@ class ResultTest(InATemporaryFolder):
         self.assertAlmostEqual(float(tilt.time[int(tilt.argmax())]), peak["time_of_dynamic_s"])
         axes = result.plot_stress()
         self.assertEqual(axes.get_zlabel(), "z, m")
-        for missing in (result.envelope, result.stress, result.measures):
+        for missing in (result.envelope, result.stress, result.measures, result.load_factors):
             with self.assertRaises(KeyError):
                 missing("yesterday")
+
+    def check_unit_responses(self, result):
+        responses = result.unit_responses()
+        self.assertEqual(responses.stress.attrs["units"], "Pa")
+        for state in ("static", "dynamic"):
+            factors = result.load_factors(state)
+            self.assertEqual(list(factors.load.values), list(responses.load.values))
+            # Superposed they are the stress that was followed at these places.
+            stress = responses.stress @ factors
+            xx, yy, zz, xy, yz, zx = (stress.sel(component=one) for one in responses.component)
+            von_mises = np.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2
+                                + 3 * (xy ** 2 + yz ** 2 + zx ** 2))
+            followed = result.stress(state).von_mises
+            self.assertEqual(list(followed.place.values), ["hot spot", "L1", "L2", "L3", "L4"])
+            there = von_mises.sel(place=followed.place).transpose(*followed.dims)
+            np.testing.assert_allclose(there, followed, rtol=1e-9)
+            # Each lug has one rope, whose tension is the force on its pin.
+            for lug, rope in (("L1", "R1"), ("L4", "R4")):
+                force = factors.sel(load=[f"{lug} {axis}" for axis in "xyz"])
+                self.assertEqual(set(force.unit.values), {"N"})
+                tension = result.history(state).tension.sel(rope=rope)
+                np.testing.assert_allclose(np.linalg.norm(force, axis=1), tension, rtol=1e-9)
 
     def test_a_changed_case_gives_other_loads_and_leaves_the_file_alone(self):
         before = Path("lift/case.yaml").read_text(encoding="utf-8")
