@@ -21,7 +21,8 @@ Json difference_json(const InputDifference& difference) {
   return {{"file", difference.file}, {"key", difference.key}, {"values", std::move(values)}};
 }
 
-Json figure_json(const ComparedFigure& figure) {
+/// @param unit of the values and of their differences; empty for pure numbers and texts.
+Json figure_json(const ComparedFigure& figure, const std::string& unit) {
   Json changes = Json::array(), differences = Json::array();
   const auto number = [](const std::optional<double>& one) { return one ? Json(*one) : Json(); };
   for (std::size_t result = 0; result < figure.values.size(); ++result) {
@@ -31,6 +32,7 @@ Json figure_json(const ComparedFigure& figure) {
   return {{"figure", figure.figure.path},
           {"group", figure.figure.group},
           {"label", figure.figure.label},
+          {"unit", unit},
           {"values", figure.values},
           {"difference", std::move(differences)},
           {figure.is_in_percent() ? "change_points" : "change_percent", std::move(changes)}};
@@ -48,7 +50,7 @@ Json comparison_json(const ResultComparison& comparison) {
   for (const InputDifference& difference : comparison.input)
     json["input"].push_back(difference_json(difference));
   for (const ComparedFigure& figure : comparison.figures)
-    json["figures"].push_back(figure_json(figure));
+    json["figures"].push_back(figure_json(figure, std::string(unit_of_path(figure.figure.path))));
   for (const MovedFigure& moved : comparison.moved)
     json["beyond_tolerance"].push_back(
         {{"figure", comparison.figures[moved.figure].figure.path},

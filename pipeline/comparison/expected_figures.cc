@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 #include <fmt/format.h>
 
+#include "pipeline/comparison/lasting_modes.h"
 #include "pipeline/comparison/summary_figures.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/table.h"
@@ -62,6 +64,19 @@ std::string text_of_value(const Json& value) {
 double allowed_difference(const ExpectedFigure& figure) {
   return figure.tolerance ? *figure.tolerance * std::abs(*figure.value)
                           : *figure.absolute_tolerance;
+}
+
+/// Of a mode whose name has gone: those that the instant has, for who asks for another by it.
+std::string names_of_modes(std::string_view path, const Json& summary) {
+  constexpr std::string_view modes = ".modes.";
+  const std::size_t at = path.find(modes);
+  if (at == std::string_view::npos) return "";
+  const Json* list = find_figure(summary, path.substr(0, at + modes.size() - 1));
+  if (!list) return "";
+  std::string names;
+  for (const LastingMode& mode : lasting_modes(*list))
+    if (mode.is_leading) names += (names.empty() ? "" : "; ") + mode.name;
+  return names.empty() ? "" : ", whose modes then are: " + names;
 }
 
 /// What is wrong with a figure, in words; nothing if it is held.
@@ -154,9 +169,12 @@ std::vector<ExpectedFigure> read_expected_figures(const std::filesystem::path& f
 std::vector<BrokenFigure> find_broken_figures(const std::vector<ExpectedFigure>& figures,
                                               const Json& summary) {
   std::vector<BrokenFigure> broken;
-  for (std::size_t i = 0; i < figures.size(); ++i)
-    if (const auto complaint = complaint_about(figures[i], find_figure(summary, figures[i].path)))
-      broken.push_back({i, *complaint});
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const Json* found = find_figure(summary, figures[i].path);
+    if (const auto complaint = complaint_about(figures[i], found))
+      broken.push_back(
+          {i, found ? *complaint : *complaint + names_of_modes(figures[i].path, summary)});
+  }
   return broken;
 }
 

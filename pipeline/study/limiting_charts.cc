@@ -119,20 +119,41 @@ std::string rose(const Compass& compass, const std::vector<double>& rings) {
   return svg;
 }
 
-/// The limits of a period: a line from heading to heading, closed where they go round, and a dot at
-/// each; an open one where the limit is at least that.
+/// Headings at which a curve round the compass is drawn from one that was run to the next: so near
+/// to each other that a line between them is the arc.
+std::vector<double> headings_on_the_way(double from, double to) {
+  constexpr double finest = 3 * degree;
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / finest - 1e-9)));
+  std::vector<double> headings;
+  for (int k = 1; k < steps; ++k) headings.push_back(from + (to - from) * k / steps);
+  return headings;
+}
+
+/// The limits of a period: a curve from heading to heading, closed where they go round, and a dot
+/// at each; an open one where the limit is at least that. Between headings it is what counts there:
+/// linear over the heading (an arc of equal limits is one of a circle, where a chord would cut into
+/// what is allowed), and zero beside a limit that is unknown.
 std::string limits_of_period(const LimitingSeas& seas, std::size_t period, const Compass& compass) {
   constexpr std::array<const char*, 6> colours = {"#1f5fa8", "#c8501e", "#2d8a4e",
                                                   "#8b3fa0", "#b8860b", "#2a8c94"};
   const char* const colour = colours[period % colours.size()];
   std::string path, dots;
-  for (std::size_t h = 0; h < seas.headings.size(); ++h) {
-    const LimitingHeight& limit = seas.at(period, h);
-    const auto at = compass.place(seas.headings[h], limit.height);
+  const auto go_to = [&](double heading, double height) {
+    const auto at = compass.place(heading, height);
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", at[0], at[1]);
+    return at;
+  };
+  const std::size_t count = seas.headings.size();
+  for (std::size_t h = 0; h < count; ++h) {
+    const LimitingHeight& limit = seas.at(period, h);
+    const auto at = go_to(seas.headings[h], limit.height);
     const bool is_known = limit.kind == LimitKind::found || limit.kind == LimitKind::below_grid;
     dots += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.5" stroke="{}" fill="{}"/>)", at[0],
                         at[1], colour, is_known ? colour : "#fff");
+    if (h + 1 == count && !seas.go_round()) break;
+    const double next = h + 1 < count ? seas.headings[h + 1] : seas.headings.front() + 360 * degree;
+    for (const double heading : headings_on_the_way(seas.headings[h], next))
+      go_to(heading, seas.height_at(seas.periods[period], heading));
   }
   if (seas.go_round()) path += "Z";
   return fmt::format(

@@ -341,7 +341,7 @@ std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is
 }
 
 Operability find_operability(const LimitingSeas& seas, const std::vector<SeaState>& states,
-                             double alpha, bool is_forecast) {
+                             const AlphaFactor& alpha, bool is_forecast) {
   Operability result;
   if (is_forecast) result.holes = find_holes(states);
   bool open = false;
@@ -349,7 +349,7 @@ Operability find_operability(const LimitingSeas& seas, const std::vector<SeaStat
     const SeaState& state = states[i];
     const double share = is_forecast ? 1 : state.share;
     const double limit = seas.height_at(state.period, state.heading);
-    const bool is_allowed = limit > 0 && state.height <= alpha * limit;
+    const bool is_allowed = limit > 0 && state.height <= alpha.at(limit) * limit;
     result.sum += share;
     if (is_allowed) result.share += share;
     if (!seas.has_period(state.period)) result.beyond_periods += share;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "pipeline/files/study/study_file.h"
+#include "pipeline/study/alpha_factor.h"
 #include "pipeline/study/members.h"
 
 namespace blocklift::pipeline {
@@ -84,7 +85,7 @@ std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is
 bool varies_heading(const StudyFile& study);
 
 /// A lift's share of the time, or of the forecast its windows, with heights up to alpha times the
-/// limit. Where the limit is zero or not known no sea is allowed, be it calm.
+/// limit, alpha by that limit. Where the limit is zero or not known no sea is allowed, be it calm.
 struct Operability {
   double share = 0;            ///< of the table's shares, or of the forecast's instants
   double beyond_periods = 0;   ///< of them with a period that the study did not run: not allowed
@@ -93,6 +94,8 @@ struct Operability {
   double last = 0;             ///< instant of a forecast, h
   struct Window {
     double begin = 0, end = 0;  ///< h
+    /// Does it last as long as a period, h?
+    bool holds(double period) const { return end - begin >= period * (1 - 1e-9); }
   };
   std::vector<Window> windows;  ///< of a forecast, from allowed instant to allowed instant
   /// Steps of a forecast above twice their median (the lower of two): what the sea does within is
@@ -100,15 +103,17 @@ struct Operability {
   std::vector<Window> holes;
 };
 Operability find_operability(const LimitingSeas& seas, const std::vector<SeaState>& states,
-                             double alpha, bool is_forecast);
+                             const AlphaFactor& alpha, bool is_forecast);
 
 /// Limiting heights by period and heading, for a terminal.
 std::string limiting_text(const LimitingSeas& seas);
 /// Of each sea state whose limit a failed member hides, a sentence.
 std::vector<std::string> sentences_of_failures(const LimitingSeas& seas);
 /// What a scatter table and a forecast allow, in sentences.
-std::vector<std::string> sentences_of_scatter(const Operability& operability, double alpha);
-std::vector<std::string> sentences_of_forecast(const Operability& operability, double alpha);
+std::vector<std::string> sentences_of_scatter(const Operability& operability,
+                                              const AlphaFactor& alpha);
+std::vector<std::string> sentences_of_forecast(const Operability& operability,
+                                               const AlphaFactor& alpha);
 
 /// Contours of the limit over period and heading; of one heading the limit over the period. SVG;
 /// empty of one period.

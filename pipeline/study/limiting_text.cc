@@ -42,6 +42,17 @@ std::string windows_text(const std::vector<Operability::Window>& windows) {
   return text;
 }
 
+/// The windows in which the whole planned operation finds place.
+std::string plan_text(const std::vector<Operability::Window>& windows, double planned) {
+  std::vector<Operability::Window> long_enough;
+  for (const Operability::Window& window : windows)
+    if (window.holds(planned)) long_enough.push_back(window);
+  if (long_enough.empty())
+    return fmt::format("no window lasts the {:.6g} h that the operation is planned for", planned);
+  return fmt::format("windows that last the {:.6g} h that the operation is planned for: {}",
+                     planned, windows_text(long_enough));
+}
+
 /// Shares are of a hundred or of one; counts of a thousand waves are allowed, too, and are told.
 bool is_usual_sum(double sum) { return std::abs(sum - 100) <= 1 || std::abs(sum - 1) <= 0.01; }
 
@@ -87,9 +98,10 @@ std::vector<std::string> sentences_of_failures(const LimitingSeas& seas) {
   return sentences;
 }
 
-std::vector<std::string> sentences_of_scatter(const Operability& operability, double alpha) {
-  std::vector<std::string> sentences{fmt::format("scatter table: {} is workable with alpha {:g}{}",
-                                                 percent_text(operability.share), alpha,
+std::vector<std::string> sentences_of_scatter(const Operability& operability,
+                                              const AlphaFactor& alpha) {
+  std::vector<std::string> sentences{fmt::format("scatter table: {} is workable with {}{}",
+                                                 percent_text(operability.share), alpha.text(),
                                                  beyond_text(operability))};
   if (!is_usual_sum(operability.sum))
     sentences.push_back(
@@ -99,11 +111,15 @@ std::vector<std::string> sentences_of_scatter(const Operability& operability, do
   return sentences;
 }
 
-std::vector<std::string> sentences_of_forecast(const Operability& operability, double alpha) {
-  std::string first = fmt::format("forecast: {} of its instants are workable with alpha {:g}{}",
-                                  percent_text(operability.share), alpha, beyond_text(operability));
+std::vector<std::string> sentences_of_forecast(const Operability& operability,
+                                               const AlphaFactor& alpha) {
+  std::string first =
+      fmt::format("forecast: {} of its instants are workable with {}{}",
+                  percent_text(operability.share), alpha.text(), beyond_text(operability));
   if (!operability.windows.empty()) first += "; windows: " + windows_text(operability.windows);
   std::vector<std::string> sentences{std::move(first)};
+  if (alpha.is_of_table())
+    sentences.push_back(plan_text(operability.windows, alpha.planned_period()));
   if (!operability.windows.empty() && operability.windows.back().end == operability.last)
     sentences.push_back(fmt::format(
         "the last window reaches the end of the forecast, {:.6g} h: how long it lasts is "

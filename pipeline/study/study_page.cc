@@ -343,8 +343,10 @@ std::string limiting_seas(const StudyResults& results) {
   }
   return fmt::format(
              "<h2>Limiting sea states</h2>\n<p>Significant height, m, at which the first of these "
-             "reaches its limit: {}. Linear between heights that were run; of several seeds the "
-             "worst counts; ≥: the next height failed or was not run (open dots); below the "
+             "reaches its limit: {}. Linear between heights that were run, and from heading to "
+             "heading; of "
+             "several seeds the worst counts; ≥: the next height failed or was not run (open "
+             "dots); below the "
              "lowest: that is too much already (drawn as 0); unknown: the lowest failed (an open "
              "dot "
              "at 0), and nothing counts as workable there.{}</p>\n",

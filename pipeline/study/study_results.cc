@@ -130,21 +130,24 @@ void find_limits(StudyResults& results) {
   if (!results.study.limits) return;
   const SeaLimits& limits = *results.study.limits;
   results.limits = find_limiting_seas(results.study, results.design, results.members);
+  results.alpha = read_alpha_factor(results.study);
   const auto operability = [&](const auto& name, bool is_forecast) -> std::optional<Operability> {
     if (!name) return std::nullopt;
     return find_operability(*results.limits,
                             read_sea_states(results.study.beside(name->value), is_forecast,
                                             results.limits->headings.size() > 1),
-                            limits.alpha, is_forecast);
+                            results.alpha, is_forecast);
   };
   results.in_scatter = operability(limits.scatter, false);
   results.in_forecast = operability(limits.forecast, true);
 }
 
-Json operability_json(const Operability& operability) {
+Json operability_json(const Operability& operability, const AlphaFactor& alpha) {
   Json windows = Json::array(), holes = Json::array();
-  for (const Operability::Window& window : operability.windows)
+  for (const Operability::Window& window : operability.windows) {
     windows.push_back({{"begin_h", window.begin}, {"end_h", window.end}});
+    if (alpha.is_of_table()) windows.back()["holds_plan"] = window.holds(alpha.planned_period());
+  }
   for (const Operability::Window& hole : operability.holes)
     holes.push_back({{"begin_h", hole.begin}, {"end_h", hole.end}});
   return {{"share", operability.share},
@@ -164,13 +167,18 @@ Json limits_json(const StudyResults& results) {
                  {"heading_rad", seas.headings[h]},
                  {"significant_height_m", seas.heights[cell].height},
                  {"known_as", name_of(seas.heights[cell].kind)},
-                 {"governed_by", seas.governing[cell]}};
+                 {"governed_by", seas.governing[cell]},
+                 {"alpha", results.alpha.at(seas.heights[cell].height)}};
       if (seas.failed[cell] >= 0) state["failed_member"] = seas.failed[cell];
       states.push_back(std::move(state));
     }
-  Json json{{"alpha", results.study.limits->alpha}, {"sea_states", std::move(states)}};
-  if (results.in_scatter) json["scatter"] = operability_json(*results.in_scatter);
-  if (results.in_forecast) json["forecast"] = operability_json(*results.in_forecast);
+  Json json{{"sea_states", std::move(states)}};
+  if (results.alpha.is_of_table())
+    json["alpha_row_h"] = results.alpha.row_period();
+  else
+    json["alpha"] = results.alpha.at(0);
+  if (results.in_scatter) json["scatter"] = operability_json(*results.in_scatter, results.alpha);
+  if (results.in_forecast) json["forecast"] = operability_json(*results.in_forecast, results.alpha);
   return json;
 }
 
@@ -481,12 +489,11 @@ bool has_too_many_failures(const StudyResults& results) {
 
 std::vector<std::string> limiting_sentences(const StudyResults& results) {
   std::vector<std::string> sentences = sentences_of_failures(*results.limits);
-  const double alpha = results.study.limits->alpha;
   if (results.in_scatter)
-    std::ranges::move(sentences_of_scatter(*results.in_scatter, alpha),
+    std::ranges::move(sentences_of_scatter(*results.in_scatter, results.alpha),
                       std::back_inserter(sentences));
   if (results.in_forecast)
-    std::ranges::move(sentences_of_forecast(*results.in_forecast, alpha),
+    std::ranges::move(sentences_of_forecast(*results.in_forecast, results.alpha),
                       std::back_inserter(sentences));
   return sentences;
 }

@@ -44,6 +44,7 @@ struct StudyResults {
   /// Figures that the study asks for and some members that ran do not have, with their number: they
   /// have no spread.
   std::vector<std::pair<std::string, int>> left_out = {};
+  AlphaFactor alpha = {};  ///< of the limits
 
   ShownFigure shown(const std::string& path) const;
   /// The figures of which study.csv and study.h5 have a column.

@@ -88,6 +88,7 @@ StudyFile read_study(const fs::path& path) {
 Eigen::MatrixXd plan_members(const StudyFile& study,
                              const std::function<void(double fraction)>& progress) {
   check_figure_limits(study);
+  if (study.limits) read_alpha_factor(study);
   if (study.limits && study.limits->scatter)
     read_sea_states(study.beside(study.limits->scatter->value), false, varies_heading(study));
   if (study.limits && study.limits->forecast)

@@ -161,6 +161,18 @@ Format<FigureBound> figure_bound_format() {
   return table.format();
 }
 
+void check_alpha(const SeaLimits& limits, Reading& reading, const Mark& mark) {
+  if (limits.alpha && limits.alpha_table)
+    reading.error(limits.alpha->mark, "either alpha or alpha_table is due");
+  if (limits.alpha_table && !limits.planned_period)
+    reading.error(mark, "alpha_table needs the planned_period of the operation");
+  if (limits.planned_period && !limits.alpha_table)
+    reading.error(limits.planned_period->mark, "planned_period goes with alpha_table");
+  if (limits.alpha_table && !limits.scatter && !limits.forecast)
+    reading.error(limits.alpha_table->mark,
+                  "alpha factors are of a scatter table or a forecast, and there is neither");
+}
+
 Format<SeaLimits> sea_limits_format() {
   Table<SeaLimits> table("sea limits",
                          "The significant height at which figures reach their limits, over peak "
@@ -175,9 +187,16 @@ Format<SeaLimits> sea_limits_format() {
                 "name of the variable that is the heading")
       .required("of", &SeaLimits::quantities, list_of(quantity_limit_format(), 1),
                 "figures that are limited; the least height counts")
-      .by_default("alpha", &SeaLimits::alpha, number(Range::between(0.01, 1)), "1",
-                  "share of the limiting height that may be forecast (the alpha factor of "
-                  "DNV-ST-N001)")
+      .optional("alpha", &SeaLimits::alpha, located(number(Range::between(0.01, 1))),
+                "share of the limiting height that may be forecast (the alpha factor of "
+                "DNV-ST-N001): 1 if left out without a table")
+      .optional("alpha_table", &SeaLimits::alpha_table, located(text()),
+                "in place of alpha, beside this file: CSV with the columns operation_period_h, "
+                "significant_height_m (the limiting one) and alpha, each period with each height; "
+                "linear between heights, of periods the next longer one")
+      .optional("planned_period", &SeaLimits::planned_period,
+                located(quantity(Dimension::time, Range::positive())),
+                "of the operation, by which the table is entered")
       .optional("scatter", &SeaLimits::scatter, located(text()),
                 "beside this file: CSV with the columns significant_height_m, peak_period_s, share "
                 "and, if headings vary, heading_deg")
@@ -185,6 +204,7 @@ Format<SeaLimits> sea_limits_format() {
           "forecast", &SeaLimits::forecast, located(text()),
           "beside this file: CSV with the columns significant_height_m, peak_period_s, time_h "
           "and, if headings vary, heading_deg")
+      .rule(check_alpha)
       .place(&SeaLimits::place);
   return table.format();
 }

@@ -63,7 +63,10 @@ struct QuantityLimit {
 struct SeaLimits {
   std::optional<Located<std::string>> height, period, heading;  ///< heading: none varies
   std::vector<QuantityLimit> quantities;
-  double alpha = 1;  ///< of the limit, that a forecast height may reach
+  /// Share of the limit that a forecast height may reach: 1 if there is neither this nor a table.
+  std::optional<Located<double>> alpha;
+  std::optional<Located<std::string>> alpha_table;        ///< file beside the study
+  std::optional<Located<double>> planned_period;          ///< s, by which the table is entered
   std::optional<Located<std::string>> scatter, forecast;  ///< files beside the study
   Mark place;
 };

@@ -96,8 +96,9 @@ class Study:
 
     @property
     def limits(self) -> xarray.Dataset:
-        """The limiting significant height (heading, period), m, and governed_by, the figure that
-        decides, of a study of sea states. Raises KeyError of another one."""
+        """The limiting significant height (heading, period), m, governed_by, the figure that
+        decides, and alpha, the share of the height that may be forecast, of a study of sea states.
+        Raises KeyError of another one."""
         import pandas
 
         if "limits" not in self.summary:

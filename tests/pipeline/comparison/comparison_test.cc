@@ -212,6 +212,8 @@ TEST_F(ComparedFolders, GiveJsonInTheSummarysUnits) {
   EXPECT_EQ(json["input"][1]["values"][0], nullptr);
   EXPECT_EQ(json["figures"][2]["figure"], "ropes.R1.max_dynamic_tension_N");
   EXPECT_EQ(json["figures"][2]["values"], ordered_json({110e3, 121e3}));
+  EXPECT_EQ(json["figures"][2]["unit"], "N");
+  EXPECT_EQ(json["figures"][0]["unit"], "");  // the verdict
   EXPECT_EQ(json["beyond_tolerance"][0]["tolerance"], "5%");
 }
 

@@ -134,6 +134,17 @@ TEST(ExpectedFigures, OfALiftAreHeldByItAndSurviveTheirFile) {
   EXPECT_EQ(figures[broken[0].index].path, "ropes.R1.max_dynamic_tension_N");
 }
 
+// Names of modes once told the hooks that go along, which swap.
+TEST(ExpectedFigures, OfAModeThatHasAnotherNameTellTheNamesThatThereAre) {
+  ExpectedFigure figure;
+  figure.path = "natural_periods.at the start.modes.load and C1.left: roll about x.period_s";
+  figure.value = 1;
+  figure.tolerance = 0.01;
+  const auto broken = find_broken_figures({figure}, test::sample_summary());
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_EQ(broken[0].complaint, "is not in the summary, whose modes then are: pendulum");
+}
+
 TEST(ExpectedFigures, AreWrittenInTheSyntaxOfTheirFile) {
   const test::TemporaryFolder folder;
   const auto figures = expect_figures(test::sample_summary());

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -166,6 +168,33 @@ TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {
   EXPECT_EQ(ahead.windows[1].end, 12);
 }
 
+// By hand: along, 1.5 m is borne and alpha 0.7, across 0.75 m and 0.5.
+TEST_F(LinearLift, AlphaIsThatOfTheLimitingHeight) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  const AlphaFactor alpha({1, 2}, {0.5, 0.9}, 24, 20);
+  const std::vector<SeaState> scatter = {{1.04, 8, 0, 10, 0},
+                                         {1.06, 8, 0, 20, 0},
+                                         {0.37, 8, 90 * degree, 30, 0},
+                                         {0.38, 8, 90 * degree, 40, 0}};
+  const Operability found = find_operability(seas, scatter, alpha, false);
+  EXPECT_NEAR(found.share, 0.4, 1e-12);
+  EXPECT_THAT(sentences_of_scatter(found, alpha).front(),
+              ::testing::HasSubstr("40.0 % is workable with alpha from 0.5 to 0.9"));
+}
+
+TEST_F(LinearLift, TellsTheWindowsThatHoldThePlan) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  const std::vector<SeaState> forecast = {{1, 8, 0, 0, 0},   {1, 8, 0, 6, 6},   {1.5, 8, 0, 12, 12},
+                                          {1, 8, 0, 18, 18}, {1, 8, 0, 24, 24}, {1, 8, 0, 30, 30}};
+  const auto second_sentence = [&](double planned) {
+    const AlphaFactor alpha({1, 2}, {0.6, 0.8}, 24, planned);  // 0.7, and 1.05 m
+    return sentences_of_forecast(find_operability(seas, forecast, alpha, true), alpha)[1];
+  };
+  EXPECT_EQ(second_sentence(12),
+            "windows that last the 12 h that the operation is planned for: 18 h to 30 h");
+  EXPECT_EQ(second_sentence(12.5), "no window lasts the 12.5 h that the operation is planned for");
+}
+
 // A calm sea that was not run, or beside a limit that is not known, is told as not workable: it
 // does not count as workable.
 TEST_F(LinearLift, ACalmSeaThatWasNotRunIsNotAllowed) {
@@ -249,6 +278,35 @@ TEST_F(LinearLift, IsDrawn) {
   const std::string open = limiting_polar(half);
   EXPECT_THAT(open, ::testing::Not(::testing::ContainsRegex("<path d=\"M[^\"]*Z\" stroke")));
   EXPECT_THAT(open, ::testing::HasSubstr("fill=\"#fff\""));
+}
+
+/// Places of the first curve of a drawing round the compass: heading, and distance from the middle
+/// of the rose, in points.
+std::vector<std::pair<double, double>> places_of_first_curve(const std::string& svg) {
+  const std::size_t begin = svg.find("<path d=\"M") + 10;
+  std::string numbers = svg.substr(begin, svg.find('"', begin) - begin);
+  for (char& c : numbers)
+    if (c == 'L' || c == 'Z') c = ' ';
+  std::istringstream stream(numbers);
+  std::vector<std::pair<double, double>> places;
+  for (double x = 0, y = 0; stream >> x >> y;)
+    places.emplace_back(std::atan2(162 - y, x - 150), std::hypot(x - 150, 162 - y));
+  return places;
+}
+
+// Between two headings the limit is linear over the heading: where it is the same all round the
+// curve is a circle, which chords between headings 90 degrees apart would cut to 0.71 of it.
+TEST_F(LinearLift, IsDrawnRoundTheCompassAsItCountsBetweenHeadings) {
+  LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  const double last_digit = 0.1;  // of places
+  const auto places = places_of_first_curve(limiting_polar(seas));
+  ASSERT_EQ(places.size(), 120U);
+  const double scale = places.front().second / seas.at(0, 0).height;
+  for (const auto& [heading, distance] : places)
+    EXPECT_NEAR(distance, scale * seas.height_at(6, heading), last_digit + scale * 2e-3);
+  for (LimitingHeight& limit : seas.heights) limit.height = 2;
+  for (const auto& [heading, distance] : places_of_first_curve(limiting_polar(seas)))
+    EXPECT_NEAR(distance, 112, last_digit);
 }
 
 // A chart over periods needs two of them.

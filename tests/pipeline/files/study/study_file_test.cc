@@ -152,6 +152,15 @@ TEST(StudyFile, RefusesSeaLimitsThatMakeNoSense) {
   EXPECT_THAT(of("height: Hs, " + load), HasSubstr("lacks the key \"period\""));
   EXPECT_THAT(of("height: Hs, period: Tp, of: []"), HasSubstr("1 error"));
   EXPECT_THAT(of("height: Hs, period: Tp, alpha: 1.2, " + load), HasSubstr("alpha"));
+  const std::string table = "height: Hs, period: Tp, alpha_table: a.csv, ";
+  EXPECT_EQ(of(table + "planned_period: 20 h, forecast: f.csv, " + load), "");
+  EXPECT_THAT(of(table + "planned_period: 20 h, alpha: 0.8, forecast: f.csv, " + load),
+              HasSubstr("either alpha or alpha_table is due"));
+  EXPECT_THAT(of(table + "forecast: f.csv, " + load), HasSubstr("needs the planned_period"));
+  EXPECT_THAT(of(table + "planned_period: 20 h, " + load), HasSubstr("there is neither"));
+  EXPECT_THAT(of(table + "planned_period: 20 m, forecast: f.csv, " + load), HasSubstr("error"));
+  EXPECT_THAT(of("height: Hs, period: Tp, planned_period: 20 h, forecast: f.csv, " + load),
+              HasSubstr("planned_period goes with alpha_table"));
   EXPECT_THAT(complaints("design: grid\nfigures: [g_N]\nvary:\n" + seas +
                          "limits: {height: Hs, period: Tp, " + load + "}\n"),
               HasSubstr("the figure is limited, but not among figures"));
