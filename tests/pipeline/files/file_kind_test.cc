@@ -51,7 +51,8 @@ TEST(FileKind, AnInputIsCalledByItsFolderOrByItself) {
 std::string complaint_about(const char* text) {
   write("file.yaml", text);
   Diagnostics diagnostics;
-  EXPECT_EQ(complain_about_untold_kind("file.yaml", diagnostics), diagnostics.has_errors());
+  const bool complained = complain_about_untold_kind("file.yaml", diagnostics);
+  EXPECT_EQ(complained, diagnostics.has_errors());
   return diagnostics.to_text();
 }
 

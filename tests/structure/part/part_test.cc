@@ -111,11 +111,11 @@ TEST(QuarterPoints, FoldAPartsElementAtItsCorner) {
     EXPECT_TRUE(find_quarter_middles(mesh).empty());
     Eigen::Index middle = 0;
     (mesh.nodes.colwise() - Vector3(0.5, 0, 0)).colwise().norm().minCoeff(&middle);
-    mesh.nodes(0, middle) = 0.25;
+    mesh.nodes.col(middle) = Vector3(0.25, 0, 0);
     ASSERT_FALSE(find_quarter_middles(mesh).empty());
     EXPECT_NEAR(find_quarter_middles(mesh)[0].middle.share, 0.25, 1e-12);
     EXPECT_NO_THROW(check_part_mesh(mesh));
-    mesh.nodes(0, middle) = 0.76;
+    mesh.nodes.col(middle) = Vector3(0.76, 0, 0);
     EXPECT_THAT([&] { check_part_mesh(mesh); },
                 testing::ThrowsMessage<ModelError>(
                     HasSubstr("the middle at (0.76, 0, 0) m, 0.24 of the edge")));
