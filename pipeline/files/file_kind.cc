@@ -32,9 +32,10 @@ constexpr std::array<std::pair<std::string_view, FileKind>, 7> kinds_of_models{
      {"vessel", FileKind::vessel},
      {"vessels", FileKind::vessels}}};
 
-/// Keys by which a block, or a part, is known; those that other files have are left out.
+/// Keys by which a block, a lift case or a part is known.
 constexpr std::array keys_of_blocks{"plates",   "bars",   "lugs",  "pads",
                                     "openings", "repeat", "mirror"};
+constexpr std::array keys_of_cases{"case", "load", "cranes", "ropes", "operation", "load_table"};
 constexpr std::array keys_of_parts{"supports", "loads", "probes", "hot_spots", "join"};
 
 template <class Keys>
@@ -99,7 +100,7 @@ bool complain_about_untold_kind(const fs::path& path, Diagnostics& diagnostics) 
   const std::optional<Document> document = load_document(file, ignored);
   if (!document || !document->root.IsMap()) return false;
   const YAML::Node& root = document->root;
-  if (root["case"]) return false;
+  if (count_keys(root, keys_of_cases) > 0) return false;
   if (const YAML::Node kind = root["kind"]; kind && kind.IsScalar()) {
     std::vector<std::string> names;
     for (const auto& [name, of_model] : kinds_of_models) names.emplace_back(name);

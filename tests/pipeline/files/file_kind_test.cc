@@ -72,9 +72,9 @@ TEST(FileKind, WhatAFileWithoutItsKindWasMeantToBeIsSaidOnce) {
 
 TEST(FileKind, FilesThatSayWhatTheyAreOrTellNothingAreLeftToTheirReaders) {
   const TemporaryFolder temporary;
-  for (const char* text :
-       {"kind: block\nlugs: {}\n", "part: ring\nloads: {}\n", "case: lift\nlugs: {}\n",
-        "mechanism: crank\n", "title: a lift\nload: {}\n", "- 1\n", ""})
+  for (const char* text : {"kind: block\nlugs: {}\n", "part: ring\nloads: {}\n",
+                           "case: lift\nlugs: {}\n", "mechanism: crank\n",
+                           "cranes: {}\nsupports: {}\n", "title: a lift\nload: {}\n", "- 1\n", ""})
     EXPECT_EQ(complaint_about(text), "") << text;
 }
 
