@@ -41,7 +41,8 @@ FileKind kind_of_file(const std::filesystem::path& path);
 /// Complains about a file that does not say what it is though its keys tell: a `kind` that is not
 /// known, or the keys of a block or a part without `kind: block` or `part`. One message then stands
 /// for the many that the keys of a lift case would give.
-/// @returns whether it complained; false, too, of a file that cannot be read or has keys of a lift case alone.
+/// @returns whether it complained; false, too, of a file that cannot be read or has keys of a lift
+/// case.
 bool complain_about_untold_kind(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline
