@@ -102,8 +102,8 @@ TEST_P(Kinds, PassThePatchTestWhenDistorted) {
   EXPECT_LT((found - exact).norm(), 1e-12 * exact.norm());
 }
 
-// The slope of an edge at its end is 4 s - 1 of its length with the middle at s: the Jacobian of the
-// corner changes its sign at the quarter point, where no point of the rule sees it.
+// The slope of an edge at its end is 4 s - 1 of its length with the middle at s: the Jacobian of
+// the corner changes its sign at the quarter point, where no point of the rule sees it.
 TEST(QuarterPoints, FoldAPartsElementAtItsCorner) {
   for (const Shape shape : {Shape::hexahedra, Shape::tetrahedra, Shape::wedges}) {
     PartMesh mesh = box(shape, 2, Vector3(1, 1, 1), {1, 1, 1});
