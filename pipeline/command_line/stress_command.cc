@@ -235,6 +235,7 @@ int stress_of_part(const StressOptions& options) {
     refuse_option(options, "--degree is for blocks with a deck",
                   "a part's file has the key element_order");
   Diagnostics diagnostics;
+  if (complain_about_untold_kind(options.part, diagnostics)) throw InputError(diagnostics);
   std::optional<PartFile> file = read_part_file(options.part, diagnostics);
   if (!file) throw InputError(diagnostics);
   const fs::path folder = folder_of(options, file->name);

@@ -4,8 +4,12 @@
 #include <array>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include "pipeline/declaration/document.h"
@@ -18,6 +22,27 @@ namespace fs = std::filesystem;
 constexpr std::array files_of_folders{"case.yaml",   "mechanism.yaml", "part.yaml",
                                       "study.yaml",  "block.yaml",     "crane.yaml",
                                       "vessel.yaml", "vessels.yaml"};
+
+constexpr std::array<std::pair<std::string_view, FileKind>, 7> kinds_of_models{
+    {{"block", FileKind::block},
+     {"crane", FileKind::crane},
+     {"rigging", FileKind::rigging},
+     {"rope", FileKind::rope},
+     {"standard", FileKind::standard},
+     {"vessel", FileKind::vessel},
+     {"vessels", FileKind::vessels}}};
+
+/// Keys by which a block, a lift case or a part is known.
+constexpr std::array keys_of_blocks{"plates",   "bars",   "lugs",  "pads",
+                                    "openings", "repeat", "mirror"};
+constexpr std::array keys_of_cases{"case", "load", "cranes", "ropes", "operation", "load_table"};
+constexpr std::array keys_of_parts{"supports", "loads", "probes", "hot_spots", "join"};
+
+template <class Keys>
+auto count_keys(const YAML::Node& root, const Keys& keys) {
+  return std::count_if(keys.begin(), keys.end(),
+                       [&](const char* key) { return static_cast<bool>(root[key]); });
+}
 
 bool begins_as_xml(const fs::path& path) {
   std::ifstream stream(path);
@@ -63,14 +88,39 @@ FileKind kind_of_file(const fs::path& path) {
   if (document->root["study"]) return FileKind::study;
   const YAML::Node node = document->root["kind"];
   const std::string kind = node && node.IsScalar() ? node.Scalar() : std::string();
-  if (kind == "crane") return FileKind::crane;
-  if (kind == "block") return FileKind::block;
-  if (kind == "rope") return FileKind::rope;
-  if (kind == "vessel") return FileKind::vessel;
-  if (kind == "vessels") return FileKind::vessels;
-  if (kind == "standard") return FileKind::standard;
-  if (kind == "rigging") return FileKind::rigging;
+  for (const auto& [name, of_model] : kinds_of_models)
+    if (kind == name) return of_model;
   return FileKind::lift_case;
+}
+
+bool complain_about_untold_kind(const fs::path& path, Diagnostics& diagnostics) {
+  const fs::path file = input_file(path);
+  if (kind_of_file(file) != FileKind::lift_case) return false;
+  Diagnostics ignored;  // the reader of the file says the same again
+  const std::optional<Document> document = load_document(file, ignored);
+  if (!document || !document->root.IsMap()) return false;
+  const YAML::Node& root = document->root;
+  if (count_keys(root, keys_of_cases) > 0) return false;
+  if (const YAML::Node kind = root["kind"]; kind && kind.IsScalar()) {
+    std::vector<std::string> names;
+    for (const auto& [name, of_model] : kinds_of_models) names.emplace_back(name);
+    diagnostics.error(document->mark_of(kind),
+                      fmt::format("kind \"{}\" is not known", kind.Scalar()),
+                      {names_hint("the kinds of models are", names, kind.Scalar())});
+    return true;
+  }
+  const YAML::Node mesh = root["mesh"];
+  const bool has_units = mesh && mesh.IsMap() && mesh["units"];
+  const auto of_block = count_keys(root, keys_of_blocks) + (has_units ? 1 : 0);
+  const auto of_part = count_keys(root, keys_of_parts);
+  if (of_block == 0 && of_part == 0) return false;
+  const bool is_block = of_block >= of_part;
+  diagnostics.error(
+      document->mark_of(root),
+      is_block ? "this is a block by its keys, and does not say so"
+               : "this is a part by its keys, and has no name",
+      {is_block ? "begin the file with \"kind: block\"" : "begin the file with \"part: NAME\""});
+  return true;
 }
 
 }  // namespace blocklift::pipeline

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "pipeline/declaration/diagnostics.h"
+
 namespace blocklift::pipeline {
 
 /// What an input file is, by what it begins with.
@@ -35,5 +37,12 @@ std::string name_of_input(const std::filesystem::path& path);
 /// model says its kind. Everything else, unreadable files included, counts as a lift case, whose
 /// reader says what is wrong.
 FileKind kind_of_file(const std::filesystem::path& path);
+
+/// Complains about a file that does not say what it is though its keys tell: a `kind` that is not
+/// known, or the keys of a block or a part without `kind: block` or `part`. One message then stands
+/// for the many that the keys of a lift case would give.
+/// @returns whether it complained; false, too, of a file that cannot be read or has keys of a lift
+/// case.
+bool complain_about_untold_kind(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

@@ -1,4 +1,5 @@
 // A part's file and its mesh become a model.
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "structure/error.h"
 #include "structure/mesh/files/cad_unit.h"
 #include "structure/mesh/files/part_reader.h"
+#include "structure/mesh/quarter_points.h"
 #include "structure/system/linear_solver.h"
 
 namespace blocklift::pipeline {
@@ -285,6 +287,30 @@ std::string describe(const structure::PartMeeting& meeting) {
   return text;
 }
 
+namespace {
+
+/// Solids whose stress grows without end in a corner, the middle of an edge being at its quarter.
+std::vector<std::string> doubts_of_middles(const structure::PartMesh& mesh) {
+  constexpr std::size_t most_told = 5;
+  const std::vector<structure::QuarterMiddleOfElement> all = structure::find_quarter_middles(mesh);
+  std::vector<std::string> doubts;
+  for (std::size_t i = 0; i < std::min(all.size(), most_told); ++i) {
+    const structure::QuarterMiddle& middle = all[i].middle;
+    doubts.push_back(fmt::format(
+        "{} has the middle of an edge at ({:.4g}, {:.4g}, {:.4g}) m, {:.3g} of the edge from a "
+        "corner: at a quarter or less the element is singular in that corner, where stress grows "
+        "without end; put it in the middle unless a crack ends there",
+        mesh.describe(all[i].element), middle.place.x(), middle.place.y(), middle.place.z(),
+        middle.share));
+  }
+  if (all.size() > most_told)
+    doubts.push_back(fmt::format("{} more elements have the middle of an edge at its quarter",
+                                 all.size() - most_told));
+  return doubts;
+}
+
+}  // namespace
+
 std::vector<std::string> list_doubts(const structure::PartModel& model) {
   constexpr std::size_t most_told = 12;
   std::vector<std::string> doubts;
@@ -301,6 +327,7 @@ std::vector<std::string> list_doubts(const structure::PartModel& model) {
                      "gap");
   }
   if (more > 0) doubts.push_back(fmt::format("{} more pairs of bodies are not joined", more));
+  for (std::string& doubt : doubts_of_middles(model.mesh)) doubts.push_back(std::move(doubt));
   return doubts;
 }
 

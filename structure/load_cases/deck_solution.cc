@@ -47,10 +47,10 @@ std::vector<Support> supports_of(const Deck& deck, const std::vector<int>& sets)
 
 /// Says where what the supports leave free moves most.
 [[noreturn]] void refuse_loose(const Space& space, const DeckLoadCase& load_case, int freedom) {
-  throw ModelError(
-      fmt::format("the supports of {} leave a part free to move, and nothing resists; most of all "
-                  "it moves {}",
-                  name_of(load_case), describe_freedom(space, freedom)));
+  throw ModelError(fmt::format(
+      "the supports of {} leave a part free to move, and nothing resists; most of all "
+      "it moves {}{}",
+      name_of(load_case), describe_freedom(space, freedom), hint_at_torsion(space.mesh())));
 }
 
 /// The same where a factorisation failed: how it moves is found first.

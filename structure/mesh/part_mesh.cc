@@ -10,6 +10,7 @@
 
 #include "structure/error.h"
 #include "structure/index.h"
+#include "structure/mesh/quarter_points.h"
 
 namespace blocklift::structure {
 
@@ -65,6 +66,47 @@ std::vector<int> connected_bodies(const PartMesh& mesh) {
   return body;
 }
 
+namespace {
+
+/// Is an element folded at a corner, for the middle of an edge lies beyond the quarter of it?
+/// Points of the rule within may be too far from the corner to see it. The limit is what coordinates of
+/// four digits are rounded by.
+bool is_folded_at(const PartMesh& mesh, const QuarterMiddleOfElement& found) {
+  constexpr double rounding = 1e-3;
+  if (!found.middle.is_beyond()) return false;
+  const ElementKind& kind = mesh.kind(found.element);
+  const Eigen::Matrix3Xd places = mesh.places(found.element);
+  const auto jacobian = [&](const Eigen::MatrixXd& gradients, Eigen::Index point) {
+    return (places * gradients.middleRows<3>(3 * point).transpose()).determinant();
+  };
+  double largest = 0;
+  for (Eigen::Index q = 0; q < kind.rule.cols(); ++q)
+    largest = std::max(largest, jacobian(kind.gradients, q));
+  return jacobian(kind.gradients_at_nodes, found.corner) < -rounding * largest;
+}
+
+/// Those that Gmsh made here are let pass: nobody could mend them.
+void refuse_folded_at_middles(const PartMesh& mesh) {
+  if (mesh.meshed_here) return;
+  constexpr int most_named = 10;
+  std::string named;
+  int wrong = 0;
+  for (const QuarterMiddleOfElement& found : find_quarter_middles(mesh)) {
+    if (!is_folded_at(mesh, found) || ++wrong > most_named) continue;
+    const Vector3& place = found.middle.place;
+    named += fmt::format("\n    {}: the middle at ({:.4g}, {:.4g}, {:.4g}) m, {:.3g} of the edge",
+                         mesh.describe(found.element), place.x(), place.y(), place.z(),
+                         found.middle.share);
+  }
+  if (wrong == 0) return;
+  throw ModelError(fmt::format(
+      "{} of {} solid elements are folded at a corner, for the middle of an edge lies less than a "
+      "quarter of the edge from it:{}{}",
+      wrong, mesh.solids.size(), named, wrong > most_named ? "\n    ..." : ""));
+}
+
+}  // namespace
+
 void check_part_mesh(const PartMesh& mesh) {
   constexpr int most_named = 10;
   std::string named;
@@ -79,7 +121,7 @@ void check_part_mesh(const PartMesh& mesh) {
     if (smallest > 0) continue;
     if (++wrong <= most_named) named += "\n    " + mesh.describe(element);
   }
-  if (wrong == 0) return;
+  if (wrong == 0) return refuse_folded_at_middles(mesh);
   throw ModelError(fmt::format(
       "{} of {} solid elements are inverted or folded (their Jacobian is not positive):{}{}", wrong,
       mesh.solids.size(), named, wrong > most_named ? "\n    ..." : ""));

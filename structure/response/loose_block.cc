@@ -21,8 +21,9 @@ using Motion = LooseBlock::Motion;
 
 std::string describe_mechanism(const Space& space, int freedom) {
   return fmt::format(
-      "the block is a mechanism: a part of it can move against the rest, and nothing resists ({})",
-      describe_freedom(space, freedom));
+      "the block is a mechanism: a part of it can move against the rest, and nothing resists "
+      "({}){}",
+      describe_freedom(space, freedom), hint_at_torsion(space.mesh()));
 }
 
 double size_of(const Space& space) {

@@ -13,6 +13,20 @@ std::string describe_freedom(const Space& space, int freedom) {
                      static_cast<char>('x' + freedom % 3));
 }
 
+std::string hint_at_torsion(const Mesh& mesh) {
+  int count = 0;
+  const Beam* first = nullptr;
+  for (const Beam& beam : mesh.beams) {
+    if (beam.is_rod || mesh.beam_sections[beam.section].torsion > 0) continue;
+    if (++count == 1) first = &beam;
+  }
+  if (first == nullptr) return {};
+  return fmt::format(
+      " ({} {} no torsional stiffness, J of {}, element {} the first: is it left out?)", count,
+      count == 1 ? "beam has" : "beams have", mesh.beam_sections[first->section].name,
+      first->label);
+}
+
 int freedom_of(const Space& space, int unknown) {
   int found = 0;
   double largest = 0;

@@ -226,7 +226,7 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   const std::size_t errors_before = diagnostics.error_count();
   library.begin_case();
   const fs::path file = case_file(path, diagnostics);
-  if (file.empty()) return std::nullopt;
+  if (file.empty() || complain_about_untold_kind(file, diagnostics)) return std::nullopt;
   const std::optional<Document> document = library.read_case(file, diagnostics);
   if (!document) return std::nullopt;
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -18,6 +19,7 @@
 #include "structure/mesh/beams/beam_axes.h"
 #include "structure/mesh/beams/section_shear.h"
 #include "structure/mesh/diagnosis/touching_parts.h"
+#include "structure/mesh/quarter_points.h"
 #include "structure/mesh/shell_shape.h"
 #include "structure/mesh/solid_shape.h"
 #include "structure/mesh/spring_motion.h"
@@ -48,6 +50,7 @@ class Doctor {
     check_vertices();
     check_cells_twice();
     check_solids();
+    check_middles();
     check_mechanisms();
     check_shear();
     return std::move(result_);
@@ -344,6 +347,26 @@ class Doctor {
         count("beams hinged to solids"));
   }
 
+  /// Quadratic shells and solids that are singular in a corner.
+  void check_middles() {
+    const char* const kind = "middles at quarter points";
+    std::optional<QuarterMiddle> nearest;
+    const auto take = [&](const std::optional<QuarterMiddle>& middle, long label) {
+      if (!middle) return;
+      add(kind, Severity::warning, label, middle->place);
+      if (!nearest || middle->share < nearest->share) nearest = middle;
+    };
+    for (const Shell& shell : mesh_.shells) take(quarter_middle_of(mesh_, shell), shell.label);
+    for (const Solid& solid : mesh_.solids) take(quarter_middle_of(mesh_, solid), solid.label);
+    if (!nearest) return;
+    say(kind,
+        "{} quadratic {} the middle of an edge near a quarter of it, the one nearest to a corner "
+        "at ({:.4g}, {:.4g}, {:.4g}) m, {:.3g} of the edge from there: in that corner the stress "
+        "grows without end, which is meant where a crack ends alone",
+        count(kind), count(kind) == 1 ? "element has" : "elements have", nearest->place.x(),
+        nearest->place.y(), nearest->place.z(), nearest->share);
+  }
+
   /// Vertices in the cells of a grid; neighbours are looked for in the cells around.
   void check_vertices() {
     Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -374,7 +397,7 @@ class Doctor {
         count("duplicated vertices"), 1000 * near);
   }
 
-  /// Which links and springs a vertex is in, by numbers.
+  /// Which links, ties to shells and springs a vertex is in, by numbers.
   std::unordered_map<int, std::vector<int>> vertices_joined() const {
     std::unordered_map<int, std::vector<int>> joints;
     int number = 0;
@@ -386,6 +409,11 @@ class Doctor {
       ++number;
       for (const int v : spring.vertices)
         if (v >= 0) joints[v].push_back(number);
+    }
+    for (const SurfacePoint& point : mesh_.surface_points) {
+      ++number;
+      joints[point.vertex].push_back(number);
+      for (const int v : mesh_.shells[point.shell].vertices) joints[v].push_back(number);
     }
     return joints;
   }

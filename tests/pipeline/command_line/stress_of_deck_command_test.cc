@@ -136,6 +136,20 @@ TEST_F(StressOfDeck, LoadsThatAreLeftOutAreSaid) {
   EXPECT_THAT(text_of_file("out/summary.json"), HasSubstr("ACCEL: 0 of 1 used"));
 }
 
+// About a line beside its grids a beam without torsional stiffness turns, and they swing with it.
+TEST_F(StressOfDeck, BeamsWithoutTorsionAreNamedWhereOneSwings) {
+  folder_.write("strip.bdf",
+                "SOL 101\nCEND\nSPC=1\nLOAD=1\nBEGIN BULK\n"
+                "GRID,1,,0.,0.,0.\nGRID,2,,1000.,0.,0.\n"
+                "CBEAM,7,1,1,2,0.,1.,0.\n,,,0.,50.,0.,0.,50.,0.\n"
+                "PBEAM,1,1,600.,45000.,20000.\nMAT1,1,206000.,,.3,7.85-9\n"
+                "SPC1,1,123456,1\nFORCE,1,2,,1000.,0.,0.,1.\nENDDATA\n");
+  const Outcome outcome = stress("strip.yaml -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("1 beam has no torsional stiffness, J of PBEAM 1, element 7 "
+                                     "the first: is it left out?"));
+}
+
 TEST_F(StressOfDeck, WhatSupportsLeaveFreeIsTold) {
   change("SPC1,1,123456,11,14", "SPC1,1,3456,11,14");
   const Outcome outcome = stress("strip.yaml -o out");

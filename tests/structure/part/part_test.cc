@@ -14,6 +14,7 @@
 #include "structure/error.h"
 #include "structure/mesh/element_shape.h"
 #include "structure/mesh/files/part_reader.h"
+#include "structure/mesh/quarter_points.h"
 #include "structure/output/part_files.h"
 #include "structure/part/part_solution.h"
 
@@ -99,6 +100,26 @@ TEST_P(Kinds, PassThePatchTestWhenDistorted) {
   const Eigen::VectorXd found =
       find_part_displacement(model, fixed, Eigen::VectorXd::Zero(exact.size())).displacement;
   EXPECT_LT((found - exact).norm(), 1e-12 * exact.norm());
+}
+
+// The slope of an edge at its end is 4 s - 1 of its length with the middle at s: the Jacobian of
+// the corner changes its sign at the quarter point, where no point of the rule sees it.
+TEST(QuarterPoints, FoldAPartsElementAtItsCorner) {
+  for (const Shape shape : {Shape::hexahedra, Shape::tetrahedra, Shape::wedges}) {
+    PartMesh mesh = box(shape, 2, Vector3(1, 1, 1), {1, 1, 1});
+    mesh.meshed_here = false;  // what Gmsh makes here is let pass
+    EXPECT_TRUE(find_quarter_middles(mesh).empty());
+    Eigen::Index middle = 0;
+    (mesh.nodes.colwise() - Vector3(0.5, 0, 0)).colwise().norm().minCoeff(&middle);
+    mesh.nodes.col(middle) = Vector3(0.25, 0, 0);
+    ASSERT_FALSE(find_quarter_middles(mesh).empty());
+    EXPECT_NEAR(find_quarter_middles(mesh)[0].middle.share, 0.25, 1e-12);
+    EXPECT_NO_THROW(check_part_mesh(mesh));
+    mesh.nodes.col(middle) = Vector3(0.76, 0, 0);
+    EXPECT_THAT([&] { check_part_mesh(mesh); },
+                testing::ThrowsMessage<ModelError>(
+                    HasSubstr("the middle at (0.76, 0, 0) m, 0.24 of the edge")));
+  }
 }
 
 // Gmsh's tables of shape functions are those of our own polynomials through the same nodes.

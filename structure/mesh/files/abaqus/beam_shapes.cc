@@ -336,4 +336,13 @@ BeamShape read_general_beam_section(AbaqusModel& model, const SectionBlocks& blo
   return BeamShapeReader(model).read_general(blocks);
 }
 
+void refuse_folded_beam(long label, const Vector3& from, const Vector3& middle, const Vector3& to) {
+  const double share = (middle - from).dot(to - from) / (to - from).squaredNorm();
+  if (share > 0 && share < 1) return;
+  throw CardError{
+      fmt::format("element {} is folded: its second node is its middle by the order of nodes, and "
+                  "lies {:.3g} of the way from the first to the third",
+                  label, share)};
+}
+
 }  // namespace blocklift::structure

@@ -27,4 +27,8 @@ BeamShape read_beam_section(AbaqusModel& model, const SectionBlocks& blocks);
 /// whose moduli agree share one. @throws CardError as above.
 BeamShape read_general_beam_section(AbaqusModel& model, const SectionBlocks& blocks);
 
+/// A beam of three nodes becomes two from node to node, which lie on one another where the middle
+/// lies beyond an end along the line between the ends. @throws CardError there.
+void refuse_folded_beam(long label, const Vector3& from, const Vector3& middle, const Vector3& to);
+
 }  // namespace blocklift::structure

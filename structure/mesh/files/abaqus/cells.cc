@@ -476,7 +476,7 @@ class Cells {
   }
 
   void add_surface(const AbaqusBlock& block) {
-    AbaqusSurface& surface = model_.surfaces[block.required("NAME")];
+    AbaqusSurface& surface = model_.surface_of(scope(), block.required("NAME"));
     surface.is_of_nodes = block.value("TYPE") == "NODE";
     model_.for_lines(block, [&](const std::vector<std::string_view>& fields) {
       if (surface.is_of_nodes) {

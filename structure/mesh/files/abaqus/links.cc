@@ -317,10 +317,8 @@ class LinkBlocks {
     if (block.has("ORIENTATION") || block.has("INFLUENCE RADIUS"))
       throw CardError{"ORIENTATION and INFLUENCE RADIUS are not known"};
     const int reference = model_.node_of(*scope_, block.required("REF NODE"));
-    const auto surface = model_.surfaces.find(block.required("SURFACE"));
-    if (surface == model_.surfaces.end())
-      throw CardError{fmt::format("surface {} does not exist", block.value("SURFACE"))};
-    std::map<int, double> weights = vertices_of(surface->second);
+    const AbaqusSurface& surface = model_.surface(*scope_, block.required("SURFACE")).second;
+    std::map<int, double> weights = vertices_of(surface);
     weights.erase(reference);
     if (weights.empty()) throw CardError{"the surface has no nodes"};
     if (next != nullptr && next->name == "KINEMATIC") {

@@ -60,6 +60,9 @@ struct AbaqusSurface {
   std::map<int, double> nodes;                     ///< with the area that each stands for
 };
 
+/// By its name; of an instance INSTANCE.NAME.
+using NamedAbaqusSurface = std::pair<const std::string, AbaqusSurface>;
+
 struct AbaqusMaterial {
   Material isotropic;
   PlyMaterial ply;
@@ -87,7 +90,7 @@ struct AbaqusModel {
   std::vector<AbaqusDeckElement> elements;
   std::vector<const AbaqusBlock*> model_blocks;
   std::vector<std::vector<const AbaqusBlock*>> steps;
-  std::map<std::string, AbaqusSurface> surfaces;
+  std::map<std::string, AbaqusSurface> surfaces;  ///< NamedAbaqusSurface
   std::map<std::string, AbaqusMaterial> materials;
   std::unordered_map<int, Eigen::Matrix3d> axes_of;  ///< vertices with a system of their own
   std::vector<SurfacePoint> middles;
@@ -106,6 +109,12 @@ struct AbaqusModel {
   std::vector<int> nodes_of(const AbaqusScope& scope, std::string_view text) const;
   int node_of(const AbaqusScope& scope, std::string_view text) const;
   std::vector<int> elements_of(const AbaqusScope& scope, std::string_view text) const;
+  /// The surface that a keyword in a scope makes; it is new if there is none.
+  AbaqusSurface& surface_of(const AbaqusScope& scope, std::string_view name);
+  /// The one that a name or instance.name means in a scope; null for none.
+  const NamedAbaqusSurface* find_surface(const AbaqusScope& scope, std::string_view name) const;
+  /// The same. @throws CardError for none, with the names of those that there are.
+  const NamedAbaqusSurface& surface(const AbaqusScope& scope, std::string_view name) const;
   /// The vertex and the freedom, from 0, that a node's freedom stands for.
   /// @throws CardError for a rotation of a ROT NODE.
   std::pair<int, int> freedom_of(int vertex, int freedom) const;

@@ -437,6 +437,8 @@ class Sections {
       Vector3 axis_2 = shape.axis_2;
       if (element.nodes.size() > count)
         axis_2 = model_.place(element.nodes[count]) - model_.place(element.nodes[0]);
+      const auto place = [&](std::size_t i) { return model_.place(element.nodes[i]); };
+      if (is_quadratic) refuse_folded_beam(element.label, place(0), place(1), place(2));
       for (std::size_t i = 0; i + 1 < count; ++i)
         add_beam(element, element.nodes[i], element.nodes[i + 1], axis_2, of_region,
                  shape.profile.centroid);

@@ -460,15 +460,13 @@ class StepBlocks {
   }
 
   void add_surface_loads(const AbaqusBlock& block, const Fields& fields, const std::string& kind) {
-    const auto surface = model_.surfaces.find(upper(fields[0]));
-    if (surface == model_.surfaces.end())
-      throw CardError{fmt::format("surface {} does not exist", fields[0])};
-    for (const auto& [e, face] : surface->second.faces) {
+    const auto& [name, surface] = model_.surface(*scope_, fields[0]);
+    for (const auto& [e, face] : surface.faces) {
       const AbaqusDeckElement& element = model_.elements[e];
       if (element.kind == AbaqusKind::solid && (element.solid < 0 || face == "SPOS"))
         leave_out(block, kind, "pressure on solids whose faces are not named (S1 ...)");
       else
-        now_.on_surfaces.add(fmt::format("{} {} {}", surface->first, face, kind),
+        now_.on_surfaces.add(fmt::format("{} {} {}", name, face, kind),
                              abaqus_surface_load(model_, element, face, kind, fields));
     }
   }

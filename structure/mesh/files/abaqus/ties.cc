@@ -145,7 +145,7 @@ class Ties {
     for (const AbaqusLine& line : block.data) {
       const auto fields = line.fields();
       if (fields.size() < 2) throw CardError{"two surfaces are due: slave and master"};
-      fasten(slaves_of(scope, fields[0]), masters_of(fields[1]), tolerance, block.line);
+      fasten(slaves_of(scope, fields[0]), masters_of(scope, fields[1]), tolerance, block.line);
     }
   }
 
@@ -166,7 +166,7 @@ class Ties {
       for (const AbaqusLine& line : block.data) {
         const auto fields = line.fields();
         if (fields.size() < 2) throw CardError{"two surfaces are due: slave and master"};
-        fasten(slaves_of(scope, fields[0]), masters_of(fields[1]), tolerance, block.line);
+        fasten(slaves_of(scope, fields[0]), masters_of(scope, fields[1]), tolerance, block.line);
       }
     });
   }
@@ -201,7 +201,7 @@ class Ties {
     for (const AbaqusLine& line : block.data) {
       const auto fields = line.fields();
       if (fields.size() < 2) throw CardError{"two surfaces are due: of shells, then of solids"};
-      const MasterSurface edge = masters_of(fields[0]);
+      const MasterSurface edge = masters_of(scope, fields[0]);
       if (edge.shells.empty() || !edge.faces.empty())
         throw CardError{fmt::format("the surface {} is none of shells' edges", fields[0])};
       fasten(slaves_of(scope, fields[1]), edge, distance(block, "INFLUENCE DISTANCE"), block.line);
@@ -211,21 +211,17 @@ class Ties {
                       "the solids within a thickness of the edge");
   }
 
-  const AbaqusSurface* find_surface(std::string_view name) const {
-    const auto found = model_.surfaces.find(upper(name));
-    return found == model_.surfaces.end() ? nullptr : &found->second;
-  }
-
   std::set<int> slaves_of(const AbaqusScope& scope, std::string_view name) const {
     std::set<int> slaves;
-    const AbaqusSurface* surface = find_surface(name);
-    if (surface == nullptr) {
+    const NamedAbaqusSurface* named = model_.find_surface(scope, name);
+    if (named == nullptr) {
       const std::vector<int> nodes = model_.nodes_of(scope, name);
       slaves.insert(nodes.begin(), nodes.end());
       return slaves;
     }
-    for (const auto& [node, area] : surface->nodes) slaves.insert(node);
-    for (const auto& [element, face] : surface->faces) {
+    const AbaqusSurface& surface = named->second;
+    for (const auto& [node, area] : surface.nodes) slaves.insert(node);
+    for (const auto& [element, face] : surface.faces) {
       const AbaqusDeckElement& one = model_.elements[element];
       if (one.solid >= 0) {
         add_face(one, face, slaves);
@@ -263,15 +259,14 @@ class Ties {
         vertices.insert(solid.vertices[at(topology.corners) + e]);
   }
 
-  MasterSurface masters_of(std::string_view name) const {
-    const AbaqusSurface* surface = find_surface(name);
-    if (surface == nullptr) throw CardError{fmt::format("surface {} does not exist", name)};
-    if (surface->is_of_nodes)
+  MasterSurface masters_of(const AbaqusScope& scope, std::string_view name) const {
+    const AbaqusSurface& surface = model_.surface(scope, name).second;
+    if (surface.is_of_nodes)
       throw CardError{
           fmt::format("the master {} is a surface of nodes; one of shells or solids is due", name)};
     MasterSurface master;
     std::set<int> shells;
-    for (const auto& [element, face] : surface->faces) {
+    for (const auto& [element, face] : surface.faces) {
       const AbaqusDeckElement& one = model_.elements[element];
       if (one.solid >= 0) {
         master.faces.emplace_back(mesh_, one.solid, corners_of_face(one, face));

@@ -9,6 +9,7 @@
 
 #include "structure/index.h"
 #include "structure/mesh/files/deck/parted_edges.h"
+#include "structure/mesh/quarter_points.h"
 #include "structure/mesh/solid_shape.h"
 
 namespace blocklift::structure {
@@ -54,6 +55,16 @@ bool is_twisted(const Mesh& mesh, const Solid& solid) {
   return false;
 }
 
+/// Where a folded solid has the middle of an edge at its quarter or beyond; empty if nowhere.
+std::string describe_quarter_middle(const Mesh& mesh, const Solid& solid) {
+  const auto middle = quarter_middle_of(mesh, solid);
+  if (!middle) return {};
+  return fmt::format(
+      "; the middle of an edge at ({:.4g}, {:.4g}, {:.4g}) m is {:.3g} of the edge "
+      "from a corner, where more than a quarter is due",
+      middle->place.x(), middle->place.y(), middle->place.z(), middle->share);
+}
+
 void refuse_folded_solids(const Mesh& mesh, const std::vector<GivenSolid>& given, DeckLog& log) {
   constexpr int most_named = 10;
   int count = 0;
@@ -68,8 +79,8 @@ void refuse_folded_solids(const Mesh& mesh, const std::vector<GivenSolid>& given
       log.complain(given[s].line,
                    fmt::format("{}: element {} is folded or has no volume: its Jacobian is not "
                                "positive everywhere; are its nodes in their order, and the middles "
-                               "of its edges where they belong?",
-                               given[s].card, solid.label));
+                               "of its edges where they belong?{}",
+                               given[s].card, solid.label, describe_quarter_middle(mesh, solid)));
     else
       log.complain(given[s].line,
                    fmt::format("{}: element {} is twisted: two opposite faces are turned against "

@@ -138,6 +138,41 @@ TEST(Diagnosis, MiddlesOfQuadraticShellsBelongToThem) {
   EXPECT_EQ(count(diagnose(mesh), "unused vertices"), 1);
 }
 
+// The slope of the edge at its end is (4 s - 1) of its length where the middle is at s of it.
+TEST(Diagnosis, MiddlesAtQuarterPointsAreNamedWithTheirPlace) {
+  const auto found = [](double share) {
+    Mesh mesh = plate(1, 1);
+    Eigen::Matrix3Xd points(3, 9);
+    for (int i = 0; i < 9; ++i) points.col(i) = Vector3(0.5 * (i % 3), 0.5 * (i / 3), 0);
+    points(0, 7) = 1 - share;
+    mesh.curved_shells.push_back(points);
+    mesh.shells[0].curvature = 0;
+    const Diagnosis diagnosis = diagnose(mesh);
+    const Finding* finding = diagnosis.find("middles at quarter points");
+    return finding == nullptr ? Finding() : *finding;
+  };
+  const Finding at_quarter = found(0.25);
+  EXPECT_EQ(at_quarter.severity, Severity::warning);
+  EXPECT_THAT(at_quarter.labels, ElementsAre(1));
+  EXPECT_THAT(at_quarter.text, testing::HasSubstr("at (0.75, 1, 0) m, 0.25 of the edge"));
+  EXPECT_EQ(found(0.27).count, 1);
+  EXPECT_EQ(found(0.28).count, 0);
+  EXPECT_EQ(found(0.5).count, 0);
+}
+
+// A vertex that is tied to a shell in the place of the shell's corner is joined to it.
+TEST(Diagnosis, VerticesTiedToAShellAreJoinedToItsCorners) {
+  Mesh mesh = plate(2, 1);
+  mesh.vertices.push_back(mesh.vertices[1]);
+  mesh.vertices.push_back(mesh.vertices[4]);
+  mesh.shells[1].vertices[0] = 6;
+  mesh.shells[1].vertices[2] = 7;
+  EXPECT_EQ(count(diagnose(mesh), "duplicated vertices"), 2);
+  mesh.surface_points.push_back({6, 0, {1, 0}});
+  mesh.surface_points.push_back({7, 0, {1, 1}});
+  EXPECT_EQ(count(diagnose(mesh), "duplicated vertices"), 0);
+}
+
 TEST(Diagnosis, DuplicatedVerticesAndCells) {
   Mesh mesh = plate(2, 1);
   // The second shell gets vertices of its own along the seam.

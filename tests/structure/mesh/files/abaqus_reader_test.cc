@@ -353,6 +353,28 @@ TEST(AbaqusReader, PartsAndInstances) {
   EXPECT_FALSE(deck.remarks.empty());
 }
 
+// A part's surface is one of each instance, by instance and name; pressure on one is not on both.
+TEST(AbaqusReader, SurfacesOfInstances) {
+  const auto deck = [&](const std::string& second, const std::string& surface) {
+    return "*PART, NAME=Sheet\n" + nodes +
+           "*ELEMENT, TYPE=S4, ELSET=P\n10, 1, 2, 3, 4\n*SURFACE, NAME=Top\nP, SPOS\n"
+           "*SHELL SECTION, ELSET=P, MATERIAL=STEEL\n.01\n*END PART\n"
+           "*ASSEMBLY, NAME=A\n*INSTANCE, NAME=One, PART=Sheet\n*END INSTANCE\n" +
+           second + "*END ASSEMBLY\n" + steel +
+           "*BOUNDARY\nOne.1, 1, 6\n*STEP\n*STATIC\n*DSLOAD\n" + surface + ", P, 5.\n*END STEP\n";
+  };
+  const std::string second = "*INSTANCE, NAME=Two, PART=Sheet\n5., 0., 1.\n*END INSTANCE\n";
+  const auto loads = [&](const std::string& text) {
+    return abaqus(text).load_sets.at(0).plate_loads;
+  };
+  ASSERT_EQ(loads(deck(second, "Two.Top")).size(), 1U);
+  EXPECT_EQ(loads(deck(second, "Two.Top"))[0].shell, 1);
+  EXPECT_EQ(loads(deck("", "Top")).size(), 1U);
+  EXPECT_THAT([&] { abaqus(deck(second, "Top")); },
+              testing::ThrowsMessage<DeckError>(
+                  HasSubstr("surface Top does not exist; those of the deck are ONE.TOP, TWO.TOP")));
+}
+
 TEST(AbaqusReader, IncludesFilesBelowItsFolder) {
   const DeckFolder folder;
   folder.write("deck/nodes.inc", nodes);

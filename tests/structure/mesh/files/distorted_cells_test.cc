@@ -198,7 +198,20 @@ TEST(DistortedCells, MiddlesThatLieFarOffFoldASolid) {
            property_of_solids;
   };
   EXPECT_EQ(complaints_of_nastran(deck(".7")), "");
-  EXPECT_THAT(complaints_of_nastran(deck(".8")), HasSubstr("element 103 is folded"));
+  EXPECT_THAT(complaints_of_nastran(deck(".8")),
+              AllOf(HasSubstr("element 103 is folded"),
+                    HasSubstr("edge at (0.8, 0, 0) m is 0.2 of the edge from a corner")));
+}
+
+TEST(DistortedCells, MiddlesBeyondAnEndFoldABeam) {
+  const auto deck = [](const char* nodes) {
+    return nodes_of_cube + "*ELEMENT, TYPE=B32, ELSET=B\n7, " + nodes +
+           "\n*BEAM SECTION, ELSET=B, SECTION=RECT, MATERIAL=Steel\n.1, .02\n0., 0., 1.\n"
+           "*MATERIAL, NAME=Steel\n*ELASTIC\n206.e9, .3\n*DENSITY\n7850.\n";
+  };
+  // Around a corner of the cube, then by way of the opposite one.
+  EXPECT_EQ(complaints_of_abaqus(deck("1, 2, 3")), "");
+  EXPECT_THAT(complaints_of_abaqus(deck("1, 7, 2")), HasSubstr("element 7 is folded"));
 }
 
 TEST(DistortedCells, ManyFoldedSolidsAreCounted) {
