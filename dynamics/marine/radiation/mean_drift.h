@@ -20,7 +20,8 @@ namespace blocklift::dynamics {
 /// ones lose. Unless there are lids, whose power is not known, H and the motions are therefore
 /// multiplied by the complex number nearest to 1 that gives it back (calc_energy_factor), and P by
 /// the square of its size: short waves are sent out too weak, and the force would miss twice as much
-/// of itself; next to a resonance with too little damping, a body moves too much.
+/// of itself; next to a resonance pressure tells less damping than the waves that are sent out, and
+/// the body moves too much for these.
 ///
 /// @param motions of each frequency, 6 x headings, m/m and rad/m (calc_response_amplitudes); empty:
 ///   the body is held.
