@@ -1,8 +1,10 @@
 // Far fields of the waves and the mean forces that follow from them.
 #include "dynamics/marine/radiation/mean_drift.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -320,7 +322,16 @@ TEST(MeanDrift, OfAHemisphereConservesEnergy) {
   settings.duration = 50.0;
   settings.damping_strength = 0.7;
   settings.with_far_field = true;
+  std::vector<double> told;
+  int told_far_away = 0;
+  settings.progress = [&](double fraction, const char* what) {
+    told.push_back(fraction);
+    told_far_away += std::string_view(what) == "waves far away";
+  };
   HydrodynamicDatabase database = compute_database(sphere.model, settings);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LT(told.back(), 1.0);
+  EXPECT_EQ(told_far_away, 2 * static_cast<int>(sphere.model.parities().size()));
   const FarField& far = database.far_field;
   ASSERT_FALSE(far.empty());
   for (std::size_t k = 0; k < 2; ++k) {
