@@ -27,11 +27,16 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Tells the progress of the parts: a third of each for its solution, the rest for its march.
+/// Tells the progress of the parts: a third of each for its solution, the rest for its march. The
+/// far field of a frequency takes about a sixth of both: with 940 panels and 29 frequencies four
+/// fifths of all.
 class Progress {
  public:
   Progress(const DatabaseSettings& settings, std::size_t parts)
-      : tell_(settings.progress), parts_(static_cast<double>(parts)) {}
+      : tell_(settings.progress),
+        parts_(static_cast<double>(parts)),
+        frequencies_(static_cast<double>(settings.frequencies.size())),
+        before_far_field_(settings.with_far_field ? 1.0 / (1.0 + frequencies_ / 6.0) : 1.0) {}
   void part(std::size_t index) {
     done_ = static_cast<double>(index);
     marched_ = 0.0;
@@ -40,16 +45,22 @@ class Progress {
   /// A run that becomes longer stands still here, and does not go back.
   void march(long step, long steps) {
     marched_ = std::max(marched_, static_cast<double>(step) / static_cast<double>(steps));
-    show(0.35 + 0.6 * marched_, "impulse responses");
+    show((0.35 + 0.6 * marched_) * before_far_field_, "impulse responses");
   }
-  void excite() const { show(0.95, "waves of all headings"); }
+  void excite() const { show(0.95 * before_far_field_, "waves of all headings"); }
+  void send(std::size_t frequency) const {
+    const double sent = static_cast<double>(frequency) / frequencies_;
+    show(before_far_field_ + (1.0 - before_far_field_) * sent, "waves far away");
+  }
 
  private:
   void show(double fraction, const char* what) const {
     if (tell_) tell_((done_ + fraction) / parts_, what);
   }
   const std::function<void(double, const char*)>& tell_;
-  double parts_, done_ = 0.0, marched_ = 0.0;
+  double parts_, frequencies_;
+  double before_far_field_;  ///< share of a part
+  double done_ = 0.0, marched_ = 0.0;
 };
 
 /// On the surface only what is small beside the shortest wave is taken together: near the hulls.
@@ -84,7 +95,7 @@ class PartComputation {
   /// To excitation, and to the far field, made for all parts together; and to what the coarser
   /// solution makes of the former.
   void add_waves(HydrodynamicDatabase& database, CoarserForces& coarser) const;
-  void add_distant_waves(HydrodynamicDatabase& database) const;
+  void add_distant_waves(HydrodynamicDatabase& database, const Progress& progress) const;
   /// To the radiation forces of the coarser solution.
   void add_coarser(CoarserForces& coarser) const;
   /// To what the ends of the runs cut off, modes x frequencies.
@@ -222,9 +233,11 @@ void PartComputation::add_waves(HydrodynamicDatabase& database, CoarserForces& c
       });
 }
 
-void PartComputation::add_distant_waves(HydrodynamicDatabase& database) const {
+void PartComputation::add_distant_waves(HydrodynamicDatabase& database,
+                                        const Progress& progress) const {
   const FrequencyDomain scattering(model_, part_, damping_);
   for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    progress.send(k);
     const double w = database.frequencies[k];
     FlowOfPart sent = flow(k);
     if (!database.headings.empty()) {
@@ -348,7 +361,7 @@ HydrodynamicDatabase compute_database(const PanelModel& model, const DatabaseSet
     start = std::chrono::steady_clock::now();
     progress.excite();
     computation.add_waves(database, coarser);
-    if (settings.with_far_field) computation.add_distant_waves(database);
+    if (settings.with_far_field) computation.add_distant_waves(database, progress);
     account.excitation_s += seconds_since(start);
     const RankineTiming& timing = computation.part().timing();
     account.solution.influence_s += timing.influence_s;

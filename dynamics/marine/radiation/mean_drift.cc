@@ -68,19 +68,19 @@ double power_of_damping(const Going& going, const std::vector<MatrixXcd>& motion
 Complex energy_factor(const Going& going, const Eigen::VectorXcd& sent, double heading,
                       double power) {
   const DirectionalWaves waves(sent);
-  return calc_energy_factor(waves.integrate().whole, -going.meet(waves.at(heading)),
-                            power / (going.pressure * going.group_velocity));
+  return calc_energy_factor(
+      waves.integrate().whole + power / (going.pressure * going.group_velocity),
+      -going.meet(waves.at(heading)));
 }
 
 }  // namespace
 
-Complex calc_energy_factor(double sent, Complex shadow, double taken) {
-  if (!(sent > 0.0)) return 1.0;
-  const Complex middle = std::conj(shadow) / (2.0 * sent);
-  const double radius_squared = std::norm(middle) - taken / sent;
+Complex calc_energy_factor(double gone, Complex shadow) {
+  if (!(gone > 0.0) || shadow == 0.0) return 1.0;
+  const Complex middle = std::conj(shadow) / (2.0 * gone);
   const Complex away = 1.0 - middle;
-  if (!(radius_squared > 0.0) || away == 0.0) return 1.0;
-  return middle + std::sqrt(radius_squared) / std::abs(away) * away;
+  if (away == 0.0) return 1.0;
+  return middle + std::abs(middle) / std::abs(away) * away;
 }
 
 std::vector<MatrixXd> calc_mean_drift(const HydrodynamicDatabase& database,
@@ -96,8 +96,12 @@ std::vector<MatrixXd> calc_mean_drift(const HydrodynamicDatabase& database,
     for (Eigen::Index h = 0; h < drift.back().cols(); ++h) {
       const double heading = database.headings[h];
       Eigen::VectorXcd H = sent_out(database, motions, k, h);
-      const double power = power_of_damping(going, motions, damping, k, h);
-      if (!has_lids) H *= energy_factor(going, H, heading, power);
+      double power = power_of_damping(going, motions, damping, k, h);
+      if (!has_lids) {
+        const Complex factor = energy_factor(going, H, heading, power);
+        H *= factor;
+        power *= std::norm(factor);
+      }
       const DirectionalWaves waves(H);
       const DirectionalWaves::Moments sent = waves.integrate();
       const double lost = power / going.phase_velocity;
