@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -63,16 +65,26 @@ class Points {
         ++shares_[found->second];
         of_cell_.push_back(found->second);
       }
+    ends_.resize(shares_.size());
+    std::exclusive_scan(shares_.begin(), shares_.end(), ends_.begin(), 0);
+    places_.resize(of_cell_.size());
+    for (std::size_t place = 0; place < of_cell_.size(); ++place)
+      places_[at(ends_[of_cell_[place]]++)] = static_cast<int>(place);
   }
   int of(int cell, int local) const {
     return of_cell_[at(cell) * at(space_.nodes_per_shell()) + at(local)];
   }
   int count() const { return static_cast<int>(shares_.size()); }
   int share(int point) const { return shares_[point]; }
+  /// The nodes of cells that have a point, in their order: nodes a cell * cell + local.
+  std::span<const int> places(int point) const {
+    return std::span(places_).subspan(at(ends_[point] - shares_[point]), at(shares_[point]));
+  }
 
  private:
   const Space& space_;
   std::vector<int> of_cell_, shares_;
+  std::vector<int> places_, ends_;  ///< of all points one behind the other, and where each ends
 };
 
 /// The axes in which resultants are averaged: at each point those of the first cell that has it,
@@ -131,10 +143,13 @@ class Axes {
   std::vector<double> angles_;  ///< of each cell's axes against those of its nodes' points
 };
 
-/// Resultants at one point turned into other axes: six rows for each motion.
-Eigen::VectorXd turned_resultants(const Law& turn,
-                                  const Eigen::Ref<const Eigen::VectorXd>& resultants) {
-  return (turn * resultants.reshaped(6, resultants.size() / 6)).reshaped();
+/// Resultants at one point, a column for each motion.
+using AtPoint = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// Turns resultants at one point, six rows for each motion, into other axes.
+void turn_into(const Law& turn, const Eigen::Ref<const Eigen::VectorXd>& resultants,
+               AtPoint& turned) {
+  turned.noalias() = turn * resultants.reshaped(6, resultants.size() / 6);
 }
 
 Law law_of(const ElasticModel& model, const Shell& shell, const ShellPoint& point) {
@@ -235,12 +250,17 @@ Resultants recover(const ElasticModel& model, const Axes& axes, const Points& po
           resultants_of(model, accurate, places, cell, motions, heat) * carry;
   });
   Resultants recovered = Resultants::Zero(6 * motions.cols(), points.count());
-  for (int cell = 0; cell < cells; ++cell)
-    for (int i = 0; i < per_cell; ++i)
-      recovered.col(points.of(cell, i)) +=
-          turned_resultants(axes.to_point(cell, i),
-                            at_nodes.col(static_cast<Eigen::Index>(per_cell) * cell + i)) /
-          points.share(points.of(cell, i));
+  // Each point by one thread, its cells in their order: sums do not depend on the threads.
+  parallel::in_batches(points.count(), batch_of(points.count()), threads,
+                       [&](int first, int count) {
+                         AtPoint turned(6, motions.cols());
+                         for (int point = first; point < first + count; ++point)
+                           for (const int place : points.places(point)) {
+                             turn_into(axes.to_point(place / per_cell, place % per_cell),
+                                       at_nodes.col(place), turned);
+                             recovered.col(point) += turned.reshaped() / points.share(point);
+                           }
+                       });
   return recovered;
 }
 
@@ -267,11 +287,13 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Axes& axes, const P
   parallel::in_batches(cells, batch_of(cells), threads, [&](int first, int count) {
     ShellOperator own(space, rule.topRows<2>());
     Resultants at_nodes(6 * motions.cols(), space.nodes_per_shell());
+    AtPoint turned(6, motions.cols());
     for (int cell = first; cell < first + count; ++cell) {
       const Resultants s_h = resultants_of(model, own, rule.topRows<2>(), cell, motions, heat);
-      for (int i = 0; i < space.nodes_per_shell(); ++i)
-        at_nodes.col(i) =
-            turned_resultants(axes.to_cell(cell, i), recovered.col(points.of(cell, i)));
+      for (int i = 0; i < space.nodes_per_shell(); ++i) {
+        turn_into(axes.to_cell(cell, i), recovered.col(points.of(cell, i)), turned);
+        at_nodes.col(i) = turned.reshaped();
+      }
       const Resultants smooth = at_nodes * values;
       const Shell& shell = model.mesh().shells[space.shells()[cell].shell];
       const bool is_layered = model.mesh().section_of(shell).laminate >= 0;

@@ -19,47 +19,44 @@ Eigen::Matrix<double, 2, 4> derivatives(const Eigen::Vector2d& xi) {
 }  // namespace
 
 BilinearShear::BilinearShear(const Space& space, int cell) {
+  static const Eigen::Matrix3Xd rule = square_rule(2);
   for (int i = 0; i < 4; ++i) corners_.col(i) = space.nodes().col(space.shell_nodes(cell)[i]);
   along_ = corners_ * derivatives({0.5, 0.5}).row(0).transpose();
   mean_.setZero();
   double area = 0;
-  const Eigen::Matrix3Xd rule = square_rule(2);
   for (Eigen::Index q = 0; q < rule.cols(); ++q) {
-    const double part = rule(2, q) * area_at(rule.col(q).head<2>());
-    mean_ += part * shear_at(rule.col(q).head<2>());
+    const Point point = point_at(rule.col(q).head<2>());
+    const double part = rule(2, q) * point.area;
+    mean_ += part * shear_at(point);
     area += part;
   }
   mean_ /= area;
 }
 
-double BilinearShear::area_at(const Eigen::Vector2d& xi) const {
-  const Eigen::Matrix<double, 3, 2> g = corners_ * derivatives(xi).transpose();
-  return Vector3(g.col(0)).cross(Vector3(g.col(1))).norm();
+BilinearShear::Point BilinearShear::point_at(const Eigen::Vector2d& xi) const {
+  Point point;
+  point.by_unit = derivatives(xi);
+  point.tangents = corners_ * point.by_unit.transpose();
+  const Vector3 across = Vector3(point.tangents.col(0)).cross(Vector3(point.tangents.col(1)));
+  point.area = across.norm();
+  const Vector3 normal = across.normalized();
+  point.axes.col(0) = (along_ - normal * normal.dot(along_)).normalized();
+  point.axes.col(1) = normal.cross(Vector3(point.axes.col(0)));
+  return point;
 }
 
-Eigen::Matrix<double, 3, 4> BilinearShear::shear_at(const Eigen::Vector2d& xi) const {
-  const Eigen::Matrix<double, 2, 4> by_unit = derivatives(xi);
-  const Eigen::Matrix<double, 3, 2> g = corners_ * by_unit.transpose();
-  const Eigen::Matrix<double, 3, 2> axes = axes_at(xi);
-  const Eigen::Matrix2d jacobian = axes.transpose() * g;  // d(place along the axes) / d xi
-  const Eigen::Matrix<double, 2, 4> by_place = jacobian.inverse().transpose() * by_unit;
-  return axes.col(0) * by_place.row(1) + axes.col(1) * by_place.row(0);
+Eigen::Matrix<double, 3, 4> BilinearShear::shear_at(const Point& point) {
+  // d(place along the axes) / d xi
+  const Eigen::Matrix2d jacobian = point.axes.transpose() * point.tangents;
+  const Eigen::Matrix<double, 2, 4> by_place = jacobian.inverse().transpose() * point.by_unit;
+  return point.axes.col(0) * by_place.row(1) + point.axes.col(1) * by_place.row(0);
 }
 
-Eigen::Matrix<double, 3, 2> BilinearShear::axes_at(const Eigen::Vector2d& xi) const {
-  const Eigen::Matrix<double, 3, 2> g = corners_ * derivatives(xi).transpose();
-  const Vector3 normal = Vector3(g.col(0)).cross(Vector3(g.col(1))).normalized();
-  Eigen::Matrix<double, 3, 2> axes;
-  axes.col(0) = (along_ - normal * normal.dot(along_)).normalized();
-  axes.col(1) = normal.cross(Vector3(axes.col(0)));
-  return axes;
-}
-
-Vector3 BilinearShear::turned_to(const Eigen::Vector2d& xi, const Vector3& e_1,
-                                 const Vector3& e_2) const {
-  const Eigen::Matrix<double, 3, 2> axes = axes_at(xi);
-  const Eigen::Vector2d a = axes.transpose() * e_1, b = axes.transpose() * e_2;
-  return {a[0] * a[1], b[0] * b[1], a[0] * b[1] + b[0] * a[1]};
+BilinearShear::Excess BilinearShear::excess_at(const Eigen::Vector2d& xi, const Vector3& e_1,
+                                               const Vector3& e_2) const {
+  const Point point = point_at(xi);
+  const Eigen::Vector2d a = point.axes.transpose() * e_1, b = point.axes.transpose() * e_2;
+  return {shear_at(point) - mean_, {a[0] * a[1], b[0] * b[1], a[0] * b[1] + b[0] * a[1]}};
 }
 
 }  // namespace blocklift::structure

@@ -17,20 +17,28 @@ class BilinearShear {
   /// @param space of degree 1.
   BilinearShear(const Space& space, int cell);
 
-  /// What the displacements' shear at a point of the unit square is for the displacements of the
-  /// cell's nodes (a column each), beyond the mean: 1/m.
-  Eigen::Matrix<double, 3, 4> excess_at(const Eigen::Vector2d& xi) const {
-    return shear_at(xi) - mean_;
-  }
-  /// (11, 22, 2 x 12) along e_1 and e_2 of a shear of one along the surface's axes at a point.
-  Vector3 turned_to(const Eigen::Vector2d& xi, const Vector3& e_1, const Vector3& e_2) const;
+  /// At a point of the unit square.
+  struct Excess {
+    /// What the displacements' shear is beyond the mean for the displacements of the cell's nodes (a
+    /// column each): 1/m.
+    Eigen::Matrix<double, 3, 4> by_nodes;
+    /// (11, 22, 2 x 12) along e_1 and e_2 of a shear of one along the surface's axes.
+    Vector3 turned;
+  };
+  Excess excess_at(const Eigen::Vector2d& xi, const Vector3& e_1, const Vector3& e_2) const;
 
  private:
-  /// Unit tangents at a point, columns: the part of the cell's direction along the surface, and
-  /// across that.
-  Eigen::Matrix<double, 3, 2> axes_at(const Eigen::Vector2d& xi) const;
-  Eigen::Matrix<double, 3, 4> shear_at(const Eigen::Vector2d& xi) const;
-  double area_at(const Eigen::Vector2d& xi) const;
+  using UnitDerivatives = Eigen::Matrix<double, 2, 4>;
+  /// What a point has: derivatives of the shape functions by the unit coordinates, a row each; of
+  /// places by these, a column each; unit tangents, columns: the part of the cell's direction along
+  /// the surface, and across that.
+  struct Point {
+    UnitDerivatives by_unit;
+    Eigen::Matrix<double, 3, 2> tangents, axes;
+    double area;  ///< m^2 per unit of the square
+  };
+  Point point_at(const Eigen::Vector2d& xi) const;
+  static Eigen::Matrix<double, 3, 4> shear_at(const Point& point);
 
   Eigen::Matrix<double, 3, 4> corners_;
   Vector3 along_;  ///< the cell's direction, as ShellOperator has it

@@ -251,6 +251,7 @@ class SquarePlacer {
         lower = lower.min(in_plane);
         upper = upper.max(in_plane);
       }
+    std::vector<Square> lattice;
     ShellPlace start = origin;
     const auto first_step = [](double low) { return std::ceil(low / largest_spacing + 0.01); };
     for (double j = first_step(lower[1]); j * largest_spacing < upper[1]; ++j)
@@ -259,9 +260,19 @@ class SquarePlacer {
         const auto found = walker_.find(wanted, start);
         if (!found) continue;
         start = *found;
-        const Square square = laid(*found, e_1);
-        if (lies_inside(square)) squares_.push_back(square);
+        lattice.push_back(laid(*found, e_1));
       }
+    take_those_inside(lattice);
+  }
+
+  void take_those_inside(const std::vector<Square>& candidates) {
+    constexpr int batch = 1024;  // fields lie side by side: large ones alone need more threads
+    std::vector<char> is_inside(candidates.size());
+    parallel::in_batches(static_cast<int>(candidates.size()), batch, 0, [&](int first, int count) {
+      for (int i = first; i < first + count; ++i) is_inside[i] = lies_inside(candidates[i]);
+    });
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (is_inside[i] != 0) squares_.push_back(candidates[i]);
   }
 
   const Mesh& mesh_;

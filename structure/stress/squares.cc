@@ -114,22 +114,39 @@ void integrate_outline(const Space& space, const std::vector<CellShare>& shares,
   sum(curvature, normal.cross(square.e_1), normal.cross(square.e_2), 3);
 }
 
-/// Takes from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a motion) the
-/// shear that cells of degree 1 do not bear.
-void take_excess_shear(const Space& space, const FieldWalker& walker, const CellFinder& cells,
-                       const Square& square, const auto& by_rows, Eigen::MatrixXd& strain) {
-  for_each_inner_point(walker, cells, square, [&](const CellPlace& at, double weight) {
-    const BilinearShear shear(space, at.cell);
-    const Eigen::Matrix<double, 3, 4> excess = shear.excess_at(at.xi);
-    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(strain.cols());
-    for (int node = 0; node < 4; ++node)
-      sum += excess.col(node).transpose() *
-             by_rows.template middleRows<3>(
-                 6 * static_cast<Eigen::Index>(space.shell_nodes(at.cell)[node]));
-    const double area = weight * square.size * square.size;
-    strain -= area * shear.turned_to(at.xi, square.e_1, square.e_2) * sum;
-  });
-}
+/// The shear that cells of degree 1 do not bear. What is known of the last cell serves the next
+/// point: squares of one cell follow one another.
+class ExcessShear {
+ public:
+  explicit ExcessShear(const Space& space) : space_(space) {}
+
+  /// Takes it from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a motion).
+  void take_from(Eigen::MatrixXd& strain, const FieldWalker& walker, const CellFinder& cells,
+                 const Square& square, const MembraneStrains::ByRows& by_rows) {
+    Eigen::RowVectorXd sum(strain.cols());
+    for_each_inner_point(walker, cells, square, [&](const CellPlace& at, double weight) {
+      const auto excess = shear_of(at.cell).excess_at(at.xi, square.e_1, square.e_2);
+      sum.setZero();
+      for (int node = 0; node < 4; ++node)
+        sum +=
+            excess.by_nodes.col(node).transpose() *
+            by_rows.middleRows<3>(6 * static_cast<Eigen::Index>(space_.shell_nodes(at.cell)[node]));
+      const double area = weight * square.size * square.size;
+      strain -= area * excess.turned * sum;
+    });
+  }
+
+ private:
+  const BilinearShear& shear_of(int cell) {
+    if (cell != cell_) shear_.emplace(space_, cell);
+    cell_ = cell;
+    return *shear_;
+  }
+
+  const Space& space_;
+  int cell_ = -1;
+  std::optional<BilinearShear> shear_;  ///< of the cell
+};
 
 /// Mean membrane forces and moments that hold a square where nothing moves, along its axes and
 /// about its normal: 6 x cases.
@@ -231,6 +248,7 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
     std::vector<CellShare> shares;
     Eigen::MatrixXd strain(3, columns), curvature(3, columns);
     MembraneStrains of_stiffness(space, by_rows);
+    ExcessShear excess(space);
     for (int s = first; s < first + count; ++s) {
       const Square& square = squares_[s];
       const Shell& shell = model.mesh().shells[square.shell];
@@ -246,7 +264,7 @@ void CheckedStress::evaluate(const ElasticModel& model, const FieldWalker& walke
       if (tied) {
         strain = *tied;
       } else {
-        if (space.degree() == 1) take_excess_shear(space, walker, cells, square, by_rows, strain);
+        if (space.degree() == 1) excess.take_from(strain, walker, cells, square, by_rows);
         strain += side * model.mesh().section_of(shell).offset * curvature;
       }
       const double area = square.size * square.size;

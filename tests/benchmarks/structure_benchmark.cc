@@ -1,8 +1,11 @@
 // The structural stage on the hull block: seconds of assembly, factorisation and unit responses as
-// counters, then a load case's evaluation. Run alone on the machine; OpenBLAS takes all cores.
+// counters, then the evaluation of a load case, the checked stress and the error estimate. Run alone on
+// the machine; OpenBLAS takes all cores.
 #include <benchmark/benchmark.h>
 
+#include "structure/accuracy/block_error.h"
 #include "structure/response/unit_responses.h"
+#include "structure/stress/squares.h"
 #include "structure/stress/stress.h"
 #include "tests/structure/block_models.h"
 #include "tests/structure/hull_block.h"
@@ -42,6 +45,29 @@ void evaluate_load_case(benchmark::State& state) {
   for (auto unused : state) benchmark::DoNotOptimize(recovery.evaluate(load_case));
 }
 BENCHMARK(evaluate_load_case)->Unit(benchmark::kMillisecond);
+
+/// A motion without a meaning: neither the checked stress nor the error estimate asks for one.
+Eigen::MatrixXd any_motion(const ElasticModel& model) {
+  return Eigen::VectorXd::LinSpaced(model.space().freedoms(), -1e-3, 1e-3);
+}
+
+void checked_stress(benchmark::State& state) {
+  const ElasticModel model =
+      testing::make_elastic_model(testing::hull_block(), static_cast<int>(state.range(0)));
+  const Eigen::MatrixXd motion = any_motion(model);
+  std::size_t squares = 0;
+  for (auto unused : state) squares = CheckedStress(model, motion).squares().size();
+  state.counters["squares"] = static_cast<double>(squares);
+}
+BENCHMARK(checked_stress)->ArgName("degree")->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
+
+void error_estimate(benchmark::State& state) {
+  const ElasticModel model =
+      testing::make_elastic_model(testing::hull_block(), static_cast<int>(state.range(0)));
+  const Eigen::MatrixXd motion = any_motion(model);
+  for (auto unused : state) benchmark::DoNotOptimize(estimate_block_errors(model, motion));
+}
+BENCHMARK(error_estimate)->ArgName("degree")->Arg(1)->Arg(3)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
