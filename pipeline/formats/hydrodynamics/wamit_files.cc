@@ -329,17 +329,16 @@ void require_all_forces(const fs::path& path, const ForcesFound& found,
     for (std::size_t h = 0; h < database.headings.size(); ++h) {
       const auto there = found.find({k, h});
       if (there == found.end()) {
-        throw HydrodynamicFileError(fmt::format(
-            "{}: excitation for {} of {} periods and headings: frequencies are missing, such as "
-            "{}",
-            path.string(), found.size(), due, place_of(k, h)));
+        throw HydrodynamicFileError(
+            fmt::format("{}: excitation for {} of {} periods and headings: frequencies are "
+                        "missing, such as {}",
+                        path.string(), found.size(), due, place_of(k, h)));
       }
       for (const Eigen::Index mode : radiating) {
         if (there->second.count(mode) > 0) continue;
         throw HydrodynamicFileError(
-            fmt::format("{}: no excitation of mode {} at {}: lines are "
-                        "missing",
-                        path.string(), mode + 1, place_of(k, h)));
+            fmt::format("{}: no excitation of mode {} at {}: lines are missing", path.string(),
+                        mode + 1, place_of(k, h)));
       }
     }
   }
