@@ -146,7 +146,8 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   if (with_surface && surface.mesh.panels.empty()) {
     throw dynamics::ModelError(
         fmt::format("at a draught of {:.6g} m no hull reaches the water's surface, and a hull that "
-                    "makes waves is due; give a draught below the hull's depth",
+                    "makes waves is due; give a draught below the hull's depth, or method: green "
+                    "function, which computes hulls wholly under water, too",
                     state.draught));
   }
   state.model = std::make_shared<const dynamics::PanelModel>(std::move(bodies), surface,

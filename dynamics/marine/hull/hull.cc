@@ -103,14 +103,16 @@ EnclosedVolume calc_enclosed_volume(const Hull& hull) {
 
 namespace {
 
-// A hull with the panels of another, its vertices displaced and numbered anew by `vertex_of`.
+// A hull with the panels of another, its vertices displaced and numbered anew by `vertex_of`. Those
+// that are reversed keep their first vertex, from which warped ones are divided into triangles: an
+// image divided along the other diagonal would be another hull.
 template <class VertexOf>
 void add_panels(const Hull& from, VertexOf&& vertex_of, bool reversed, Hull& to) {
   std::vector<int> corners;
   for (int panel = 0; panel < from.panel_count(); ++panel) {
     corners.clear();
     for (const int corner : from.panel(panel)) corners.push_back(vertex_of(corner));
-    if (reversed) std::reverse(corners.begin(), corners.end());
+    if (reversed) std::reverse(corners.begin() + 1, corners.end());
     to.add_panel(corners);
   }
 }

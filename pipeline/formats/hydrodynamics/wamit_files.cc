@@ -92,8 +92,9 @@ class TextFile {
     return lines;
   }
 
-  void require_columns(const Line& line, std::size_t fewest, const char* what) const {
-    if (line.values.size() >= fewest) return;
+  void require_columns(const Line& line, std::size_t fewest, std::size_t most,
+                       const char* what) const {
+    if (line.values.size() >= fewest && line.values.size() <= most) return;
     fail(line.number, fmt::format("{} numbers where {} are due", line.values.size(), what));
   }
 
@@ -248,7 +249,7 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
   LargestOfKind largest_mass, largest_damping;
   Eigen::Index modes = modes_per_body;
   for (const Line& line : lines) {
-    file.require_columns(line, 4, "period, two modes, added mass and damping");
+    file.require_columns(line, 4, 5, "period, two modes, added mass and damping");
     periods.take(line.values[0]);
     const Eigen::Index i = file.mode(line, 1), j = file.mode(line, 2);
     modes = std::max({modes, i + 1, j + 1});
@@ -289,7 +290,7 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
                 scale * line.values[3], mass);
       continue;
     }
-    file.require_columns(line, 5, "period, two modes, added mass and damping");
+    file.require_columns(line, 5, 5, "period, two modes, added mass and damping");
     const std::size_t k = periods.index.at(period);
     const bool is_new = entries[k].emplace(i, j).second;
     const double rate = scale * database.frequencies[k];
@@ -312,6 +313,37 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
   return radiating;
 }
 
+/// Modes that a file has at each frequency and heading.
+using ForcesFound = std::map<std::pair<std::size_t, std::size_t>, std::set<Eigen::Index>>;
+
+/// Each mode that radiates is pressed at each period and heading.
+void require_all_forces(const fs::path& path, const ForcesFound& found,
+                        const std::set<Eigen::Index>& radiating,
+                        const HydrodynamicDatabase& database) {
+  const std::size_t due = database.frequencies.size() * database.headings.size();
+  const auto place_of = [&](std::size_t k, std::size_t h) {
+    return fmt::format("the period {:.6g} s and the heading {:.6g} degrees",
+                       two_pi / database.frequencies[k], database.headings[h] / degree);
+  };
+  for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
+    for (std::size_t h = 0; h < database.headings.size(); ++h) {
+      const auto there = found.find({k, h});
+      if (there == found.end()) {
+        throw HydrodynamicFileError(
+            fmt::format("{}: excitation for {} of {} periods and headings: frequencies are "
+                        "missing, such as {}",
+                        path.string(), found.size(), due, place_of(k, h)));
+      }
+      for (const Eigen::Index mode : radiating) {
+        if (there->second.count(mode) > 0) continue;
+        throw HydrodynamicFileError(
+            fmt::format("{}: no excitation of mode {} at {}: lines are missing", path.string(),
+                        mode + 1, place_of(k, h)));
+      }
+    }
+  }
+}
+
 void read_excitation(const fs::path& path, const WamitScales& scales, const Periods& periods,
                      const std::set<Eigen::Index>& radiating, HydrodynamicDatabase& database) {
   const TextFile file(path);
@@ -319,7 +351,8 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
   std::map<double, std::size_t> headings;
   LargestOfKind largest;
   for (const Line& line : lines) {
-    file.require_columns(line, 7, "period, heading, mode, modulus, phase, real and imaginary part");
+    file.require_columns(line, 7, 7,
+                         "period, heading, mode, modulus, phase, real and imaginary part");
     headings.emplace(line.values[1], 0);
     largest.add(line.values[0], is_rotation(file.mode(line, 2)) ? 1 : 0,
                 std::hypot(line.values[5], line.values[6]));
@@ -331,7 +364,7 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
   const Eigen::Index modes = database.mode_count();
   const auto columns = static_cast<Eigen::Index>(headings.size());
   database.diffraction.assign(database.frequencies.size(), Eigen::MatrixXcd::Zero(modes, columns));
-  std::map<std::pair<std::size_t, std::size_t>, std::set<Eigen::Index>> found;
+  ForcesFound found;
   for (const Line& line : lines) {
     const auto period = periods.index.find(line.values[0]);
     if (period == periods.index.end()) {
@@ -348,22 +381,7 @@ void read_excitation(const fs::path& path, const WamitScales& scales, const Peri
               scale * std::complex<double>(line.values[5], line.values[6]),
               scale * largest.at(line.values[0], is_rotation(i) ? 1 : 0));
   }
-  if (found.size() < database.frequencies.size() * headings.size()) {
-    throw HydrodynamicFileError(
-        fmt::format("{}: excitation for {} of {} periods and headings: frequencies are missing",
-                    path.string(), found.size(), database.frequencies.size() * headings.size()));
-  }
-  for (const auto& [place, modes_there] : found) {
-    const std::set<Eigen::Index>& there = modes_there;
-    const auto missing = std::find_if(radiating.begin(), radiating.end(),
-                                      [&](Eigen::Index mode) { return there.count(mode) == 0; });
-    if (missing == radiating.end()) continue;
-    throw HydrodynamicFileError(
-        fmt::format("{}: no excitation of mode {} at the period {:.6g} s and the heading {:.6g} "
-                    "degrees: lines are missing",
-                    path.string(), *missing + 1, two_pi / database.frequencies[place.first],
-                    database.headings[place.second] / degree));
-  }
+  require_all_forces(path, found, radiating, database);
 }
 
 /// The file of mean drift forces that tells most; none if there is none of use.
@@ -384,7 +402,7 @@ void read_mean_drift(const fs::path& path, const WamitScales& scales, const Peri
   database.mean_drift.assign(database.frequencies.size(), MatrixXd::Zero(modes, columns));
   std::set<std::pair<std::size_t, Eigen::Index>> found;
   for (const Line& line : file.lines()) {
-    file.require_columns(line, 7, "period, two headings, mode, modulus, phase, real part");
+    file.require_columns(line, 7, 8, "period, two headings, mode, modulus, phase, real part");
     // Two waves that cross drift a body otherwise than each alone; that is not kept.
     if (line.values[1] != line.values[2]) continue;
     const auto period = periods.index.find(line.values[0]);
@@ -436,7 +454,7 @@ void read_stiffness(const fs::path& path, const WamitScales& scales,
   const std::vector<Line> lines = file.lines();
   LargestOfKind largest;
   for (const Line& line : lines) {
-    file.require_columns(line, 3, "two modes and a stiffness");
+    file.require_columns(line, 3, 3, "two modes and a stiffness");
     largest.add(0, rotations(file.mode(line, 0), file.mode(line, 1)), line.values[2]);
   }
   Pairs found;

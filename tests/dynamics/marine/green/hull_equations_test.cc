@@ -75,6 +75,33 @@ TEST(HullEquations, TruncatedCylinder) {
   }
 }
 
+// A sphere of radius 1 m wholly under water, its middle 1.8 m deep, by a series of multipoles
+// (Thorne 1953; 6, 10 and 14 of them agree to 2e-6), for water of 1 kg/m3. In water without a
+// surface 512 panels of such a sphere are 0.6 % off.
+TEST(HullEquations, SphereUnderWater) {
+  struct Row {
+    double w, surge_A, surge_B, heave_A, heave_B;
+  };
+  constexpr std::array<Row, 3> exact = {{{2.0, 2.249586, 0.327061, 2.404865, 0.690586},
+                                         {3.0, 2.014939, 0.830292, 1.908998, 1.621323},
+                                         {4.0, 1.892707, 0.431492, 1.699605, 0.791398}}};
+  const PanelModel model = make_model(
+      {{"sphere", make_ellipsoid({1, 1, 1}, {0, 0, -1.8}, {.meridians = 32, .parallels = 8}),
+        Vector3(0, 0, -1.8)}},
+      {1.0, standard_gravity}, {true, true});
+  const HullEquations equations(model, {});
+  for (const Row& row : exact) {
+    const Eigen::MatrixXcd force = equations.calc_radiation(equations.solve(row.w), row.w);
+    const Complex surge_exact(row.surge_B, row.w * row.surge_A);
+    const Complex heave_exact(row.heave_B, row.w * row.heave_A);
+    EXPECT_LT(std::abs(force(surge, surge) - surge_exact), 0.02 * std::abs(surge_exact)) << row.w;
+    EXPECT_LT(std::abs(force(heave, heave) - heave_exact), 0.02 * std::abs(heave_exact)) << row.w;
+  }
+  const Eigen::MatrixXcd impulse = equations.calc_radiation(equations.solve(infinite), infinite);
+  EXPECT_NEAR(impulse(surge, surge).real(), 2.028034, 0.02 * 2.028034);
+  EXPECT_NEAR(impulse(heave, heave).real(), 1.963298, 0.02 * 1.963298);
+}
+
 // Whole, halved and quartered: the same flow, with panels and cells in other places of the matrix.
 TEST(HullEquations, SymmetryChangesNothing) {
   const Water water{1000.0, standard_gravity, 8.0};

@@ -197,6 +197,41 @@ TEST(Hull, HalvesMirrorAndOpeningsClose) {
   EXPECT_NEAR(calc_enclosed_volume(closed).volume, 16.0, 1e-12);
 }
 
+// A hull of warped panels (Wigley's: parabolas in both directions), a quarter mirrored twice: by
+// symmetry it holds four quarters about a centre in both planes, to rounding.
+TEST(Hull, ImagesOfWarpedPanelsAreImages) {
+  const int columns = 4, rows = 3;
+  Hull quarter("wigley");
+  for (int i = 0; i <= columns; ++i) {
+    for (int k = 0; k <= rows; ++k) {
+      const double x = static_cast<double>(i) / columns, z = static_cast<double>(k) / rows - 1.0;
+      quarter.add_vertex({50.0 * x, 5.0 * (1.0 - x * x) * (1.0 - z * z), 6.25 * z});
+    }
+  }
+  for (int i = 0; i < columns; ++i) {
+    for (int k = 0; k < rows; ++k) {
+      const int a = (rows + 1) * i + k, b = a + rows + 1;
+      quarter.add_panel({a, a + 1, b + 1, b});
+    }
+  }
+  // Over x = 0, y = 0 and z = 0 there is nothing to sum as seen from the origin.
+  double volume = 0.0;
+  for (int panel = 0; panel < quarter.panel_count(); ++panel) {
+    for (const int number : {0, 1}) {
+      const auto [a, b, c] = quarter.triangle(panel, number);
+      volume += a.dot(b.cross(c)) / 6.0;
+    }
+  }
+  ASSERT_GT(volume, 500.0);
+  const Hull bare = with_mirror_image(with_mirror_image(quarter, 0, 1e-9), 1, 1e-9);
+  const Hull whole = with_lids(bare, 1e-9);
+  const EnclosedVolume enclosed = calc_enclosed_volume(whole);
+  EXPECT_NEAR(enclosed.volume, 4.0 * volume, 1e-9);
+  EXPECT_NEAR(enclosed.centre.x(), 0.0, 1e-9);
+  EXPECT_NEAR(enclosed.centre.y(), 0.0, 1e-9);
+  EXPECT_NEAR(calc_enclosed_volume(reverse(whole)).volume, -enclosed.volume, 1e-9);
+}
+
 TEST(Hull, RefusesALidOnABentRim) {
   const Hull box = make_box({4, 2, 2}, {2, 1, 2, 1});
   const Hull open = changed(box, [&](int panel, auto& corners) {

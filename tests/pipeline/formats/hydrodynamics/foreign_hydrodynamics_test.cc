@@ -255,12 +255,15 @@ TEST(Wamit, SaysWhatIsWrong) {
   const std::string sound = "8 3 3 1 1\n4 3 3 1 1\n2 3 3 1 1\n";
   EXPECT_THAT(message("8 3 3 1 1\n4 3 3 NaN 1\n"), HasSubstr("x.1:2: \"NaN\" is not finite"));
   EXPECT_THAT(message("8 3 3 1 1\n4 3 3 1\n"), HasSubstr("x.1:2: 4 numbers where"));
+  EXPECT_THAT(message("8 3 3 1 1\n4 3 3 1 1 1\n"), HasSubstr("x.1:2: 6 numbers where"));
+  EXPECT_THAT(message(sound, "8 0 3 1 0 1 0 2\n"), HasSubstr("x.3:1: 8 numbers where"));
   EXPECT_THAT(message("8 3 3 1 1\n8 1 1 1 1\n4 3 3 1 1\n2 3 3 1 1\n2 1 1 1 1\n"),
               HasSubstr("1 coefficients at the period 4 s, more at others: lines are missing"));
   EXPECT_THAT(message("8 3 3 1 1\n4 3 3 1 1\n"), HasSubstr("at least three are needed"));
   EXPECT_THAT(
       message(sound, "8 0 3 1 0 1 0\n4 0 3 1 0 1 0\n"),
-      HasSubstr("x.3: excitation for 2 of 3 periods and headings: frequencies are missing"));
+      HasSubstr("x.3: excitation for 2 of 3 periods and headings: frequencies are missing, such "
+                "as the period 2 s and the heading 0 degrees"));
   const std::string two_modes =
       "8 3 3 1 1\n8 5 5 1 1\n4 3 3 1 1\n4 5 5 1 1\n2 3 3 1 1\n2 5 5 1 1\n";
   EXPECT_THAT(
