@@ -117,7 +117,7 @@ TEST(QuarterPoints, FoldAPartsElementAtItsCorner) {
     EXPECT_NO_THROW(check_part_mesh(mesh));
     mesh.nodes.col(middle) = Vector3(0.76, 0, 0);
     EXPECT_THAT([&] { check_part_mesh(mesh); },
-                testing::ThrowsMessage<ModelError>(
+                ::testing::ThrowsMessage<ModelError>(
                     HasSubstr("the middle at (0.76, 0, 0) m, 0.24 of the edge")));
   }
 }
