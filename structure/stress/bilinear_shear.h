@@ -19,8 +19,8 @@ class BilinearShear {
 
   /// At a point of the unit square.
   struct Excess {
-    /// What the displacements' shear is beyond the mean for the displacements of the cell's nodes (a
-    /// column each): 1/m.
+    /// What the displacements' shear is beyond the mean for the displacements of the cell's nodes
+    /// (a column each): 1/m.
     Eigen::Matrix<double, 3, 4> by_nodes;
     /// (11, 22, 2 x 12) along e_1 and e_2 of a shear of one along the surface's axes.
     Vector3 turned;
