@@ -69,8 +69,8 @@ std::vector<int> connected_bodies(const PartMesh& mesh) {
 namespace {
 
 /// Is an element folded at a corner, for the middle of an edge lies beyond the quarter of it?
-/// Points of the rule within may be too far from the corner to see it. The limit is what coordinates of
-/// four digits are rounded by.
+/// Points of the rule within may be too far from the corner to see it. The limit is what
+/// coordinates of four digits are rounded by.
 bool is_folded_at(const PartMesh& mesh, const QuarterMiddleOfElement& found) {
   constexpr double rounding = 1e-3;
   if (!found.middle.is_beyond()) return false;

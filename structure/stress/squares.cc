@@ -120,7 +120,8 @@ class ExcessShear {
  public:
   explicit ExcessShear(const Space& space) : space_(space) {}
 
-  /// Takes it from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a motion).
+  /// Takes it from a square's strain (integrals of 11, 22, 2 x 12 over its area, a column a
+  /// motion).
   void take_from(Eigen::MatrixXd& strain, const FieldWalker& walker, const CellFinder& cells,
                  const Square& square, const MembraneStrains::ByRows& by_rows) {
     Eigen::RowVectorXd sum(strain.cols());

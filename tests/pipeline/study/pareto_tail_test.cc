@@ -54,7 +54,8 @@ TEST(ParetoTail, MeetsTheEquationsOfTheLikeliest) {
 }
 
 // A second program has scales nested in shapes in place of Grimshaw's one variable, and Student's
-// value by Simpson's rule: 2.0484071 of 28 degrees, by which 2.0945525 of the likelihood may be lost.
+// value by Simpson's rule: 2.0484071 of 28 degrees, by which 2.0945525 of the likelihood may be
+// lost.
 TEST(ParetoTail, IsThatOfASecondProgram) {
   struct Known {
     double shape;
