@@ -35,8 +35,8 @@ class AlphaFactor {
 };
 
 /// The factor that the limits of a study ask for. A table is a CSV file beside it with the columns
-/// operation_period_h, significant_height_m and alpha, each period with each height; its row is that
-/// of the shortest period which is not shorter than the planned one.
+/// operation_period_h, significant_height_m and alpha, each period with each height; its row is
+/// that of the shortest period which is not shorter than the planned one.
 /// @throws InputError with file and line if the table cannot be used, or ends before the planned
 ///   period.
 AlphaFactor read_alpha_factor(const StudyFile& study);

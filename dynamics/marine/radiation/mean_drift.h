@@ -16,12 +16,12 @@ namespace blocklift::dynamics {
 /// the waves' energy that is not sent out again; the second Newman's (1967), J. Ship Research 11.
 /// A wall of which waves come back whole is pressed by rho g a^2/2 per width in deep water.
 ///
-/// The panels' error leaves the waves that are sent out, and P, without the energy that the incident
-/// ones lose. Unless there are lids, whose power is not known, H and the motions are therefore
-/// multiplied by the complex number nearest to 1 that gives it back (calc_energy_factor), and P by
-/// the square of its size: short waves are sent out too weak, and the force would miss twice as much
-/// of itself; next to a resonance pressure tells less damping than the waves that are sent out, and
-/// the body moves too much for these.
+/// The panels' error leaves the waves that are sent out, and P, without the energy that the
+/// incident ones lose. Unless there are lids, whose power is not known, H and the motions are
+/// therefore multiplied by the complex number nearest to 1 that gives it back (calc_energy_factor),
+/// and P by the square of its size: short waves are sent out too weak, and the force would miss
+/// twice as much of itself; next to a resonance pressure tells less damping than the waves that are
+/// sent out, and the body moves too much for these.
 ///
 /// @param motions of each frequency, 6 x headings, m/m and rad/m (calc_response_amplitudes); empty:
 ///   the body is held.
@@ -39,16 +39,18 @@ std::vector<Eigen::MatrixXd> calc_mean_drift(const HydrodynamicDatabase& databas
 /// Changes whenever calc_mean_drift gives other figures for the same far field.
 inline constexpr int mean_drift_version = 3;
 
-/// The z nearest to 1 of those that make energy of the waves z H and of z times the motions balance,
+/// The z nearest to 1 of those that make energy of the waves z H and of z times the motions
+/// balance,
 ///
 ///   |z|^2 gone = Re(z shadow),
 ///
-/// a circle in the complex plane; 1 where there are no waves. Where nearly all that a wave brings is
-/// thrown back, z makes up for waves that are too weak. A body that hardly disturbs the waves has a
-/// shadow whose real part is a small rest; z then turns the phase, and |z| stays 1. Of a body that
-/// only radiates, z is what its motion loses if damping is what the waves sent out say. What own
-/// damping takes must not stay as it is: where it is as large as what is sent out, as at a resonance
-/// that takes most out of the waves, no factor on H alone would balance, or a large one would.
+/// a circle in the complex plane; 1 where there are no waves. Where nearly all that a wave brings
+/// is thrown back, z makes up for waves that are too weak. A body that hardly disturbs the waves
+/// has a shadow whose real part is a small rest; z then turns the phase, and |z| stays 1. Of a body
+/// that only radiates, z is what its motion loses if damping is what the waves sent out say. What
+/// own damping takes must not stay as it is: where it is as large as what is sent out, as at a
+/// resonance that takes most out of the waves, no factor on H alone would balance, or a large one
+/// would.
 /// @param gone int |H|^2 dt and P over rho g c_g/2: what is sent out, and taken out otherwise.
 /// @param shadow - 2 sqrt(2 pi/k) H(theta) exp(-i pi/4).
 std::complex<double> calc_energy_factor(double gone, std::complex<double> shadow);

@@ -12,6 +12,7 @@ namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
+using test::TemporaryFolder;
 
 void write(const fs::path& path, const char* text) { std::ofstream(path) << text; }
 

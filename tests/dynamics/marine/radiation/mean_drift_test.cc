@@ -214,8 +214,8 @@ struct YieldingColumn {
 
 // Where own damping takes as much out of the waves as a body sends out, no factor on what is sent
 // out alone gives the balance. With too little damping by waves the body moves too much, sends out
-// and loses too much: without the factor, 2 to 17 % too much force. So it is, by 2 to 19 %, of waves
-// that are too strong, and of the force that goes with them (Haskind).
+// and loses too much: without the factor, 2 to 17 % too much force. So it is, by 2 to 19 %, of
+// waves that are too strong, and of the force that goes with them (Haskind).
 TEST(MeanDrift, HoldsNextToAResonanceWithOwnDamping) {
   for (const double ka : {0.4, 0.8, 1.5}) {
     for (const double share : {0.3, 1.0, 3.0}) {
@@ -243,7 +243,8 @@ TEST(MeanDrift, HoldsNextToAResonanceWithOwnDamping) {
   }
 }
 
-/// i^-m (J_m(k r) + b_m H_m(k r)) and its slope by r: what harmonic m of incident and sent waves is.
+/// i^-m (J_m(k r) + b_m H_m(k r)) and its slope by r: what harmonic m of incident and sent waves
+/// is.
 struct Harmonics {
   double k;
   std::vector<Complex> b;  ///< of m from -2 to 2
