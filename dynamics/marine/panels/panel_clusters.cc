@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
-#include <set>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -142,10 +141,13 @@ bool make_rectangle(const PanelMesh& mesh, const Cover& alone, const Cover& pair
 /// Clusters that may be joined, and the length of the edges that they share, m.
 using Neighbours = std::pair<Pair, double>;
 
-/// Those that share the longest edges come first.
+/// Those that share the longest edges come first; of edges as long as each other, but for what files
+/// round, those of the first panels: a row is joined from its beginning, and an even one leaves none
+/// over.
 std::vector<Neighbours> find_neighbours(const std::vector<SharedEdge>& edges, double largest,
                                         const PanelClusters& clusters,
                                         const std::vector<Cover>& covers) {
+  constexpr double equal = 0.99;
   std::map<Pair, double> common;
   for (const SharedEdge& edge : edges) {
     const int a = clusters.of_panel[edge.panels.first];
@@ -157,54 +159,15 @@ std::vector<Neighbours> find_neighbours(const std::vector<SharedEdge>& edges, do
     if (may_join(covers[pair.first], covers[pair.second], largest))
       ordered.emplace_back(pair, length);
   }
-  std::stable_sort(ordered.begin(), ordered.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(ordered, std::ranges::greater{}, &Neighbours::second);
+  for (auto first = ordered.begin(); first != ordered.end();) {
+    const auto end = std::find_if(first, ordered.end(), [&](const Neighbours& neighbours) {
+      return neighbours.second < equal * first->second;
+    });
+    std::sort(first, end, [](const auto& a, const auto& b) { return a.first < b.first; });
+    first = end;
+  }
   return ordered;
-}
-
-/// Pairs among neighbours that are as good as each other. Clusters with the fewest choices come
-/// first: a row is joined from its ends, so that none of an even row is left over.
-std::vector<Pair> pair_equals(std::span<const Neighbours> neighbours,
-                              const std::vector<int>& renamed) {
-  std::map<int, std::set<std::size_t>> choices;
-  for (std::size_t k = 0; k < neighbours.size(); ++k) {
-    const auto& [a, b] = neighbours[k].first;
-    if (renamed[a] >= 0 || renamed[b] >= 0) continue;
-    choices[a].insert(k);
-    choices[b].insert(k);
-  }
-  std::set<std::pair<std::size_t, std::size_t>> waiting;  // the fewer choices of the two, which
-  const auto key = [&](std::size_t k) {
-    const auto& [a, b] = neighbours[k].first;
-    return std::pair(std::min(choices.at(a).size(), choices.at(b).size()), k);
-  };
-  for (const auto& [cluster, own] : choices)
-    for (const std::size_t k : own) waiting.insert(key(k));
-  std::vector<Pair> pairs;
-  while (!waiting.empty()) {
-    const auto [a, b] = pairs.emplace_back(neighbours[waiting.begin()->second].first);
-    std::set<std::size_t> gone = choices.at(a);
-    gone.insert(choices.at(b).begin(), choices.at(b).end());
-    std::set<int> losers;
-    for (const std::size_t k : gone)
-      losers.insert({neighbours[k].first.first, neighbours[k].first.second});
-    for (const int cluster : losers)
-      for (const std::size_t k : choices.at(cluster)) waiting.erase(key(k));
-    for (const int cluster : losers)
-      std::erase_if(choices.at(cluster), [&](std::size_t k) { return gone.contains(k); });
-    for (const int cluster : losers)
-      for (const std::size_t k : choices.at(cluster)) waiting.insert(key(k));
-  }
-  return pairs;
-}
-
-/// Where neighbours end that share edges as long as the first's, but for what files round.
-std::size_t end_of_equals(std::span<const Neighbours> ordered) {
-  constexpr double equal = 0.99;
-  return static_cast<std::size_t>(
-      std::ranges::find_if(
-          ordered, [&](const Neighbours& n) { return n.second < equal * ordered.front().second; }) -
-      ordered.begin());
 }
 
 /// Joins neighbouring clusters two by two, those first that share the longest edges.
@@ -215,13 +178,11 @@ void join_pairs(const PanelMesh& mesh, const std::vector<SharedEdge>& edges, dou
   std::vector<int> renamed(covers.size(), -1);
   int count = 0;
   std::vector<Cover> joined;
-  for (std::span<const Neighbours> rest = ordered; !rest.empty();) {
-    const std::size_t end = end_of_equals(rest);
-    for (const auto& [a, b] : pair_equals(rest.first(end), renamed)) {
-      renamed[a] = renamed[b] = count++;
-      joined.push_back(merged(covers[a], covers[b]));
-    }
-    rest = rest.subspan(end);
+  for (const auto& [pair, length] : ordered) {
+    const auto [a, b] = pair;
+    if (renamed[a] >= 0 || renamed[b] >= 0) continue;
+    renamed[a] = renamed[b] = count++;
+    joined.push_back(merged(covers[a], covers[b]));
   }
   std::vector<bool> full(joined.size(), left_over == LeftOver::stays);
   for (const auto& [pair, length] : ordered) {
