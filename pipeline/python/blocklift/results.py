@@ -240,12 +240,12 @@ class Result:
         """Stress under each unit load at the hot spot, near each lug, and at the worst place of
         each group of plates in motion.
 
-        Variables: stress (place, component, load), Pa for a factor of 1, xx yy zz xy yz zx, of
+        Variables: stress (place, component, unit_load), Pa for a factor of 1, xx yy zz xy yz zx, of
         plating the membrane stress in the plate's own axes; point (place, axis), m, in the block's
-        frame. The coordinate unit (load) is that of the load's factor: forces at the pins of lugs,
-        "L1 x", N, and products of angular velocities, rad2/s2, each with the rigid acceleration
-        that balances it, so that forces of your own need no more; loads that were added (water,
-        edges), 1; the acceleration that a load lacks in balance.
+        frame. The coordinate unit (unit_load) is that of the load's factor: forces at the pins of
+        lugs, "L1 x", N, and products of angular velocities, rad2/s2, each with the rigid
+        acceleration that balances it, so that forces of your own need no more; loads that were
+        added (water, edges), 1; the acceleration that a load lacks in balance.
 
         `responses.stress @ result.load_factors()` is the stress over time.
 
@@ -259,16 +259,16 @@ class Result:
             group = file["structure/history/unit_stress"]
             return xarray.Dataset(
                 {name: (dims, group[data][:], _attributes(group[data]))
-                 for name, data, dims in (("stress", "stress", ("place", "component", "load")),
+                 for name, data, dims in (("stress", "stress", ("place", "component", "unit_load")),
                                           ("point", "points", ("place", "axis")))},
-                coords={"place": _texts(group["places"]), "load": _texts(group["loads"]),
-                        "unit": ("load", _texts(group["load_units"])),
+                coords={"place": _texts(group["places"]), "unit_load": _texts(group["loads"]),
+                        "unit": ("unit_load", _texts(group["load_units"])),
                         "component": ["xx", "yy", "zz", "xy", "yz", "zx"],
                         "axis": ["x", "y", "z"]})
 
     def load_factors(self, state: str = "dynamic") -> xarray.DataArray:
-        """Factors of the unit loads (time, load) at each sample, each in its load's unit: of the
-        loads at a lug the force on its pin in the block's frame, N.
+        """Factors of the unit loads (time, unit_load) at each sample, each in its load's unit: of
+        the loads at a lug the force on its pin in the block's frame, N.
 
         Raises KeyError without a block whose stress was asked.
         """
@@ -280,10 +280,10 @@ class Result:
                 raise KeyError(f'{self.folder}: there are no unit loads of "{state}"')
             group, time = file["structure/history/unit_stress"], file[state]["time"]
             return xarray.DataArray(
-                file[name][:], dims=("time", "load"), attrs=_attributes(file[name]),
+                file[name][:], dims=("time", "unit_load"), attrs=_attributes(file[name]),
                 coords={"time": ("time", time[:], _attributes(time)),
-                        "load": _texts(group["loads"]),
-                        "unit": ("load", _texts(group["load_units"]))})
+                        "unit_load": _texts(group["loads"]),
+                        "unit": ("unit_load", _texts(group["load_units"]))})
 
     def surface(self) -> dict[str, npt.NDArray[Any]]:
         """The block's surface: points (n, 3), m, in its frame, quads (m, 4), indices, and the

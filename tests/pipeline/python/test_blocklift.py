@@ -251,7 +251,8 @@ class ResultTest(InATemporaryFolder):
         self.assertEqual(responses.stress.attrs["units"], "Pa")
         for state in ("static", "dynamic"):
             factors = result.load_factors(state)
-            self.assertEqual(list(factors.load.values), list(responses.load.values))
+            self.assertEqual(list(factors.unit_load.values),
+                             list(responses.unit_load.values))
             # Superposed they are the stress that was followed at these places.
             stress = responses.stress @ factors
             xx, yy, zz, xy, yz, zx = (stress.sel(component=one) for one in responses.component)
@@ -263,7 +264,7 @@ class ResultTest(InATemporaryFolder):
             np.testing.assert_allclose(there, followed, rtol=1e-9)
             # Each lug has one rope, whose tension is the force on its pin.
             for lug, rope in (("L1", "R1"), ("L4", "R4")):
-                force = factors.sel(load=[f"{lug} {axis}" for axis in "xyz"])
+                force = factors.sel(unit_load=[f"{lug} {axis}" for axis in "xyz"])
                 self.assertEqual(set(force.unit.values), {"N"})
                 tension = result.history(state).tension.sel(rope=rope)
                 np.testing.assert_allclose(np.linalg.norm(force, axis=1), tension, rtol=1e-9)
