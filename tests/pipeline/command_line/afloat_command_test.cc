@@ -196,12 +196,11 @@ TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
   EXPECT_NEAR(pair["distance"]["size_m"].get<double>(), 4.0, 0.5);
   EXPECT_NEAR(pair["limit_m"].get<double>(), 0.2 * 8, 1e-9);
   EXPECT_EQ(pair["share_of_time_beyond"], 1.0);
-  const auto of_radiation = [](const char* mode) {
-    return HasSubstr(std::string("the radiation force of load in ") + mode + " changes by");
-  };
-  const auto of_waves = HasSubstr("the force of waves on load in pitch changes by");
+  // Of which mode is another matter: panels of half the hull's breadth are too large for all.
+  const auto of_radiation = HasSubstr("the radiation force of load in ");
+  const auto of_waves = HasSubstr("the force of waves on load in ");
   EXPECT_THAT(warnings_of(first),
-              ElementsAre(HasSubstr("B1 and load came up to"), of_radiation("yaw"), of_waves));
+              ElementsAre(HasSubstr("B1 and load came up to"), of_radiation, of_waves));
   EXPECT_THAT(out_, HasSubstr("warning: B1 and load came up to"));
   // The boat's weight goes over from the ropes to the water.
   const double weight = 80e3 * 9.81;
@@ -215,7 +214,7 @@ TEST_F(LoweredBoat, KeepsItsDatabasesAndIsMissedAtItsPlace) {
   const nlohmann::json near = simulate(with(boat_lift, "  afloat: {position: [34 m, 0 m]}\n", ""));
   EXPECT_EQ(kept().size(), 5U + 2);  // the pontoon alone is known
   EXPECT_LT(near["radiation"]["misplacement"][0]["distance"]["size_m"].get<double>(), 0.2 * 8);
-  EXPECT_THAT(warnings_of(near), ElementsAre(of_radiation("pitch"), of_waves));
+  EXPECT_THAT(warnings_of(near), ElementsAre(of_radiation, of_waves));
 }
 
 }  // namespace
