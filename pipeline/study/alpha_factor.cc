@@ -1,47 +1,27 @@
 #include "pipeline/study/alpha_factor.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "pipeline/declaration/diagnostics.h"
-#include "pipeline/formats/series_file.h"
+#include "pipeline/study/study_table.h"
 
 namespace blocklift::pipeline {
 namespace {
 
 constexpr double hour = 3600;
 
-/// Columns of a table of alpha factors.
-constexpr std::array<const char*, 3> alpha_columns = {"operation_period_h", "significant_height_m",
-                                                      "alpha"};
+constexpr const char* operation_column = "operation_period_h";
+constexpr const char* limit_column = "significant_height_m";
+constexpr const char* factor_column = "alpha";
 
 /// Rows of a table by their period, h: factors by height, m.
 using AlphaRows = std::map<double, std::map<double, double>>;
-
-/// Places of the three columns in a file; complains of what is missing, doubled or unknown.
-std::array<std::size_t, 3> places_of_columns(const SeriesFile& file, const Mark& head,
-                                             Diagnostics& diagnostics) {
-  std::array<std::size_t, 3> places{};
-  for (std::size_t k = 0; k < alpha_columns.size(); ++k) {
-    const auto found = std::ranges::find(file.names, alpha_columns[k]);
-    places[k] = static_cast<std::size_t>(found - file.names.begin());
-    if (found == file.names.end())
-      diagnostics.error(head, fmt::format("there is no column {}", alpha_columns[k]));
-  }
-  if (!diagnostics.has_errors() && file.names.size() > alpha_columns.size())
-    diagnostics.error(
-        head,
-        fmt::format("there are {} columns; {}, {} and {} are all that a table of alpha factors has",
-                    file.names.size(), alpha_columns[0], alpha_columns[1], alpha_columns[2]));
-  return places;
-}
 
 /// What a value of a table may not be; empty: it is well.
 std::string fault_of_factor(double period, double height, double factor) {
@@ -66,30 +46,23 @@ void check_rows_are_whole(const AlphaRows& rows, const Mark& head, Diagnostics& 
 }
 
 AlphaRows read_alpha_rows(const std::filesystem::path& path) {
-  const auto name = std::make_shared<const std::string>(path.string());
+  const StudyTable table(path);
   Diagnostics diagnostics;
-  SeriesFile file;
-  try {
-    file = read_series_file(path);
-  } catch (const SeriesFileError& error) {
-    diagnostics.error({name, 0, 0}, error.what());
-    throw InputError(diagnostics);
-  }
-  const Mark head{name, std::max(1, file.lines_before), 1};
-  const auto places = places_of_columns(file, head, diagnostics);
+  table.check_names({operation_column, limit_column, factor_column}, diagnostics);
+  const auto* periods = table.find(operation_column, diagnostics);
+  const auto* heights = table.find(limit_column, diagnostics);
+  const auto* factors = table.find(factor_column, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   AlphaRows rows;
-  for (std::size_t row = 0; row < file.row_count(); ++row) {
-    const Mark mark{name, file.lines[row], 1};
-    const double period = file.columns[places[0]][row];
-    const double height = file.columns[places[1]][row];
-    const double factor = file.columns[places[2]][row];
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    const double period = (*periods)[row], height = (*heights)[row], factor = (*factors)[row];
     if (const std::string fault = fault_of_factor(period, height, factor); !fault.empty())
-      diagnostics.error(mark, fault);
+      diagnostics.error(table.row(row), fault);
     else if (!rows[period].try_emplace(height, factor).second)
-      diagnostics.error(mark, fmt::format("{:g} h and {:g} m are there already", period, height));
+      diagnostics.error(table.row(row),
+                        fmt::format("{:g} h and {:g} m are there already", period, height));
   }
-  if (!diagnostics.has_errors()) check_rows_are_whole(rows, head, diagnostics);
+  if (!diagnostics.has_errors()) check_rows_are_whole(rows, table.head(), diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   return rows;
 }

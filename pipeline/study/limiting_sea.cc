@@ -5,19 +5,17 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "pipeline/declaration/diagnostics.h"
-#include "pipeline/formats/series_file.h"
 #include "pipeline/study/figure_limit.h"
+#include "pipeline/study/study_table.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -111,30 +109,6 @@ std::vector<int> failed_members(const SeaGrid& grid, const Eigen::MatrixXd& desi
 constexpr const char* height_column = "significant_height_m";
 constexpr const char* period_column = "peak_period_s";
 constexpr const char* heading_column = "heading_deg";
-
-/// Complains of columns that nobody knows, or that are there twice.
-void check_names(const SeriesFile& file, const std::string& measure, const Mark& mark,
-                 Diagnostics& diagnostics) {
-  std::set<std::string_view> seen;
-  for (const std::string& column : file.names) {
-    if (column != height_column && column != period_column && column != heading_column &&
-        column != measure)
-      diagnostics.error(mark, fmt::format("a column is called \"{}\"", column),
-                        {fmt::format("known are {}, {}, {} and {}", height_column, period_column,
-                                     heading_column, measure)});
-    else if (!seen.insert(column).second)
-      diagnostics.error(mark, fmt::format("the column \"{}\" is there twice", column));
-  }
-}
-
-/// A column of a table of sea states; complains if it is not there.
-const std::vector<double>* find_column(const SeriesFile& file, const std::string& name,
-                                       const Mark& mark, Diagnostics& diagnostics) {
-  const auto found = std::find(file.names.begin(), file.names.end(), name);
-  if (found != file.names.end()) return &file.columns[found - file.names.begin()];
-  diagnostics.error(mark, fmt::format("there is no column {}", name));
-  return nullptr;
-}
 
 /// Steps of a forecast that are far longer than usual.
 std::vector<Operability::Window> find_holes(const std::vector<SeaState>& states) {
@@ -306,34 +280,25 @@ bool varies_heading(const StudyFile& study) {
 std::vector<SeaState> read_sea_states(const std::filesystem::path& path, bool is_forecast,
                                       bool needs_heading) {
   const std::string measure = is_forecast ? "time_h" : "share";
-  const auto name = std::make_shared<const std::string>(path.string());
+  const StudyTable table(path);
   Diagnostics diagnostics;
-  SeriesFile file;
-  try {
-    file = read_series_file(path);
-  } catch (const SeriesFileError& error) {
-    diagnostics.error({name, 0, 0}, error.what());
-    throw InputError(diagnostics);
-  }
-  const Mark head{name, std::max(1, file.lines_before), 1};
-  check_names(file, measure, head, diagnostics);
-  const auto* heights = find_column(file, height_column, head, diagnostics);
-  const auto* periods = find_column(file, period_column, head, diagnostics);
-  const auto* measures = find_column(file, measure, head, diagnostics);
-  const bool has_heading = std::ranges::find(file.names, heading_column) != file.names.end();
-  const auto* headings =
-      needs_heading || has_heading ? find_column(file, heading_column, head, diagnostics) : nullptr;
+  table.check_names({height_column, period_column, heading_column, measure}, diagnostics);
+  const auto* heights = table.find(height_column, diagnostics);
+  const auto* periods = table.find(period_column, diagnostics);
+  const auto* measures = table.find(measure, diagnostics);
+  const auto* headings = needs_heading || table.has(heading_column)
+                             ? table.find(heading_column, diagnostics)
+                             : nullptr;
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   std::vector<SeaState> states;
-  for (std::size_t row = 0; row < file.row_count(); ++row) {
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
     SeaState state{(*heights)[row], (*periods)[row],
                    headings ? (*headings)[row] * std::numbers::pi / 180 : 0, (*measures)[row],
                    (*measures)[row]};
     if (state.height < 0 || !(state.period > 0) || (!is_forecast && state.share < 0))
-      diagnostics.error({name, file.lines[row], 1},
-                        "heights and shares are not negative, periods above zero");
+      diagnostics.error(table.row(row), "heights and shares are not negative, periods above zero");
     if (is_forecast && row > 0 && !(state.time > states.back().time))
-      diagnostics.error({name, file.lines[row], 1}, "the times of a forecast ascend");
+      diagnostics.error(table.row(row), "the times of a forecast ascend");
     states.push_back(state);
   }
   if (diagnostics.has_errors()) throw InputError(diagnostics);
