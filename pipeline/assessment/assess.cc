@@ -58,7 +58,7 @@ HistorySettings history_settings(const StructureSettings& settings) {
   result.stress_concentration = settings.fatigue.stress_concentration;
   result.lifts = settings.fatigue.lifts;
   result.hot_spot_curve = settings.fatigue.hot_spot_curve;
-  for (const HotSpotInFile& spot : settings.hot_spots)
+  for (const given::HotSpot& spot : settings.hot_spots)
     result.hot_spots.push_back({spot.name.value, {spot.toe, spot.direction, spot.thickness}});
   return result;
 }

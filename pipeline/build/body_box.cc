@@ -41,7 +41,7 @@ BoxShape box_around(const Vessel& vessel) {
   return {high - low, 0.5 * (low + high), Vector3::Zero()};
 }
 
-BoxShape box_around(const LoadInCase& load) {
+BoxShape box_around(const given::Load& load) {
   return load.vessel ? box_around(*load.vessel) : box_around(*load.model);
 }
 

@@ -10,6 +10,6 @@ BoxShape box_around(const BlockModel& block);
 /// The box around a hull, in the vessel's frame, as the drawing shows it.
 BoxShape box_around(const Vessel& vessel);
 /// The box around what is lifted: a vessel or a block.
-BoxShape box_around(const LoadInCase& load);
+BoxShape box_around(const given::Load& load);
 
 }  // namespace blocklift::pipeline

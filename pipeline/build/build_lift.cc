@@ -46,11 +46,11 @@ class LiftBuilder {
   BuiltLift build() {
     dynamics::MechanismBuilder builder;
     builder.set_gravity(Vector3(0, 0, -case_.gravity));
-    for (const VesselInCase& vessel : case_.vessels) {
+    for (const given::Vessel& vessel : case_.vessels) {
       register_body(builder, MarineBuilder::body(vessel), "vessel", {box_around(*vessel.model)});
     }
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) add_crane(builder, i);
-    for (const SpreaderInCase& bar : case_.spreaders) add_spreader(builder, bar);
+    for (const given::Spreader& bar : case_.spreaders) add_spreader(builder, bar);
     add_load(builder);
     if (flexibility_) add_modes(builder);
     const dynamics::Mechanism mechanism = builder.build();
@@ -106,7 +106,7 @@ class LiftBuilder {
   };
 
   void add_crane(dynamics::MechanismBuilder& builder, std::size_t index) {
-    const CraneInCase& crane = case_.cranes[index];
+    const given::Crane& crane = case_.cranes[index];
     const Pose X_WC{rotation_of(crane.attitude), crane.position};
     BaseGround ground;
     if (crane.base) ground = {crane.base->value, body_of_.at(crane.base->value)};
@@ -129,7 +129,7 @@ class LiftBuilder {
 
   void add_hoist(dynamics::MechanismBuilder& builder, std::size_t crane_index,
                  const HoistModel& hoist) {
-    const CraneInCase& crane = case_.cranes[crane_index];
+    const given::Crane& crane = case_.cranes[crane_index];
     const HookBlockModel& block = hoist.hook_block;
     const std::string name = crane.name.value + "." + hoist.name.value;
     std::vector<BodyIndex> bodies;
@@ -164,7 +164,7 @@ class LiftBuilder {
   }
 
   /// The other of two equalised hoists where it has been added already; else null.
-  LiftHoist* find_equalised(const CraneInCase& crane, const HoistModel& hoist) {
+  LiftHoist* find_equalised(const given::Crane& crane, const HoistModel& hoist) {
     if (!crane.equalised) return nullptr;
     const auto& pair = crane.equalised->value;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -193,7 +193,7 @@ class LiftBuilder {
     rope.unstretched_length += length;
   }
 
-  void add_spreader(dynamics::MechanismBuilder& builder, const SpreaderInCase& bar) {
+  void add_spreader(dynamics::MechanismBuilder& builder, const given::Spreader& bar) {
     const BodyIndex index =
         register_body(builder, spreader_body(bar), "spreader", spreader_boxes(bar));
     spreaders_.push_back({bar.name.value, index, {}});
@@ -211,7 +211,7 @@ class LiftBuilder {
 
   /// The load's natural modes, where ropes end at its lugs and so may feel them.
   void add_modes(dynamics::MechanismBuilder& builder) {
-    const bool felt = std::any_of(case_.ropes.begin(), case_.ropes.end(), [](const RopeInCase& r) {
+    const bool felt = std::any_of(case_.ropes.begin(), case_.ropes.end(), [](const given::Rope& r) {
       return !r.path.front().lug.empty() || !r.path.back().lug.empty();
     });
     if (!felt) return;
@@ -294,7 +294,7 @@ class LiftBuilder {
   void set_start(const dynamics::Mechanism& mechanism) {
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) set_crane(mechanism, i);
     set_free_start(mechanism, "load", load_pose());
-    for (const VesselInCase& vessel : case_.vessels) {
+    for (const given::Vessel& vessel : case_.vessels) {
       set_free_start(mechanism, vessel.name.value, marine_.start(vessel.name.value));
     }
 
@@ -346,7 +346,7 @@ class LiftBuilder {
     for (const PartsBuilder& parts : crane_parts_) parts.add_springs(mechanism, elements);
     add_bearings(mechanism, elements);
     marine_.add_elements(place(), radiation_, at_rest, elements);
-    const LoadInCase& load = case_.load;
+    const given::Load& load = case_.load;
     if (!load.vessel) return elements;
     marine_.add_hull("load", body_of_.at("load"), *load.vessel, load.damping,
                      load.quadratic_damping, load_.mass, at_rest, elements);
@@ -356,7 +356,7 @@ class LiftBuilder {
   Pose load_pose() const { return {rotation_of(case_.load.attitude), case_.load.position}; }
 
   void add_ropes() {
-    for (const RopeInCase& rope : case_.ropes) {
+    for (const given::Rope& rope : case_.ropes) {
       dynamics::RopeDefinition definition;
       definition.name = rope.name.value;
       for (const ResolvedPoint& point : rope.path) {
@@ -377,7 +377,7 @@ class LiftBuilder {
     }
   }
 
-  void add_edges(const RopeInCase& rope, dynamics::RopeDefinition& definition) const {
+  void add_edges(const given::Rope& rope, dynamics::RopeDefinition& definition) const {
     for (std::size_t i = 0; i < rope.edges.size(); ++i) {
       const LoadEdge& edge = rope.edges[i];
       definition.edges.push_back({.name = edge.name.value,
@@ -391,7 +391,7 @@ class LiftBuilder {
     }
   }
 
-  static std::vector<LiftEdge> lift_edges(const RopeInCase& rope) {
+  static std::vector<LiftEdge> lift_edges(const given::Rope& rope) {
     std::vector<LiftEdge> edges;
     for (const LoadEdge& edge : rope.edges)
       edges.push_back(
@@ -426,7 +426,7 @@ class LiftBuilder {
 
   std::vector<dynamics::SupportPad> make_supports() const {
     std::vector<dynamics::SupportPad> pads;
-    for (const SupportInCase& support : case_.supports) {
+    for (const given::Support& support : case_.supports) {
       dynamics::SupportPad::Definition pad;
       pad.name = support.name.value;
       pad.point = {body_of_.at("load"), support.point};
@@ -444,7 +444,7 @@ class LiftBuilder {
   }
 
   /// The corners of the load's box, which come to stand on the ground wherever they touch it.
-  void add_ground(const GroundInCase& ground, std::vector<dynamics::SupportPad>& pads) const {
+  void add_ground(const given::Ground& ground, std::vector<dynamics::SupportPad>& pads) const {
     const BoxShape box = box_around(case_.load);
     for (int corner = 0; corner < 8; ++corner) {
       const Vector3 side((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
@@ -491,14 +491,14 @@ class LiftBuilder {
       steerings_.push_back({steering.drive, steering.wish, steering.start, steering.end});
       if (!steered.course) builder.add_steering(steered.steering.drive, std::move(steering));
     }
-    for (const FaultInCase& fault : case_.faults) add_fault(fault, schedule, builder);
+    for (const given::Fault& fault : case_.faults) add_fault(fault, schedule, builder);
     if (case_.wind) builder.add_breakpoints(case_.wind->breakpoints());
     return builder.build(schedule.duration);
   }
 
   int rope_of(const std::string& name) const { return find_rope(ropes_, hoists_, name); }
 
-  void add_fault(const FaultInCase& fault, const Schedule& schedule,
+  void add_fault(const given::Fault& fault, const Schedule& schedule,
                  dynamics::OperationBuilder& builder) const {
     if (!fault.at && !found_.fault) return;
     const double at = fault.at ? fault.at->value : *found_.fault;

@@ -33,7 +33,7 @@ double mean_wave_length(const dynamics::WaveField& waves) {
 }
 
 /// `vessel` is null for a load, which does not drift.
-dynamics::FroudeKrylovPart part_from_database(const VesselInCase* vessel) {
+dynamics::FroudeKrylovPart part_from_database(const given::Vessel* vessel) {
   using Part = dynamics::FroudeKrylovPart;
   if (vessel && vessel->linear_buoyancy) return Part::whole;
   return vessel && vessel->drift.value == DriftMethod::newman ? Part::along_water : Part::none;
@@ -41,7 +41,7 @@ dynamics::FroudeKrylovPart part_from_database(const VesselInCase* vessel) {
 
 }  // namespace
 
-dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {
+dynamics::BodyDefinition MarineBuilder::body(const given::Vessel& vessel) {
   const VesselModel& model = vessel.model->model;
   const Vector3 squares = model.radii_of_gyration.cwiseAbs2();
   dynamics::BodyDefinition body;
@@ -54,7 +54,7 @@ dynamics::BodyDefinition MarineBuilder::body(const VesselInCase& vessel) {
 }
 
 void MarineBuilder::place(const std::function<double(const std::string&)>& carried) {
-  for (const VesselInCase& vessel : parts_.vessels) {
+  for (const given::Vessel& vessel : parts_.vessels) {
     const std::string& name = vessel.name.value;
     const double mass = vessel.model->model.mass + carried(name);
     displaced_mass_[name] = mass;
@@ -82,7 +82,7 @@ MarineBuilder::Radiating MarineBuilder::lowered(std::string name,
 
 std::vector<MarineBuilder::Radiating> MarineBuilder::radiating() const {
   std::vector<Radiating> vessels;
-  for (const VesselInCase& vessel : parts_.vessels) {
+  for (const given::Vessel& vessel : parts_.vessels) {
     if (vessel.radiation.value == RadiationMethod::none) continue;
     const std::string& name = vessel.name.value;
     if (vessel.draughts) {
@@ -175,10 +175,10 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   // What a named database's excitation has in the mean by itself is known of waves alone.
   const bool drifts = std::any_of(
       parts_.vessels.begin(), parts_.vessels.end(),
-      [](const VesselInCase& vessel) { return vessel.drift.value != DriftMethod::none; });
+      [](const given::Vessel& vessel) { return vessel.drift.value != DriftMethod::none; });
   // Nor is it known where vessels move on a stiffness of their own in place of their hull's.
   const bool is_on_own_stiffness =
-      std::any_of(parts_.vessels.begin(), parts_.vessels.end(), [](const VesselInCase& vessel) {
+      std::any_of(parts_.vessels.begin(), parts_.vessels.end(), [](const given::Vessel& vessel) {
         return vessel.linear_buoyancy && vessel.linear_buoyancy->stiffness;
       });
   // A body that is lowered, the load perhaps, floats nowhere: beside a named database it is refused
@@ -186,9 +186,10 @@ RadiationProblem MarineBuilder::radiation_problem() const {
   if (drifts && problem.lowered_body() < 0 &&
       (!problem.given || (has_waves() && !is_on_own_stiffness)))
     problem.drifting = free_vessels(problem);
-  problem.direct = std::any_of(
-      parts_.vessels.begin(), parts_.vessels.end(),
-      [](const VesselInCase& vessel) { return vessel.radiation.value == RadiationMethod::direct; });
+  problem.direct =
+      std::any_of(parts_.vessels.begin(), parts_.vessels.end(), [](const given::Vessel& vessel) {
+        return vessel.radiation.value == RadiationMethod::direct;
+      });
   if (problem.direct && has_waves()) {
     const dynamics::WaveField& waves = sea(false)->waves;
     problem.ramp = waves.ramp();
@@ -200,7 +201,7 @@ RadiationProblem MarineBuilder::radiation_problem() const {
 }
 
 std::vector<double> MarineBuilder::radiation_frequencies() const {
-  const SeaInCase& sea = *parts_.sea;
+  const given::Sea& sea = *parts_.sea;
   const auto [lowest, highest] = band().radiation;
   const int count = band().frequencies;
   std::vector<double> frequencies;
@@ -208,7 +209,7 @@ std::vector<double> MarineBuilder::radiation_frequencies() const {
     frequencies.push_back(lowest + i * (highest - lowest) / (count - 1));
   }
   if (sea.waves && sea.waves->regular) {
-    for (const RegularWaveInCase& wave : *sea.waves->regular) frequencies.push_back(wave.omega());
+    for (const given::RegularWave& wave : *sea.waves->regular) frequencies.push_back(wave.omega());
   }
   std::sort(frequencies.begin(), frequencies.end());
   const auto same = [](double a, double b) { return b - a < 1e-9 * b; };
@@ -273,7 +274,7 @@ dynamics::Arrangement MarineBuilder::arrangement(const BodyOf& point) const {
 }
 
 void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vessel& vessel,
-                             const DampingInCase& linear, const DampingInCase& quadratic,
+                             const given::Damping& linear, const given::Damping& quadratic,
                              double displaced_mass, bool at_rest,
                              dynamics::ForceElements& elements) {
   std::get<std::vector<dynamics::HullForce>>(elements).push_back(
@@ -282,7 +283,7 @@ void MarineBuilder::add_hull(const std::string& name, BodyIndex body, const Vess
 }
 
 void MarineBuilder::add_damping(const std::string& name, BodyIndex body, const Vessel& vessel,
-                                const DampingInCase& linear, const DampingInCase& quadratic,
+                                const given::Damping& linear, const given::Damping& quadratic,
                                 double displaced_mass, bool at_rest,
                                 dynamics::ForceElements& elements) {
   dynamics::QuadraticDamping::Definition damping;
@@ -297,10 +298,10 @@ void MarineBuilder::add_damping(const std::string& name, BodyIndex body, const V
   std::get<std::vector<dynamics::QuadraticDamping>>(elements).emplace_back(damping);
 }
 
-void MarineBuilder::add_linear_buoyancy(const VesselInCase& vessel, BodyIndex body,
+void MarineBuilder::add_linear_buoyancy(const given::Vessel& vessel, BodyIndex body,
                                         dynamics::ForceElements& elements) {
   const std::string& name = vessel.name.value;
-  const LinearBuoyancyInCase& model = *vessel.linear_buoyancy;
+  const given::LinearBuoyancy& model = *vessel.linear_buoyancy;
   const Vector3& centre_of_mass = vessel.model->model.centre_of_mass;
   const dynamics::Pose& X_WB = start(name);
   const double rho_g = parts_.sea->density * gravity_;
@@ -328,7 +329,7 @@ void MarineBuilder::add_linear_buoyancy(const VesselInCase& vessel, BodyIndex bo
   std::get<std::vector<dynamics::LinearBuoyancy>>(elements).emplace_back(buoyancy);
 }
 
-void MarineBuilder::take_buoyancy_of_database(const VesselInCase& vessel, double rho_g,
+void MarineBuilder::take_buoyancy_of_database(const given::Vessel& vessel, double rho_g,
                                               dynamics::LinearBuoyancy::Definition& buoyancy,
                                               Vector3& p_WC) const {
   const dynamics::HydrodynamicDatabase& database = *vessel.hydrodynamics;
@@ -355,16 +356,16 @@ void MarineBuilder::take_buoyancy_of_database(const VesselInCase& vessel, double
       0.5 * (C + C.transpose()) - dynamics::calc_stiffness_of_weight(buoyancy.buoyancy, arm);
 }
 
-void MarineBuilder::add_restraint(const VesselInCase& vessel, BodyIndex body,
+void MarineBuilder::add_restraint(const given::Vessel& vessel, BodyIndex body,
                                   dynamics::ForceElements& elements) const {
-  const RestraintInCase& model = *vessel.restraint;
+  const given::Restraint& model = *vessel.restraint;
   const dynamics::Pose& X_WB = start(vessel.name.value);
   dynamics::LinearRestraint::Definition restraint;
   restraint.name = "restraint of " + vessel.name.value;
   restraint.point = {body, model.about.value_or(vessel.model->model.centre_of_mass)};
   restraint.X_WR = {X_WB.R, X_WB.apply(restraint.point.p_BoQ_B)};
-  restraint.stiffness = RestraintInCase::matrix(model.stiffness);
-  restraint.damping = RestraintInCase::matrix(model.damping);
+  restraint.stiffness = given::Restraint::matrix(model.stiffness);
+  restraint.damping = given::Restraint::matrix(model.damping);
   std::get<std::vector<dynamics::LinearRestraint>>(elements).emplace_back(restraint);
 }
 
@@ -376,7 +377,7 @@ RadiationProblem::FreeVessels MarineBuilder::free_vessels(const RadiationProblem
   for (const RadiationProblem::Body& body : problem.bodies) {
     const auto vessel =
         std::find_if(parts_.vessels.begin(), parts_.vessels.end(),
-                     [&](const VesselInCase& one) { return one.name.value == body.name; });
+                     [&](const given::Vessel& one) { return one.name.value == body.name; });
     const RadiationProblem::FreeVessels alone = free_vessel(*vessel, body);
     all.mass.block<6, 6>(first, first) = alone.mass;
     all.stiffness.block<6, 6>(first, first) = alone.stiffness;
@@ -386,7 +387,7 @@ RadiationProblem::FreeVessels MarineBuilder::free_vessels(const RadiationProblem
   return all;
 }
 
-RadiationProblem::FreeVessels MarineBuilder::free_vessel(const VesselInCase& vessel,
+RadiationProblem::FreeVessels MarineBuilder::free_vessel(const given::Vessel& vessel,
                                                          const RadiationProblem::Body& body) const {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const VesselModel& model = vessel.model->model;
@@ -418,9 +419,9 @@ RadiationProblem::FreeVessels MarineBuilder::free_vessel(const VesselInCase& ves
           about_reference(turned * linear.asDiagonal() * turned.transpose())};
 }
 
-void MarineBuilder::add_current_load(const VesselInCase& vessel, BodyIndex body, bool at_rest,
+void MarineBuilder::add_current_load(const given::Vessel& vessel, BodyIndex body, bool at_rest,
                                      dynamics::ForceElements& elements) {
-  const CurrentLoadInCase& model = *vessel.current_load;
+  const given::CurrentLoad& model = *vessel.current_load;
   const double draught = -start(vessel.name.value).p.z();
   const double low = vessel.model->hull.bounds()[0].z();
   dynamics::CurrentLoad::Definition load;
@@ -437,7 +438,7 @@ void MarineBuilder::add_current_load(const VesselInCase& vessel, BodyIndex body,
   std::get<std::vector<dynamics::CurrentLoad>>(elements).emplace_back(load);
 }
 
-void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool at_rest,
+void MarineBuilder::add_vessel(const given::Vessel& vessel, BodyIndex body, bool at_rest,
                                dynamics::ForceElements& elements) {
   const std::string& name = vessel.name.value;
   if (vessel.linear_buoyancy) {
@@ -452,7 +453,7 @@ void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool 
               displaced_mass_.at(name), at_rest, elements);
   if (vessel.current_load) add_current_load(vessel, body, at_rest, elements);
   if (vessel.restraint) add_restraint(vessel, body, elements);
-  for (const MemberInCase& model : vessel.members) {
+  for (const given::Member& model : vessel.members) {
     dynamics::MorisonMember::Definition member;
     member.name = "member of " + name;
     member.body = body;
@@ -466,7 +467,7 @@ void MarineBuilder::add_vessel(const VesselInCase& vessel, BodyIndex body, bool 
 }
 
 void MarineBuilder::add_lines(const BodyOf& point, dynamics::ForceElements& elements) const {
-  for (const MooringInCase& model : parts_.moorings) {
+  for (const given::Mooring& model : parts_.moorings) {
     dynamics::MooringLine::Definition line;
     line.name = model.name.value;
     line.anchor = point(model.anchor);
@@ -475,7 +476,7 @@ void MarineBuilder::add_lines(const BodyOf& point, dynamics::ForceElements& elem
                  model.on_seabed};
     std::get<std::vector<dynamics::MooringLine>>(elements).emplace_back(line);
   }
-  for (const TuggerInCase& model : parts_.tuggers) {
+  for (const given::Tugger& model : parts_.tuggers) {
     dynamics::TuggerLine::Definition line;
     line.name = model.name.value;
     line.from = point(model.from);
@@ -490,10 +491,10 @@ void MarineBuilder::add_lines(const BodyOf& point, dynamics::ForceElements& elem
 
 void MarineBuilder::add_elements(const BodyOf& point, const dynamics::HydrodynamicSeries* series,
                                  bool at_rest, dynamics::ForceElements& elements) {
-  const auto body_of = [&](const VesselInCase& vessel) {
+  const auto body_of = [&](const given::Vessel& vessel) {
     return point({vessel.name, Vector3::Zero(), {}}).body;
   };
-  for (const VesselInCase& vessel : parts_.vessels) {
+  for (const given::Vessel& vessel : parts_.vessels) {
     add_vessel(vessel, body_of(vessel), at_rest, elements);
   }
   add_lines(point, elements);
@@ -504,7 +505,7 @@ void MarineBuilder::add_elements(const BodyOf& point, const dynamics::Hydrodynam
   std::shared_ptr<const dynamics::HydrodynamicDatabase> drift;
   int index = 0;
   for (const Radiating& vessel : vessels) {
-    const VesselInCase* in_case = parts_.find_vessel(vessel.name);
+    const given::Vessel* in_case = parts_.find_vessel(vessel.name);
     if (in_case && in_case->drift.value == DriftMethod::newman) {
       if (!drift) drift = {shared, &shared->databases.front()};
       std::get<std::vector<dynamics::SlowDrift>>(elements).emplace_back(

@@ -33,7 +33,7 @@ class MarineBuilder {
       : parts_(parts), gravity_(gravity), load_(std::move(load)) {}
 
   /// A vessel as a body on a free joint in the world; inertia of its model.
-  static dynamics::BodyDefinition body(const VesselInCase& vessel);
+  static dynamics::BodyDefinition body(const given::Vessel& vessel);
 
   /// Where each vessel lies at the start, upright, by its draught or by its weight with what stands
   /// on it.
@@ -54,8 +54,8 @@ class MarineBuilder {
   /// Adds buoyancy, wave forces and damping of a hull, which need be no vessel of the parts.
   /// @param displaced_mass afloat, kg: the damping is in proportion to the wet part of it.
   void add_hull(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
-                const DampingInCase& linear, const DampingInCase& quadratic, double displaced_mass,
-                bool at_rest, dynamics::ForceElements& elements);
+                const given::Damping& linear, const given::Damping& quadratic,
+                double displaced_mass, bool at_rest, dynamics::ForceElements& elements);
   /// The radiated water of the vessels; null without databases. Its memory is that
   /// of the series, or is fitted by memory_fit_of_vessels().
   /// With a surface that is marched the water has its added mass, and no memory of its own.
@@ -75,26 +75,26 @@ class MarineBuilder {
   std::shared_ptr<const dynamics::Sea> sea(bool at_rest) const;
   std::vector<double> radiation_frequencies() const;
   std::shared_ptr<const dynamics::HullClusters> clusters(const Vessel& vessel);
-  void add_vessel(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
+  void add_vessel(const given::Vessel& vessel, dynamics::BodyIndex body, bool at_rest,
                   dynamics::ForceElements& elements);
   void add_damping(const std::string& name, dynamics::BodyIndex body, const Vessel& vessel,
-                   const DampingInCase& linear, const DampingInCase& quadratic,
+                   const given::Damping& linear, const given::Damping& quadratic,
                    double displaced_mass, bool at_rest, dynamics::ForceElements& elements);
-  void add_linear_buoyancy(const VesselInCase& vessel, dynamics::BodyIndex body,
+  void add_linear_buoyancy(const given::Vessel& vessel, dynamics::BodyIndex body,
                            dynamics::ForceElements& elements);
   /// Frame, amount and stiffness from the database that the vessel names, and where its centre of
   /// buoyancy lies at rest, if that tells it.
-  void take_buoyancy_of_database(const VesselInCase& vessel, double rho_g,
+  void take_buoyancy_of_database(const given::Vessel& vessel, double rho_g,
                                  dynamics::LinearBuoyancy::Definition& buoyancy,
                                  Vector3& p_WC) const;
-  void add_restraint(const VesselInCase& vessel, dynamics::BodyIndex body,
+  void add_restraint(const given::Vessel& vessel, dynamics::BodyIndex body,
                      dynamics::ForceElements& elements) const;
-  void add_current_load(const VesselInCase& vessel, dynamics::BodyIndex body, bool at_rest,
+  void add_current_load(const given::Vessel& vessel, dynamics::BodyIndex body, bool at_rest,
                         dynamics::ForceElements& elements);
   /// The vessels of the problem's bodies, in their order.
   RadiationProblem::FreeVessels free_vessels(const RadiationProblem& problem) const;
   /// One as it floats, with what stands on it at its own centre of mass.
-  RadiationProblem::FreeVessels free_vessel(const VesselInCase& vessel,
+  RadiationProblem::FreeVessels free_vessel(const given::Vessel& vessel,
                                             const RadiationProblem::Body& body) const;
   void add_lines(const BodyOf& point, dynamics::ForceElements& elements) const;
   /// A body that makes waves, at rest.

@@ -107,7 +107,7 @@ class MechanismAssembler {
   }
 
   void set_initial_state(const dynamics::Mechanism& mechanism) {
-    for (const VesselInCase& vessel : file_.vessels) {
+    for (const given::Vessel& vessel : file_.vessels) {
       const dynamics::Pose& X_WB = marine_.start(vessel.name.value);
       const int offset = mechanism.body(parts_.body(vessel.name.value)).q_offset;
       q_.segment<3>(offset) = X_WB.p;
@@ -123,7 +123,7 @@ class MechanismAssembler {
   }
 
   void set_ropes(const dynamics::Mechanism& mechanism) {
-    for (const RopeInCase& rope : file_.ropes) {
+    for (const given::Rope& rope : file_.ropes) {
       dynamics::RopeDefinition definition;
       definition.name = rope.name.value;
       const auto add = [&](const Located<RopePoint>& at) {
@@ -199,11 +199,11 @@ class MechanismAssembler {
 
   int rope_of(const std::string& name) const {
     const auto found = std::ranges::find_if(
-        file_.ropes, [&](const RopeInCase& rope) { return rope.name.value == name; });
+        file_.ropes, [&](const given::Rope& rope) { return rope.name.value == name; });
     return static_cast<int>(found - file_.ropes.begin());
   }
 
-  dynamics::Sight make_sight(const SightInCase& sight) const {
+  dynamics::Sight make_sight(const given::Sight& sight) const {
     if (sight.over) return dynamics::SeenPlumb{point_of(*sight.with), point_of(*sight.over)};
     if (sight.pull) return dynamics::SeenTension{rope_of(sight.pull->value)};
     if (sight.share) {
@@ -221,7 +221,7 @@ class MechanismAssembler {
     for (const ScheduledSteering& steered : schedule_.steerings) {
       if (steered.course) continue;
       dynamics::OwnLaw law = make_own_law(steered.keep, file_.laws);
-      for (const SightInCase& sight : steered.keep.sees) law.sights.push_back(make_sight(sight));
+      for (const given::Sight& sight : steered.keep.sees) law.sights.push_back(make_sight(sight));
       dynamics::Steering steering = steered.steering;
       steering.wish = std::move(law);
       builder.add_steering(steered.steering.drive, std::move(steering));
@@ -250,7 +250,7 @@ class MechanismAssembler {
       }
     }
     for (std::size_t i = 0; i < file_.ropes.size(); ++i) {
-      const RopeInCase& rope = file_.ropes[i];
+      const given::Rope& rope = file_.ropes[i];
       if (rope.winch) builder.add_winch(rope.name.value, static_cast<int>(i), rope.length.value);
     }
     add_schedule(schedule_, builder);
@@ -332,8 +332,8 @@ std::optional<MechanismFile> read_mechanism(const std::filesystem::path& path,
   try {
     // Laws are given later: until then the drives that they steer stand.
     MechanismFile trial = *file;
-    for (const StageInCase& stage : trial.operation)
-      for (const MoveInCase& move : stage.moves)
+    for (const given::Stage& stage : trial.operation)
+      for (const given::Move& move : stage.moves)
         if (move.keeps)
           trial.laws[move.keeps->law->value] = [](const std::vector<std::string>&) {
             return [](double, std::span<const double>) { return 0.0; };

@@ -35,7 +35,7 @@ bool has_places_apart(const std::vector<LiftRope>& ropes,
 
 /// Is the hook locked to a block that turns against its falls?
 bool turns_with_falls(const LiftCase& lift_case, const LiftHoist& hoist) {
-  const CraneInCase& crane = lift_case.cranes[hoist.crane];
+  const given::Crane& crane = lift_case.cranes[hoist.crane];
   const HoistModel* model = crane.model->find_hoist(hoist.name.substr(crane.name.value.size() + 1));
   return model && model->hook_block.turning && !model->hook_block.turning->bearing;
 }
@@ -46,7 +46,7 @@ std::optional<dynamics::HeldHeading> find_held_heading(
     const LiftCase& lift_case, const std::vector<LiftRope>& ropes,
     const std::vector<LiftHoist>& hoists, const std::vector<dynamics::RopeDefinition>& definitions,
     const dynamics::HeldHeading& drawn) {
-  const bool has_tuggers = std::ranges::any_of(lift_case.tuggers, [](const TuggerInCase& line) {
+  const bool has_tuggers = std::ranges::any_of(lift_case.tuggers, [](const given::Tugger& line) {
     return line.from.body.value == "load" || line.to.body.value == "load";
   });
   if (lift_case.load.vessel || has_tuggers) return std::nullopt;

@@ -10,7 +10,7 @@ namespace {
 /// Mass of the cranes that stand on a vessel, kg; hook blocks and what they carry not counted.
 double mass_on(const LiftCase& lift_case, const std::string& vessel) {
   double mass = 0;
-  for (const CraneInCase& crane : lift_case.cranes) {
+  for (const given::Crane& crane : lift_case.cranes) {
     if (!crane.base || crane.base->value != vessel) continue;
     for (const BodyModel& body : crane.model->bodies) mass += body.mass;
   }
@@ -19,7 +19,7 @@ double mass_on(const LiftCase& lift_case, const std::string& vessel) {
 
 /// The load as it makes waves; none: it makes none.
 std::optional<FloatingLoad> floating_load(const LiftCase& lift_case) {
-  const LoadInCase& load = lift_case.load;
+  const given::Load& load = lift_case.load;
   if (!load.draughts || !load.vessel) return std::nullopt;
   const dynamics::Pose X_WB = load.pose_afloat();
   return FloatingLoad{.vessel = load.vessel,

@@ -4,7 +4,7 @@
 
 namespace blocklift::pipeline {
 
-dynamics::BodyDefinition spreader_body(const SpreaderInCase& spreader) {
+dynamics::BodyDefinition spreader_body(const given::Spreader& spreader) {
   dynamics::BodyDefinition body;
   body.name = spreader.name.value;
   body.joint.kind = dynamics::JointKind::free;
@@ -14,7 +14,7 @@ dynamics::BodyDefinition spreader_body(const SpreaderInCase& spreader) {
   return body;
 }
 
-std::vector<BoxShape> spreader_boxes(const SpreaderInCase& spreader) {
+std::vector<BoxShape> spreader_boxes(const given::Spreader& spreader) {
   const double length = spreader.length.value;
   const auto box = [](const BarSection& bar, double along, const Vector3& centre, double yaw) {
     return BoxShape{Vector3(along, bar.width(), bar.height()), centre, {0, 0, yaw}};

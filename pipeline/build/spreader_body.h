@@ -9,9 +9,9 @@
 namespace blocklift::pipeline {
 
 /// A spreader as a free rigid body, its axes in its middle.
-dynamics::BodyDefinition spreader_body(const SpreaderInCase& spreader);
+dynamics::BodyDefinition spreader_body(const given::Spreader& spreader);
 
 /// A box for each of its bars, for the drawing and for clearances.
-std::vector<BoxShape> spreader_boxes(const SpreaderInCase& spreader);
+std::vector<BoxShape> spreader_boxes(const given::Spreader& spreader);
 
 }  // namespace blocklift::pipeline

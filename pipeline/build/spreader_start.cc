@@ -26,9 +26,9 @@ class SpreaderPlacing {
   std::map<std::string, Pose> run() {
     // Each round places a tier. A ring of bars that hang on one another keeps to the origin.
     for (std::size_t round = 0; round < case_.spreaders.size(); ++round)
-      for (const SpreaderInCase& bar : case_.spreaders)
+      for (const given::Spreader& bar : case_.spreaders)
         if (!poses_.contains(bar.name.value)) try_to_place(bar);
-    for (const SpreaderInCase& bar : case_.spreaders)
+    for (const given::Spreader& bar : case_.spreaders)
       poses_.try_emplace(bar.name.value, Pose{attitude(bar), case_.load.position});
     return std::move(poses_);
   }
@@ -41,15 +41,15 @@ class SpreaderPlacing {
     return found->second.apply(point.point);
   }
 
-  void try_to_place(const SpreaderInCase& bar) {
+  void try_to_place(const given::Spreader& bar) {
     const Eigen::Matrix3d R = attitude(bar);
     if (bar.position) {
       poses_[bar.name.value] = {R, *bar.position};
       return;
     }
-    std::vector<const RopeInCase*> slings;
+    std::vector<const given::Rope*> slings;
     std::vector<Vector3> tops;
-    for (const RopeInCase& rope : case_.ropes) {
+    for (const given::Rope& rope : case_.ropes) {
       if (!rope.ends_at_spreader(bar.name.value)) continue;
       const std::optional<Vector3> top = known_place(rope.path.front());
       if (!top) return;
@@ -71,10 +71,10 @@ class SpreaderPlacing {
   }
 
   /// Of the bar: as given, else level, its x axis from what hangs at end a to what hangs at end b.
-  Eigen::Matrix3d attitude(const SpreaderInCase& bar) const {
+  Eigen::Matrix3d attitude(const given::Spreader& bar) const {
     if (bar.attitude) return rotation_of(*bar.attitude);
     std::vector<Vector3> at_a, at_b;
-    for (const RopeInCase& rope : case_.ropes) {
+    for (const given::Rope& rope : case_.ropes) {
       const ResolvedPoint& first = rope.path.front();
       if (first.kind != ResolvedPoint::Kind::spreader || first.part != bar.name.value) continue;
       std::set<std::string> passed = {bar.name.value};
@@ -96,7 +96,7 @@ class SpreaderPlacing {
       return;
     }
     if (!passed.insert(point.part).second) return;
-    for (const RopeInCase& rope : case_.ropes) {
+    for (const given::Rope& rope : case_.ropes) {
       const ResolvedPoint& first = rope.path.front();
       if (first.kind == ResolvedPoint::Kind::spreader && first.part == point.part)
         gather_below(rope.path.back(), passed, places);

@@ -13,7 +13,7 @@ dynamics::BodyPoint WishMaker::body_point(const ResolvedPoint& point) const {
 
 int WishMaker::rope_of(const std::string& name) const { return find_rope(ropes_, hoists_, name); }
 
-dynamics::Sight WishMaker::make_sight(const SightInCase& sight) const {
+dynamics::Sight WishMaker::make_sight(const given::Sight& sight) const {
   if (sight.over)
     return dynamics::SeenPlumb{body_point(*sight.head_at), body_point(*sight.over_at)};
   if (sight.pull) return dynamics::SeenTension{rope_of(sight.pull->value)};
@@ -27,13 +27,13 @@ dynamics::Sight WishMaker::make_sight(const SightInCase& sight) const {
   return seen;
 }
 
-dynamics::OwnLaw WishMaker::make_law(const KeepInCase& keep) const {
+dynamics::OwnLaw WishMaker::make_law(const given::Keep& keep) const {
   dynamics::OwnLaw own = make_own_law(keep, lift_case_.laws);
-  for (const SightInCase& sight : keep.sees) own.sights.push_back(make_sight(sight));
+  for (const given::Sight& sight : keep.sees) own.sights.push_back(make_sight(sight));
   return own;
 }
 
-dynamics::Wish WishMaker::make_wish(const KeepInCase& keep, const std::string& drive) const {
+dynamics::Wish WishMaker::make_wish(const given::Keep& keep, const std::string& drive) const {
   if (keep.law) return make_law(keep);
   if (keep.over) return dynamics::KeptPlumb{body_point(*keep.head_at), body_point(*keep.over_at)};
   std::optional<double> stiffness;

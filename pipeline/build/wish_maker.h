@@ -19,13 +19,13 @@ class WishMaker {
       : lift_case_(lift_case), body_of_(body_of), ropes_(ropes), hoists_(hoists) {}
 
   /// @throws InputError if it asks for a law that nobody gives.
-  dynamics::Wish make_wish(const KeepInCase& keep, const std::string& drive) const;
+  dynamics::Wish make_wish(const given::Keep& keep, const std::string& drive) const;
 
  private:
   dynamics::BodyPoint body_point(const ResolvedPoint& point) const;
   int rope_of(const std::string& name) const;
-  dynamics::Sight make_sight(const SightInCase& sight) const;
-  dynamics::OwnLaw make_law(const KeepInCase& keep) const;
+  dynamics::Sight make_sight(const given::Sight& sight) const;
+  dynamics::OwnLaw make_law(const given::Keep& keep) const;
 
   const LiftCase& lift_case_;
   const std::map<std::string, dynamics::BodyIndex>& body_of_;

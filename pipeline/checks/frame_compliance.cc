@@ -8,11 +8,11 @@
 namespace blocklift::pipeline {
 
 Eigen::MatrixXd compliance_of_frames(const TolerancedRigging& rigging,
-                                     const std::vector<const SpreaderInCase*>& spreaders) {
+                                     const std::vector<const given::Spreader*>& spreaders) {
   const auto count = static_cast<Eigen::Index>(rigging.ropes.size());
   Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(count, count);
   for (std::size_t bar = 0; bar < spreaders.size(); ++bar) {
-    const SpreaderInCase& spreader = *spreaders[bar];
+    const given::Spreader& spreader = *spreaders[bar];
     if (!spreader.is_frame()) continue;
     const TolerancedRigging::Bar& in_place = rigging.bars[bar];
     const Eigen::Matrix3d R_BW = in_place.R_WB.transpose();
@@ -41,7 +41,7 @@ Eigen::MatrixXd compliance_of_frames(const TolerancedRigging& rigging,
 }
 
 RiggingBalance balance_of(const TolerancedRigging& rigging,
-                          const std::vector<const SpreaderInCase*>& spreaders) {
+                          const std::vector<const given::Spreader*>& spreaders) {
   Eigen::MatrixXd compliance = compliance_of_frames(rigging, spreaders);
   if (rigging.load_compliance.size() > 0) compliance += rigging.load_compliance;
   return {rigging.ropes, rigging.hooks, std::move(compliance),

@@ -14,10 +14,10 @@ namespace blocklift::pipeline {
 /// out of it. Bars are rigid.
 /// @param spreaders by their places in `rigging.bars`.
 Eigen::MatrixXd compliance_of_frames(const TolerancedRigging& rigging,
-                                     const std::vector<const SpreaderInCase*>& spreaders);
+                                     const std::vector<const given::Spreader*>& spreaders);
 
 /// The balance of a rigging with what its load and those frames give way.
 RiggingBalance balance_of(const TolerancedRigging& rigging,
-                          const std::vector<const SpreaderInCase*>& spreaders);
+                          const std::vector<const given::Spreader*>& spreaders);
 
 }  // namespace blocklift::pipeline

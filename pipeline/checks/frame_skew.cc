@@ -46,7 +46,7 @@ std::optional<std::vector<PointForce>> with_change(std::vector<PointForce> force
 
 }  // namespace
 
-std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpreader& frame,
+std::optional<double> frame_skew(const given::Spreader& in_case, const LiftSpreader& frame,
                                  const dynamics::History& at_rest,
                                  const std::function<double(int)>& skew_of) {
   const EndsOfFrame ends = ends_of(frame);
@@ -72,10 +72,10 @@ std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpread
   return without / least;
 }
 
-double frame_skew_by_tolerances(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
+double frame_skew_by_tolerances(const given::Spreader& in_its_place, const LiftSpreader& frame,
                                 const LiftCase& lift_case, const LiftRun& lift,
                                 const TolerancedRigging& rigging, Eigen::Index sample) {
-  std::vector<const SpreaderInCase*> spreaders;
+  std::vector<const given::Spreader*> spreaders;
   for (const LiftSpreader& one : lift.model.spreaders)
     spreaders.push_back(one.name == frame.name ? &in_its_place : lift_case.find_spreader(one.name));
   const RiggingBalance balance = balance_of(rigging, spreaders);
@@ -97,18 +97,18 @@ double frame_skew_by_tolerances(const SpreaderInCase& in_its_place, const LiftSp
   return without / least;
 }
 
-void find_frame_skew(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
+void find_frame_skew(const given::Spreader& in_its_place, const LiftSpreader& frame,
                      const LiftCase& lift_case, const LiftRun& lift, SpreaderFacts& facts) {
   facts.skew_by_rules.reset();
   facts.skew_computed.reset();
   if (!lift_case.standard || !in_its_place.is_frame()) return;
-  const StandardInCase& standard = *lift_case.standard;
+  const given::Standard& standard = *lift_case.standard;
   const NamedFactor* rule =
       standard.skew ? find_by_name(standard.rules.skew, standard.skew->value) : nullptr;
   if (rule && rule->value > 1)
     facts.skew_by_rules =
         frame_skew(in_its_place, frame, lift.static_history, [&](int) { return rule->value; });
-  const SpreaderInCase& of_the_case = *lift_case.find_spreader(frame.name);
+  const given::Spreader& of_the_case = *lift_case.find_spreader(frame.name);
   const std::optional<Eigen::Index> worst = worst_instant(of_the_case, frame, lift.static_history);
   if (facts.rigging && worst)
     facts.skew_computed =

@@ -23,7 +23,7 @@ namespace blocklift::pipeline {
 /// @param skew_of the factor of a rope by its index in the system.
 /// @returns none for bars, without four slings whose lines meet, and where nothing hangs at one of
 ///   their corners.
-std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpreader& frame,
+std::optional<double> frame_skew(const given::Spreader& in_case, const LiftSpreader& frame,
                                  const dynamics::History& at_rest,
                                  const std::function<double(int)>& skew_of);
 
@@ -31,7 +31,7 @@ std::optional<double> frame_skew(const SpreaderInCase& in_case, const LiftSpread
 /// below it, the frame giving way to them in its plane and out of it: by stiffness of slings, frame
 /// and load times the mismatch. The largest of all sets.
 /// @param in_its_place of the frame, or of another of its size.
-double frame_skew_by_tolerances(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
+double frame_skew_by_tolerances(const given::Spreader& in_its_place, const LiftSpreader& frame,
                                 const LiftCase& lift_case, const LiftRun& lift,
                                 const TolerancedRigging& rigging, Eigen::Index sample);
 
@@ -39,7 +39,7 @@ double frame_skew_by_tolerances(const SpreaderInCase& in_its_place, const LiftSp
 /// and by the slings' tolerances of length, for the latter at the instant at which the frame of the
 /// case bears most.
 /// @param facts with its rigging.
-void find_frame_skew(const SpreaderInCase& in_its_place, const LiftSpreader& frame,
+void find_frame_skew(const given::Spreader& in_its_place, const LiftSpreader& frame,
                      const LiftCase& lift_case, const LiftRun& lift, SpreaderFacts& facts);
 
 }  // namespace blocklift::pipeline

@@ -117,9 +117,9 @@ class LiftedFacts {
         facts_.slings.push_back(std::move(sling));
       }
     // The motion has their weight in the loads of hooks, and not in those of the lugs.
-    for (const SpreaderInCase& bar : case_.spreaders) facts_.rigging += bar.mass() * case_.gravity;
+    for (const given::Spreader& bar : case_.spreaders) facts_.rigging += bar.mass() * case_.gravity;
     if (!case_.standard) return;
-    for (const MasterLinkInCase& link : case_.standard->master_links) {
+    for (const given::MasterLink& link : case_.standard->master_links) {
       facts_.rigging += link.mass * case_.gravity;
       rigging_at_[link.name.value] += link.mass * case_.gravity;
     }
@@ -149,7 +149,7 @@ class LiftedFacts {
 
   SlingFacts sling_facts(const LiftRope& rope, const std::map<std::string, int>& on_hook,
                          Index& sample) {
-    const RopeInCase& in_case = *case_.find_rope(rope.name);
+    const given::Rope& in_case = *case_.find_rope(rope.name);
     const RopeModel& model = in_case.rope;
     SlingFacts sling;
     sling.name = rope.name;
@@ -177,7 +177,7 @@ class LiftedFacts {
   }
 
   // What a sling is bent round, if it is told of the sling itself or an edge; none: the standard's.
-  std::optional<double> bend_of(const RopeInCase& rope) const {
+  std::optional<double> bend_of(const given::Rope& rope) const {
     const std::optional<RopeBend> bend = find_bend(rope, lift_);
     if (!bend) return std::nullopt;
     double least = bend->diameter;
@@ -192,7 +192,7 @@ class LiftedFacts {
     Index sample = 0;
     spreader.load = load_of(hung_load(bar, lift_.static_history),
                             hung_load(bar, lift_.dynamic_history()), sample);
-    const SpreaderInCase& in_case = *case_.find_spreader(bar.name);
+    const given::Spreader& in_case = *case_.find_spreader(bar.name);
     spreader.is_frame = in_case.is_frame();
     spreader.borne_at_rest = borne_load(in_case, bar, lift_.static_history);
     spreader.borne_in_motion = borne_load(in_case, bar, lift_.dynamic_history());
@@ -235,7 +235,7 @@ class LiftedFacts {
 
   void add_hook(std::size_t index) {
     const LiftHoist& hoist = lift_.model.hoists[index];
-    const CraneInCase& crane = case_.cranes[hoist.crane];
+    const given::Crane& crane = case_.cranes[hoist.crane];
     const HoistModel& model = *crane.model->find_hoist(hoist.name.substr(hoist.name.find('.') + 1));
     HookFacts hook;
     hook.name = hoist.name;

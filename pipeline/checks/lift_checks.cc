@@ -73,7 +73,7 @@ void add_capacities(const LiftCase& lift_case, const LiftRun& lift, std::vector<
                              peak.time, "hook block included"));
   }
   for (std::size_t crane = 0; crane < lift_case.cranes.size(); ++crane) {
-    const CraneInCase& in_case = lift_case.cranes[crane];
+    const given::Crane& in_case = lift_case.cranes[crane];
     if (!in_case.model->capacity) continue;
     const Peak peak = peak_of(lift, Wanted::largest, [&](const dynamics::History& history) {
       return crane_load(lift.model, history, crane);
@@ -139,7 +139,7 @@ std::vector<Duty> find_duties(const LiftCase& lift_case, const LiftRun& lift) {
   for (const LiftHoist& hoist : lift.model.hoists) {
     Duty& duty = duties[hoist.rope];
     if (duty != Duty::hook_at_least) duty = Duty::hook_alone;  // an equalised one may have slings
-    for (const RopeInCase& rope : lift_case.ropes)
+    for (const given::Rope& rope : lift_case.ropes)
       for (const ResolvedPoint& point : rope.path)
         if (point.kind == ResolvedPoint::Kind::hook &&
             point.body_name(lift_case.cranes) == hoist.name)
@@ -217,7 +217,7 @@ bool touches(const dynamics::RopeHistory& rope, std::size_t edge) {
   return (rope.edges[edge].wrap.array() > 0 && rope.tension.array() > 0).any();
 }
 
-std::string note_on_bend(const RopeInCase& rope, const RopeBend& bend, double left) {
+std::string note_on_bend(const given::Rope& rope, const RopeBend& bend, double left) {
   const std::string edge = bend.edge.empty() ? std::string() : " of edge " + bend.edge;
   if (!rope.rope.diameter)
     return fmt::format(
@@ -231,7 +231,7 @@ std::string note_on_bend(const RopeInCase& rope, const RopeBend& bend, double le
 
 }  // namespace
 
-std::optional<RopeBend> find_bend(const RopeInCase& rope, const LiftRun& lift) {
+std::optional<RopeBend> find_bend(const given::Rope& rope, const LiftRun& lift) {
   std::optional<RopeBend> bend;
   if (rope.bend_diameter) bend = {rope.bend_diameter->value};
   const int index = find_rope(lift.model.ropes, lift.model.hoists, rope.name.value);
@@ -244,7 +244,7 @@ std::optional<RopeBend> find_bend(const RopeInCase& rope, const LiftRun& lift) {
   return bend;
 }
 
-double bend_efficiency(const RopeInCase& rope, const LiftRun& lift) {
+double bend_efficiency(const given::Rope& rope, const LiftRun& lift) {
   const std::optional<RopeBend> bend = find_bend(rope, lift);
   if (!bend || !rope.rope.diameter) return 1;
   return bend_efficiency(bend->diameter, *rope.rope.diameter);
@@ -254,7 +254,7 @@ std::vector<Check> check_lift(const LiftCase& lift_case, const LiftRun& lift) {
   const double factor = lift_case.checks.rope_safety_factor;
   std::vector<Check> checks;
   for (const LiftRope& rope : lift.model.ropes) {
-    const RopeInCase& in_case = *lift_case.find_rope(rope.name);
+    const given::Rope& in_case = *lift_case.find_rope(rope.name);
     const double left = bend_efficiency(in_case, lift);
     checks.push_back(check_breaking_load(lift, "rope " + rope.name, rope.rope,
                                          left * rope.breaking_load, factor));

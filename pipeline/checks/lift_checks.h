@@ -19,11 +19,11 @@ struct RopeBend {
 
 /// The least of a rope's bend_diameter and of the rounds of edges that it touches while it pulls,
 /// at rest or in motion; none where it is not bent.
-std::optional<RopeBend> find_bend(const RopeInCase& rope, const LiftRun& lift);
+std::optional<RopeBend> find_bend(const given::Rope& rope, const LiftRun& lift);
 
 /// What the bend of a rope leaves of its breaking load, as a share; all of it where its model has
 /// no diameter.
-double bend_efficiency(const RopeInCase& rope, const LiftRun& lift);
+double bend_efficiency(const given::Rope& rope, const LiftRun& lift);
 
 /// Ropes and tackle against breaking load, hooks and cranes against capacity, slack and swing; each
 /// by the larger of the static and the dynamic history. Of a load whose ropes have all parted,

@@ -58,10 +58,10 @@ class MeasureChecks {
     add_at_most("heel", "heel: largest of a vessel", value_of(limits.largest_heel));
     add_at_least("freeboard", "freeboard: lowest point of a deck over calm water",
                  value_of(limits.smallest_freeboard));
-    for (const SpreaderInCase& bar : case_.spreaders) add_spreader(bar);
+    for (const given::Spreader& bar : case_.spreaders) add_spreader(bar);
     add_tackles();
-    for (const TuggerInCase& line : case_.tuggers) add_line("tugger", line);
-    for (const MooringInCase& line : case_.moorings) add_line("mooring", line);
+    for (const given::Tugger& line : case_.tuggers) add_line("tugger", line);
+    for (const given::Mooring& line : case_.moorings) add_line("mooring", line);
     if (limits.crane_capacity) {
       add_charts();
       add_supports();
@@ -117,7 +117,7 @@ class MeasureChecks {
   }
 
   /// A bar against buckling by its compression alone, and with bending; of a frame the worst side.
-  void add_spreader(const SpreaderInCase& bar) {
+  void add_spreader(const given::Spreader& bar) {
     const double factor = spreader_factor(case_.checks);
     const std::string subject = "spreader " + bar.name.value;
     for (const LiftMeasure& measure : measures_) {
@@ -147,7 +147,7 @@ class MeasureChecks {
   /// The single rope of each tackle against its breaking load, and the winch against its pull.
   void add_tackles() {
     const double factor = case_.checks.rope_safety_factor;
-    for (const CraneInCase& crane : case_.cranes) {
+    for (const given::Crane& crane : case_.cranes) {
       for (const HoistModel& hoist : crane.model->hoists) {
         if (!hoist.reeving) continue;
         const std::string name = crane.name.value + "." + hoist.name.value;
@@ -208,7 +208,7 @@ class MeasureChecks {
 
   /// How the charts of the crane that has a hook are derated; empty where they are not.
   std::string derating_of(const std::string& hook) const {
-    for (const CraneInCase& crane : case_.cranes) {
+    for (const given::Crane& crane : case_.cranes) {
       const std::string& name = crane.name.value;
       if (hook.compare(0, name.size() + 1, name + ".") != 0) continue;
       const ChartFactor derated = find_chart_factor(*crane.model, case_);
@@ -219,7 +219,7 @@ class MeasureChecks {
 
   /// Supports against what they bear; the least loaded of each crane must press.
   void add_supports() {
-    for (const CraneInCase& crane : case_.cranes) {
+    for (const given::Crane& crane : case_.cranes) {
       if (!crane.model->stands_on) continue;
       std::optional<Worst> least;
       for (const CraneSupport& support : crane.model->stands_on->supports) {

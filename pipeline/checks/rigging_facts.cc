@@ -54,7 +54,7 @@ VectorXd RiggingFacts::hook_load(const dynamics::History& history) const {
 }
 
 std::optional<double> RiggingFacts::weight_of(const LiftRope& sling) const {
-  const RopeInCase& rope = *case_.find_rope(sling.name);
+  const given::Rope& rope = *case_.find_rope(sling.name);
   if (!rope.rope.mass_per_length) return {};
   return *rope.rope.mass_per_length * rope.length.value * case_.gravity;
 }
@@ -119,7 +119,7 @@ MatrixXd RiggingFacts::compliance_of(const std::vector<RiggingRope>& ropes, Inde
 TolerancedRigging RiggingFacts::rigging_at(Index sample) const {
   const dynamics::History& history = lift_.static_history;
   const auto& hoists = lift_.model.hoists;
-  const StandardInCase& standard = *case_.standard;
+  const given::Standard& standard = *case_.standard;
   std::optional<double> share = standard.length_tolerance;
   if (!share && standard.rules.length_tolerance) share = standard.rules.length_tolerance->value;
 
@@ -128,7 +128,7 @@ TolerancedRigging RiggingFacts::rigging_at(Index sample) const {
   rigging.tolerance = VectorXd::Zero(index(first_tackle() + hoists.size()));
   for (const auto* slings : {&slings_, &to_bars_})
     for (const LiftRope& sling : *slings) {
-      const RopeInCase& in_case = *case_.find_rope(sling.name);
+      const given::Rope& in_case = *case_.find_rope(sling.name);
       if (share) rigging.tolerance[index(rigging.ropes.size())] = *share * in_case.length.value;
       RiggingRope& rope = rigging.ropes.emplace_back(
           rigging_rope(sling.rope, history_of(history, sling.rope).last_force.row(sample), sample));
@@ -174,7 +174,7 @@ const RiggingFacts::State& RiggingFacts::at(Index sample) const {
   for (std::size_t i = 0; i < rigging.ropes.size(); ++i)
     state->at_rest[index(i)] = rigging.ropes[i].tension;
   if (is_balanced()) {
-    std::vector<const SpreaderInCase*> spreaders;
+    std::vector<const given::Spreader*> spreaders;
     for (const LiftSpreader& bar : lift_.model.spreaders)
       spreaders.push_back(case_.find_spreader(bar.name));
     const RiggingBalance balance = balance_of(rigging, spreaders);
@@ -282,7 +282,7 @@ bool RiggingFacts::bears_all(const std::string& hook_or_crane, Index sample) con
     return hook == hook_or_crane || crane_of(hook) == hook_or_crane;
   };
   bool holds = false;
-  for (const RopeInCase& rope : case_.ropes) {
+  for (const given::Rope& rope : case_.ropes) {
     const auto& path = rope.path;
     if (rope.edges.empty() && std::none_of(path.begin(), path.end(), hangs)) continue;
     if (!std::all_of(path.begin(), path.end(),
@@ -303,7 +303,7 @@ bool RiggingFacts::shares_the_load(std::size_t crane) const {
 
 /// Does a sling lead from its hook to a lug, and over nothing between them?
 bool RiggingFacts::leads_straight_to_hook(const LiftRope& sling) const {
-  const RopeInCase& rope = *case_.find_rope(sling.name);
+  const given::Rope& rope = *case_.find_rope(sling.name);
   return rope.path.size() == 2 && rope.edges.empty() &&
          rope.path.front().kind == ResolvedPoint::Kind::hook;
 }

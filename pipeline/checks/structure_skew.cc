@@ -132,7 +132,7 @@ std::optional<std::array<DiagonalChange, 2>> diagonal_changes(
 }
 
 void add_structure_skew(const Assessment& assessment, LiftFacts& facts) {
-  const StandardInCase& standard = *assessment.lift_case.standard;
+  const given::Standard& standard = *assessment.lift_case.standard;
   const BlockRun& block = assessment.block;
   const structure::Mesh& mesh = block.model->mesh();
   const NamedFactor* factor =

@@ -116,7 +116,7 @@ void print_spreaders(const RiggedLift& rigged) {
     }
     fmt::print("\n{}", table.text());
   }
-  for (const SpreaderInCase& bar : rigged.lift_case.spreaders)
+  for (const given::Spreader& bar : rigged.lift_case.spreaders)
     if (!has_spreaders_of_size(rigged.stock, bar))
       print_wrapped(fmt::format("the stock has no {} of {}: {} stays as it is",
                                 bar.is_frame() ? "frame" : "bar", bar.size_text(), bar.name.value));

@@ -55,7 +55,7 @@ void print_files(const fs::path& folder, bool csv) {
 
 void print_rope_use(const MechanismFile& file, const MechanismRun& run) {
   for (const OutputModel& output : file.outputs) {
-    const RopeInCase* rope = output.rope ? file.find_rope(output.rope->value) : nullptr;
+    const given::Rope* rope = output.rope ? file.find_rope(output.rope->value) : nullptr;
     const bool tension = rope && (!output.quantity || output.quantity->value == "tension");
     if (!tension || !(rope->rope.breaking_load > 0)) continue;
     for (const OutputSeries& series : run.outputs) {

@@ -27,7 +27,7 @@ bool check_hot_spots(const StructureSettings& settings, const structure::Space& 
                      Diagnostics& diagnostics) {
   const structure::SteelFinder finder(space);
   bool inside = true;
-  for (const HotSpotInFile& asked : settings.hot_spots) {
+  for (const given::HotSpot& asked : settings.hot_spots) {
     const structure::HotSpot spot{asked.toe, asked.direction, asked.thickness};
     for (const Vector3& place : spot.places()) {
       if (finder.find(place).cell >= 0) continue;

@@ -18,7 +18,7 @@ std::string doubt_about_baskets(const LiftCase& lift_case) {
   if (std::any_of(lift_case.tuggers.begin(), lift_case.tuggers.end(), is_at_load)) return {};
   std::vector<std::string> baskets, edges;
   std::vector<Vector3> ways;
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     const bool holds = !rope.edges.empty() ||
                        std::any_of(rope.path.begin(), rope.path.end(), [](const auto& point) {
                          return point.kind == ResolvedPoint::Kind::load;

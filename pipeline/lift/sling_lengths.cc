@@ -52,7 +52,7 @@ class SlingStates {
   /// The equilibrium with other lengths, sought from that of those meant.
   SlingState with_lengths(const Eigen::VectorXd& lengths) {
     for (std::size_t i = 0; i < slings_.size(); ++i)
-      for (RopeInCase& rope : case_.ropes)
+      for (given::Rope& rope : case_.ropes)
         if (rope.name.value == slings_[i]) rope.length.value = lengths[i];
     const BuiltLift model = build_lift(case_, load_, nullptr, flexibility_);
     dynamics::EquilibriumSolver solver = solver_at_rest(model);
@@ -151,7 +151,7 @@ std::optional<SlingLengths> find_sling_lengths(const LiftCase& lift_case, const 
                                                const LiftRun& lift) {
   SlingLengths result;
   std::vector<double> lengths;
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     if (!rope.is_sling() || rope.winch) continue;
     result.slings.push_back(rope.name.value);
     lengths.push_back(rope.length.value);

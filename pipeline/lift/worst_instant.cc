@@ -27,7 +27,7 @@ constexpr double standstill = 1e-6;  // m/s or rad/s
 /// Largest share of a breaking load among the watched ropes.
 class Watch {
  public:
-  Watch(const FaultInCase& fault, const BuiltLift& model) {
+  Watch(const given::Fault& fault, const BuiltLift& model) {
     const auto add = [&](const auto& rope) {
       const bool named = std::any_of(
           fault.worst_for.begin(), fault.worst_for.end(),
@@ -64,7 +64,7 @@ class Watch {
 /// The search; instants are numbers of samples.
 class Search {
  public:
-  Search(const LiftCase& lift_case, const FaultInCase& fault,
+  Search(const LiftCase& lift_case, const given::Fault& fault,
          const std::function<BuiltLift(std::optional<double>)>& build, const Progress& progress)
       : case_(lift_case),
         fault_(fault),
@@ -215,7 +215,7 @@ class Search {
   }
 
   const LiftCase& case_;
-  const FaultInCase& fault_;
+  const given::Fault& fault_;
   const std::function<BuiltLift(std::optional<double>)>& build_;
   const Progress& progress_;
   const BuiltLift undisturbed_;
@@ -229,8 +229,8 @@ class Search {
 
 }  // namespace
 
-const FaultInCase* fault_at_worst(const LiftCase& lift_case) {
-  for (const FaultInCase& fault : lift_case.faults)
+const given::Fault* fault_at_worst(const LiftCase& lift_case) {
+  for (const given::Fault& fault : lift_case.faults)
     if (!fault.at) return &fault;
   return nullptr;
 }

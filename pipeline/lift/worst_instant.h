@@ -7,7 +7,7 @@
 namespace blocklift::pipeline {
 
 /// The fault of a case that comes at its worst instant; null: none does.
-const FaultInCase* fault_at_worst(const LiftCase& lift_case);
+const given::Fault* fault_at_worst(const LiftCase& lift_case);
 
 /// Seeks the instant at which that fault is worst: after which one of the ropes that it names
 /// carries the most of its breaking load.

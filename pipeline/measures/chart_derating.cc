@@ -7,7 +7,7 @@ namespace blocklift::pipeline {
 namespace {
 
 double significant_height(const LiftCase& lift_case) {
-  const SeaInCase& sea = *lift_case.sea;
+  const given::Sea& sea = *lift_case.sea;
   if (!sea.waves) return 0;
   // As stated: the components of a sea that is cut off at high frequencies have a little less.
   if (sea.waves->spectrum && sea.waves->spectrum->significant_height)

@@ -146,7 +146,7 @@ class Clearances {
     place_cranes();
     for (const auto& crane : cranes_)
       for (const PlacedSolid& body : crane) add_pair(load_, body);
-    for (const VesselInCase& vessel : case_.vessels) {
+    for (const given::Vessel& vessel : case_.vessels) {
       const BodyIndex body = lift_.model.system.mechanism().body_index(vessel.name.value);
       add_pair(load_, {vessel.name.value, body, Solid(surface_of(vessel.model->hull))});
     }
@@ -168,7 +168,7 @@ class Clearances {
   }
 
   std::size_t crane_of(const std::string& body) const {
-    const CraneInCase* crane = case_.find_crane(body.substr(0, body.find('.')));
+    const given::Crane* crane = case_.find_crane(body.substr(0, body.find('.')));
     return static_cast<std::size_t>(crane - case_.cranes.data());
   }
 

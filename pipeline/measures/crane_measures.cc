@@ -49,7 +49,7 @@ class MeasureGroup {
 };
 
 /// A point of a crane's body, or of its base, as a point of the dynamics.
-dynamics::BodyPoint body_point(const CraneInCase& crane, const dynamics::Mechanism& mechanism,
+dynamics::BodyPoint body_point(const given::Crane& crane, const dynamics::Mechanism& mechanism,
                                const PointModel& point) {
   if (point.body.value != "world")
     return {mechanism.body_index(crane.name.value + "." + point.body.value), point.position};
@@ -66,8 +66,8 @@ double lead(const Vector3& pull_up, const Vector3& direction) {
   return std::atan2(-pull_up.dot(direction), pull_up.z());
 }
 
-void add_hook_measures(const CraneInCase& crane, const ChartFactor& derated, const LiftHoist& hoist,
-                       const LiftRun& lift, std::vector<LiftMeasure>& all) {
+void add_hook_measures(const given::Crane& crane, const ChartFactor& derated,
+                       const LiftHoist& hoist, const LiftRun& lift, std::vector<LiftMeasure>& all) {
   const dynamics::LiftSystem& system = lift.model.system;
   const HoistModel& model =
       *crane.model->find_hoist(hoist.name.substr(crane.name.value.size() + 1));
@@ -184,7 +184,7 @@ class SharingSupports {
   double height_ = 0;  ///< m
 };
 
-void add_stand_measures(const CraneInCase& crane, const LiftRun& lift,
+void add_stand_measures(const given::Crane& crane, const LiftRun& lift,
                         std::vector<LiftMeasure>& all) {
   const dynamics::Mechanism& mechanism = lift.model.system.mechanism();
   const CraneStand& stand = *crane.model->stands_on;
@@ -232,7 +232,7 @@ void add_stand_measures(const CraneInCase& crane, const LiftRun& lift,
 void add_crane_measures(const LiftCase& lift_case, const LiftRun& lift,
                         std::vector<LiftMeasure>& measures) {
   for (std::size_t i = 0; i < lift_case.cranes.size(); ++i) {
-    const CraneInCase& crane = lift_case.cranes[i];
+    const given::Crane& crane = lift_case.cranes[i];
     if (crane.model->radius_from) {
       const ChartFactor derated = find_chart_factor(*crane.model, lift_case);
       for (const LiftHoist& hoist : lift.model.hoists)

@@ -183,7 +183,7 @@ std::vector<Triangle> surface_of(const std::vector<BoxShape>& boxes) {
   return triangles;
 }
 
-std::vector<Triangle> surface_of(const LoadInCase& load) {
+std::vector<Triangle> surface_of(const given::Load& load) {
   return load.vessel ? surface_of(load.vessel->hull) : surface_of(*load.model);
 }
 

@@ -21,6 +21,6 @@ std::vector<Triangle> surface_of(const BoxShape& box);
 /// All of them, which may cross.
 std::vector<Triangle> surface_of(const std::vector<BoxShape>& boxes);
 /// What is lifted: the hull of a vessel, else the block.
-std::vector<Triangle> surface_of(const LoadInCase& load);
+std::vector<Triangle> surface_of(const given::Load& load);
 
 }  // namespace blocklift::pipeline

@@ -10,7 +10,7 @@ using structure::PointForce;
 
 void add_spreader(const LiftCase& lift_case, const LiftRun& lift, const LiftSpreader& spreader,
                   std::vector<LiftMeasure>& measures) {
-  const SpreaderInCase& in_case = *lift_case.find_spreader(spreader.name);
+  const given::Spreader& in_case = *lift_case.find_spreader(spreader.name);
   const SpreaderStrength strength = strength_in_place(in_case, spreader);
   const double factor = spreader_factor(lift_case.checks);
   const bool is_frame = in_case.is_frame();
@@ -62,7 +62,7 @@ void add_spreader(const LiftCase& lift_case, const LiftRun& lift, const LiftSpre
 
 }  // namespace
 
-SpreaderStrength strength_in_place(const SpreaderInCase& in_its_place,
+SpreaderStrength strength_in_place(const given::Spreader& in_its_place,
                                    const LiftSpreader& spreader) {
   std::vector<Vector3> points;
   for (const LiftSpreader::End& end : spreader.ends) points.push_back(end.p_BoQ_B);
@@ -93,7 +93,7 @@ double growth_to_failure(const SpreaderStrength& strength, const SpreaderForces&
   return least;
 }
 
-std::optional<Eigen::Index> worst_instant(const SpreaderInCase& in_its_place,
+std::optional<Eigen::Index> worst_instant(const given::Spreader& in_its_place,
                                           const LiftSpreader& spreader,
                                           const dynamics::History& history) {
   const SpreaderStrength strength = strength_in_place(in_its_place, spreader);
@@ -109,7 +109,7 @@ std::optional<Eigen::Index> worst_instant(const SpreaderInCase& in_its_place,
   return worst;
 }
 
-double largest_share(const SpreaderInCase& in_its_place, const LiftSpreader& spreader,
+double largest_share(const given::Spreader& in_its_place, const LiftSpreader& spreader,
                      const LiftRun& lift, double factor) {
   const SpreaderStrength strength = strength_in_place(in_its_place, spreader);
   double largest = 0;
@@ -130,7 +130,7 @@ Eigen::VectorXd hung_load(const LiftSpreader& spreader, const dynamics::History&
   return load;
 }
 
-double borne_load(const SpreaderInCase& in_its_place, const LiftSpreader& spreader,
+double borne_load(const given::Spreader& in_its_place, const LiftSpreader& spreader,
                   const dynamics::History& history) {
   const std::optional<Eigen::Index> worst = worst_instant(in_its_place, spreader, history);
   if (!worst) return 0;

@@ -12,7 +12,7 @@ namespace blocklift::pipeline {
 double spreader_factor(const CheckSettings& checks);
 
 /// A spreader, or another of its size in its place, with the points at which ropes pull at it.
-SpreaderStrength strength_in_place(const SpreaderInCase& in_its_place,
+SpreaderStrength strength_in_place(const given::Spreader& in_its_place,
                                    const LiftSpreader& spreader);
 
 /// What ropes do to a spreader at a sample, in its axes, in the order of its ends, N.
@@ -25,13 +25,13 @@ std::vector<structure::PointForce> forces_on_spreader(const LiftSpreader& spread
 double growth_to_failure(const SpreaderStrength& strength, const SpreaderForces& forces);
 
 /// The sample of the largest share of the resistance; none where nothing is asked of it.
-std::optional<Eigen::Index> worst_instant(const SpreaderInCase& in_its_place,
+std::optional<Eigen::Index> worst_instant(const given::Spreader& in_its_place,
                                           const LiftSpreader& spreader,
                                           const dynamics::History& history);
 
 /// The most that the ropes of a spreader ask of another of its size in its place at any instant, at
 /// rest and in motion: SpreaderStrength::utilisation with that factor.
-double largest_share(const SpreaderInCase& in_its_place, const LiftSpreader& spreader,
+double largest_share(const given::Spreader& in_its_place, const LiftSpreader& spreader,
                      const LiftRun& lift, double factor);
 
 /// The downward pull of all that hangs below a spreader, at each sample, N.
@@ -40,7 +40,7 @@ Eigen::VectorXd hung_load(const LiftSpreader& spreader, const dynamics::History&
 /// The load below a spreader that another of its size bears in its place: what hangs there at the
 /// instant of the largest share of the resistance, grown with all forces of the ropes until
 /// SpreaderStrength::utilisation reaches 1, N. Zero where nothing hangs at that instant.
-double borne_load(const SpreaderInCase& in_its_place, const LiftSpreader& spreader,
+double borne_load(const given::Spreader& in_its_place, const LiftSpreader& spreader,
                   const dynamics::History& history);
 
 /// For each spreader its compression, its bending moment, that of torsion in a frame, and what it

@@ -66,7 +66,7 @@ std::vector<TackleMotion> find_tackle_motion(const Eigen::VectorXd& unstretched_
 void add_tackle_measures(const LiftCase& lift_case, const LiftRun& lift,
                          std::vector<LiftMeasure>& measures) {
   for (const LiftHoist& hoist : lift.model.hoists) {
-    const CraneInCase& crane = lift_case.cranes[hoist.crane];
+    const given::Crane& crane = lift_case.cranes[hoist.crane];
     const HoistModel& model =
         *crane.model->find_hoist(hoist.name.substr(crane.name.value.size() + 1));
     if (model.reeving) add_tackle(model, hoist, lift, measures);

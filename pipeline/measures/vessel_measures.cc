@@ -45,7 +45,7 @@ double rise(const dynamics::Pose& X_WB, Eigen::Index axis) {
 
 void add_vessel_measures(const LiftCase& lift_case, const LiftRun& lift,
                          std::vector<LiftMeasure>& measures) {
-  for (const VesselInCase& vessel : lift_case.vessels) {
+  for (const given::Vessel& vessel : lift_case.vessels) {
     const std::string& name = vessel.name.value;
     const dynamics::BodyIndex body = lift.model.system.mechanism().body_index(name);
     add_measure(

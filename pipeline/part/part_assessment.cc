@@ -22,7 +22,7 @@ std::vector<ProbeResult> find_probes(const PartFile& file, const PartModel& mode
                                      const structure::PartSolution& solution,
                                      Diagnostics& diagnostics) {
   std::vector<ProbeResult> results;
-  for (const PartProbeInFile& probe : file.probes) {
+  for (const given::PartProbe& probe : file.probes) {
     ProbeResult result{probe.name.value, !probe.at, {}};
     const int count = probe.at ? 1 : probe.points;
     for (int i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ std::vector<HotSpotResult> find_hot_spots(const PartFile& file, const PartModel&
                                           const structure::PartSolution& solution,
                                           Diagnostics& diagnostics) {
   std::vector<HotSpotResult> results;
-  for (const HotSpotInFile& asked : file.hot_spots) {
+  for (const given::HotSpot& asked : file.hot_spots) {
     HotSpotResult result{asked.name.value, {asked.toe, asked.direction, asked.thickness}, {}, {}};
     std::array<structure::Stress, 2> stress;
     bool inside = true;

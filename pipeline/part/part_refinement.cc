@@ -33,7 +33,7 @@ std::vector<Checked> checked_stresses(const PartAssessment& assessment) {
   if (names.empty())
     all.push_back({"the largest stress", solution.all.point,
                    share(solution.all.von_mises_error, solution.all.von_mises)});
-  for (const PartProbeInFile& probe : assessment.file.probes) {
+  for (const given::PartProbe& probe : assessment.file.probes) {
     const bool is_checked = std::any_of(names.begin(), names.end(), [&](const auto& name) {
       return name.value == probe.name.value;
     });
@@ -76,7 +76,7 @@ class Refiner {
 
   /// Quadratic elements first, then smaller ones.
   void refine(const std::vector<Checked>& checked) {
-    PartMeshInFile& mesh = assessment_.file.mesh;
+    given::PartMesh& mesh = assessment_.file.mesh;
     const std::size_t elements = assessment_.model.mesh.solids.size();
     // Sides with a fixed number of elements take no sizes: then there are hardly more than before.
     const bool takes_no_sizes = sizes_ && elements < elements_before_ + elements_before_ / 50;

@@ -58,9 +58,9 @@ class ModelMaker {
     reading.sizes = sizes_;
     for (const PartPlate& plate : file_.mesh.plates)
       reading.plates[plate.name.value] = plate.thickness;
-    for (const PartFacesInFile& faces : file_.mesh.faces)
+    for (const given::PartFaces& faces : file_.mesh.faces)
       reading.faces.push_back({faces.name.value, faces.from, faces.to});
-    for (const PartPointInFile& point : file_.mesh.points)
+    for (const given::PartPoint& point : file_.mesh.points)
       reading.points.push_back({point.name.value, point.at});
     return structure::read_part_mesh(file_.mesh_path().string(), reading);
   }
@@ -77,10 +77,10 @@ class ModelMaker {
               "the part reaches from ({:.6g}, {:.6g}, {:.6g}) m to ({:.6g}, {:.6g}, {:.6g}) m",
               lower.x(), lower.y(), lower.z(), upper.x(), upper.y(), upper.z())});
     };
-    for (const PartFacesInFile& faces : file_.mesh.faces)
+    for (const given::PartFaces& faces : file_.mesh.faces)
       check(faces.name,
             fmt::format("no outer face of the part lies in the box of faces {}", faces.name.value));
-    for (const PartPointInFile& point : file_.mesh.points)
+    for (const given::PartPoint& point : file_.mesh.points)
       check(point.name, fmt::format("no node lies near point {}", point.name.value));
   }
 
@@ -173,7 +173,7 @@ class ModelMaker {
   }
 
   void take_supports() {
-    for (const PartSupportInFile& support : file_.supports)
+    for (const given::PartSupport& support : file_.supports)
       for (const Located<std::string>& name : support.groups) {
         if (!find(name)) continue;
         structure::PartSupport taken{
@@ -212,7 +212,7 @@ class ModelMaker {
 
   void take_loads() {
     bool needs_density = false;
-    for (const PartLoadInFile& load : file_.loads) {
+    for (const given::PartLoad& load : file_.loads) {
       structure::BodyLoad body{load.name.value, Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
       if (load.gravity) body.gravity = *load.gravity;
       if (load.acceleration) body.gravity = -*load.acceleration;
@@ -236,7 +236,7 @@ class ModelMaker {
                            {"for steel: density: 7850 kg/m^3"});
   }
 
-  void take_surface_load(const PartLoadInFile& load, const Located<std::string>& name) {
+  void take_surface_load(const given::PartLoad& load, const Located<std::string>& name) {
     const PartGroup* group = find(name);
     if (!group) return;
     structure::SurfaceLoad taken;

@@ -18,9 +18,9 @@ namespace {
 std::string names_of_hanging(const LiftCase& lift_case) {
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
-  for (const RopeInCase& rope : lift_case.ropes)
+  for (const given::Rope& rope : lift_case.ropes)
     if (lift_case.hangs(rope)) add(rope.name.value);
-  for (const CraneInCase& crane : lift_case.cranes)
+  for (const given::Crane& crane : lift_case.cranes)
     for (const HoistModel& hoist : crane.model->hoists)
       if (lift_case.hangs(crane, hoist)) add(crane.name.value + "." + hoist.name.value);
   return names;
@@ -29,7 +29,7 @@ std::string names_of_hanging(const LiftCase& lift_case) {
 /// Ropes with friction at their sheaves.
 std::string names_of_rubbing(const LiftCase& lift_case) {
   std::string names;
-  for (const RopeInCase& rope : lift_case.ropes)
+  for (const given::Rope& rope : lift_case.ropes)
     if (rope.friction() > 0) names += (names.empty() ? "" : ", ") + rope.name.value;
   return names;
 }
@@ -37,7 +37,7 @@ std::string names_of_rubbing(const LiftCase& lift_case) {
 /// Edges with friction, or those without, that ropes may touch.
 std::string names_of_edges(const LiftCase& lift_case, bool rubbing) {
   std::string names;
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     for (const LoadEdge& edge : rope.edges) {
       if ((edge.friction > 0) != rubbing) continue;
       names +=
@@ -50,7 +50,7 @@ std::string names_of_edges(const LiftCase& lift_case, bool rubbing) {
 /// Ropes that may touch edges of the load.
 std::string names_of_bent(const LiftCase& lift_case) {
   std::string names;
-  for (const RopeInCase& rope : lift_case.ropes)
+  for (const given::Rope& rope : lift_case.ropes)
     if (!rope.edges.empty()) names += (names.empty() ? "" : ", ") + rope.name.value;
   return names;
 }
@@ -61,8 +61,8 @@ std::string names_of_curved(const LiftCase& lift_case) {
   const auto add = [&](const std::string& name, const RopeModel& rope) {
     if (rope.tension_curve) names += (names.empty() ? "" : ", ") + name;
   };
-  for (const RopeInCase& rope : lift_case.ropes) add(rope.name.value, rope.rope);
-  for (const CraneInCase& crane : lift_case.cranes)
+  for (const given::Rope& rope : lift_case.ropes) add(rope.name.value, rope.rope);
+  for (const given::Crane& crane : lift_case.cranes)
     for (const HoistModel& hoist : crane.model->hoists)
       add(crane.name.value + "." + hoist.name.value, hoist.rope);
   return names;
@@ -71,7 +71,7 @@ std::string names_of_curved(const LiftCase& lift_case) {
 /// Hoists whose blocks turn, and on bearings.
 std::string names_of_turning(const LiftCase& lift_case) {
   std::string names;
-  for (const CraneInCase& crane : lift_case.cranes)
+  for (const given::Crane& crane : lift_case.cranes)
     for (const HoistModel& hoist : crane.model->hoists) {
       const auto& turning = hoist.hook_block.turning;
       if (!turning) continue;
@@ -83,7 +83,7 @@ std::string names_of_turning(const LiftCase& lift_case) {
   return names;
 }
 
-std::string wind_sentence(const WindInCase& wind) {
+std::string wind_sentence(const given::Wind& wind) {
   const bool gusts = wind.gusts != dynamics::GustSpectrum::none;
   std::string text = fmt::format(
       "{} wind of {:g} m/s towards {:.0f} degrees from +x to +y, {}",
@@ -191,7 +191,7 @@ void add_lift_assumptions(const LiftCase& lift_case, std::vector<std::string>& l
 }
 
 std::string draughts_sentence(const LiftCase& lift_case) {
-  const LoadInCase& load = lift_case.load;
+  const given::Load& load = lift_case.load;
   const std::string floats = "The load floats by its hull where it reaches the water; ";
   if (!load.draughts) {
     return floats + "it makes no waves, and no added mass of it is counted.";
@@ -215,7 +215,7 @@ std::string draughts_sentence(const LiftCase& lift_case) {
 template <class Predicate>
 std::string names_of_vessels(const LiftCase& lift_case, const Predicate& holds) {
   std::string names;
-  for (const VesselInCase& vessel : lift_case.vessels) {
+  for (const given::Vessel& vessel : lift_case.vessels) {
     if (holds(vessel)) names += (names.empty() ? "" : ", ") + vessel.name.value;
   }
   return names;
@@ -223,11 +223,11 @@ std::string names_of_vessels(const LiftCase& lift_case, const Predicate& holds) 
 
 void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
                          std::vector<std::string>& list) {
-  const std::string drifting = names_of_vessels(lift_case, [](const VesselInCase& vessel) {
+  const std::string drifting = names_of_vessels(lift_case, [](const given::Vessel& vessel) {
     return vessel.drift.value != DriftMethod::none;
   });
   const std::string linear = names_of_vessels(
-      lift_case, [](const VesselInCase& vessel) { return vessel.linear_buoyancy.has_value(); });
+      lift_case, [](const given::Vessel& vessel) { return vessel.linear_buoyancy.has_value(); });
   list.push_back(fmt::format(
       "Buoyancy and the pressure of the undisturbed waves act on each hull as it lies at each "
       "instant, exactly for its panels in still water. Waves are linear; there is no slamming or "
@@ -236,7 +236,7 @@ void add_sea_assumptions(const LiftCase& lift_case, const LiftRun& lift,
       drifting.empty() ? "" : " but those of " + drifting));
   if (std::string sea = describe_sea(lift_case, lift_case.gravity); !sea.empty())
     list.push_back(std::move(sea));
-  const std::string dry = names_of_vessels(lift_case, [](const VesselInCase& vessel) {
+  const std::string dry = names_of_vessels(lift_case, [](const given::Vessel& vessel) {
     return vessel.radiation.value == RadiationMethod::none;
   });
   if (!dry.empty())

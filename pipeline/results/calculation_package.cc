@@ -71,7 +71,7 @@ std::string borne_by_rules(const StandardAssessment& standard, const std::string
 void add_rigging(const LiftCase& lift_case, const StandardAssessment& standard,
                  TextDocument& document) {
   std::vector<Row> slings, shackles, links, sheaves, bars;
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     if (!rope.is_sling()) continue;
     slings.push_back({rope.name.value, rope.lug().empty() ? rope.to.value.name.value : rope.lug(),
                       fmt::format("{:.3f}", rope.length.value), number(rope.rope.diameter, 1e3, 0),
@@ -80,16 +80,16 @@ void add_rigging(const LiftCase& lift_case, const StandardAssessment& standard,
                       borne_by_rules(standard, rope.name.value), tonnes(rope.rope.breaking_load),
                       "", ""});
   }
-  for (const ShackleInCase& shackle : lift_case.standard->shackles)
+  for (const given::Shackle& shackle : lift_case.standard->shackles)
     shackles.push_back(
         {shackle.name.value, tonnes(shackle.working_load), tonnes(shackle.breaking_load), "", ""});
-  for (const MasterLinkInCase& link : lift_case.standard->master_links)
+  for (const given::MasterLink& link : lift_case.standard->master_links)
     links.push_back({link.name.value, tonnes(link.working_load), tonnes(link.breaking_load),
                      number(link.mass, 1, 1), "", ""});
-  for (const SheaveInCase& sheave : lift_case.standard->sheaves)
+  for (const given::Sheave& sheave : lift_case.standard->sheaves)
     sheaves.push_back({sheave.name.value, tonnes(sheave.working_load), tonnes(sheave.breaking_load),
                        number(sheave.tread, 1e3, 0), "", ""});
-  for (const SpreaderInCase& bar : lift_case.spreaders)
+  for (const given::Spreader& bar : lift_case.spreaders)
     bars.push_back({bar.name.value,
                     bar.is_frame() ? fmt::format("{:.3f} x {:.3f}", bar.length.value, *bar.width)
                                    : fmt::format("{:.3f}", bar.length.value),
@@ -131,7 +131,7 @@ void add_load_cases(const LiftCase& lift_case, TextDocument& document) {
     return;
   }
   document.paragraph("Every instant of the operation, at rest and in motion:");
-  for (const StageInCase& stage : lift_case.operation) document.numbered(stage.name.value);
+  for (const given::Stage& stage : lift_case.operation) document.numbered(stage.name.value);
 }
 
 void add_utilisations(const StandardAssessment& standard, TextDocument& document) {
@@ -208,7 +208,7 @@ std::string hash_of_calculation(const Assessment& assessment) {
 }
 
 void add_revision(const Assessment& assessment, TextDocument& document) {
-  const DocumentInCase& signs = assessment.lift_case.document;
+  const given::Document& signs = assessment.lift_case.document;
   document.heading("Revision")
       .table({"revision", "case", "hash of input and factors", "program", "made"},
              {{signs.revision, assessment.lift_case.name, hash_of_calculation(assessment),

@@ -81,7 +81,7 @@ class Doubts {
     doubt_masses();
     doubt_frames();
     doubt_gravity();
-    for (const RopeInCase& rope : case_.ropes) doubt_strength(rope);
+    for (const given::Rope& rope : case_.ropes) doubt_strength(rope);
     return std::move(list_);
   }
 
@@ -186,7 +186,7 @@ class Doubts {
           "rest it holds.",
           lift.model.system.ropes()[parted.rope].name(), parted.time, parted.tension / 1e3,
           parted.energy / 1e3);
-    for (const FaultInCase& fault : case_.faults) {
+    for (const given::Fault& fault : case_.faults) {
       if (!fault.at && !lift.model.worst) continue;  // it does not come
       const double at = fault.at ? fault.at->value : lift.model.worst->worst.time;
       if (!fault.at) say_worst(*lift.model.worst);
@@ -317,7 +317,7 @@ class Doubts {
     constexpr double apart = 0.1;  // m
     for (std::size_t i = 0; i < case_.cranes.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        const CraneInCase &one = case_.cranes[j], &other = case_.cranes[i];
+        const given::Crane &one = case_.cranes[j], &other = case_.cranes[i];
         const bool same_ground = one.base.has_value() == other.base.has_value() &&
                                  (!one.base || one.base->value == other.base->value);
         if (!same_ground || (one.position - other.position).norm() > apart ||
@@ -330,7 +330,7 @@ class Doubts {
   }
 
   /// Cranes on one rail have one position and start apart.
-  static bool starts_differ(const CraneInCase& one, const CraneInCase& other) {
+  static bool starts_differ(const given::Crane& one, const given::Crane& other) {
     if (!one.model || !other.model) return true;
     for (const DriveModel& drive : one.model->drives) {
       const auto *a = one.find_start(drive.name.value), *b = other.find_start(drive.name.value);
@@ -400,7 +400,7 @@ class Doubts {
     const auto hangs = [](const ResolvedPoint& point) {
       return point.kind == Kind::load || point.kind == Kind::spreader;
     };
-    for (const RopeInCase& rope : case_.ropes) {
+    for (const given::Rope& rope : case_.ropes) {
       if (rope.edges.empty() && std::none_of(rope.path.begin(), rope.path.end(), hangs)) continue;
       for (const ResolvedPoint& point : rope.path)
         if (!hangs(point) && point.kind != Kind::hook) return false;
@@ -412,7 +412,7 @@ class Doubts {
   /// counts for each of its parts there.
   double strength_at(ResolvedPoint::Kind kind) const {
     double together = 0;
-    for (const RopeInCase& rope : case_.ropes) {
+    for (const given::Rope& rope : case_.ropes) {
       double parts = 0;
       for (std::size_t i = 0; i < rope.path.size(); ++i)
         if (rope.path[i].kind == kind) parts += i == 0 || i + 1 == rope.path.size() ? 1 : 2;
@@ -425,7 +425,7 @@ class Doubts {
   /// What hooks that hold something may carry together, by hoists and cranes, N.
   double capacity_of_hooks() const {
     std::vector<std::map<std::string, double>> hooks(case_.cranes.size());
-    for (const RopeInCase& rope : case_.ropes)
+    for (const given::Rope& rope : case_.ropes)
       for (const ResolvedPoint& point : rope.path)
         if (point.kind == ResolvedPoint::Kind::hook)
           if (const auto* hoist = case_.cranes[point.crane].model->find_hoist(point.part))
@@ -476,7 +476,7 @@ class Doubts {
 
   /// A sling that was forgotten leaves a frame hanging aslant on the others.
   void doubt_frames() {
-    for (const SpreaderInCase& bar : case_.spreaders) {
+    for (const given::Spreader& bar : case_.spreaders) {
       if (!bar.is_frame()) continue;
       const auto is_at = [&](const ResolvedPoint& point, const std::string& eye) {
         return point.kind == ResolvedPoint::Kind::spreader && point.part == bar.name.value &&
@@ -486,7 +486,7 @@ class Doubts {
       std::string bare;
       for (const char* const corner : {"1", "2", "3", "4"}) {
         bool above = false, below = false;
-        for (const RopeInCase& rope : case_.ropes) {
+        for (const given::Rope& rope : case_.ropes) {
           if (rope.path.empty()) continue;
           above = above || is_at(rope.path.back(), std::string("upper_") + corner);
           below = below || is_at(rope.path.front(), std::string("lower_") + corner);
@@ -511,7 +511,7 @@ class Doubts {
   }
 
   /// A breaking load in the wrong unit passes every check.
-  void doubt_strength(const RopeInCase& rope) {
+  void doubt_strength(const given::Rope& rope) {
     constexpr double most_stress = 4e9;   // Pa over the circle: four parts of the strongest wire
     constexpr double most_stretch = 0.5;  // nylon, the softest of ropes, breaks before
     const RopeModel& model = rope.rope;
@@ -535,7 +535,7 @@ class Doubts {
     if (centre && load_box_ && is_outside(centre->value, *load_box_))
       doubt_centre("the load", centre->value);
     if (case_.load.vessel) doubt_vessel("the load", *case_.load.vessel);
-    for (const VesselInCase& vessel : case_.vessels) {
+    for (const given::Vessel& vessel : case_.vessels) {
       if (vessel.model) doubt_vessel("vessel " + vessel.name.value, *vessel.model);
     }
   }

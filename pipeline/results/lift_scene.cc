@@ -6,7 +6,7 @@ LoadMass load_mass(const structure::MassProperties& mass) {
   return {mass.mass, mass.centre_of_mass_B, mass.inertia_BBcm_B};
 }
 
-std::vector<structure::LiftingPoint> vessel_lugs(const LoadInCase& load) {
+std::vector<structure::LiftingPoint> vessel_lugs(const given::Load& load) {
   std::vector<structure::LiftingPoint> lugs;
   for (const Named<Vector3>& lug : load.lugs) {
     structure::LiftingPoint& region = lugs.emplace_back();

@@ -11,7 +11,7 @@ namespace blocklift::pipeline {
 LoadMass load_mass(const structure::MassProperties& mass);
 
 /// Lugs of a load that is a vessel: names and places.
-std::vector<structure::LiftingPoint> vessel_lugs(const LoadInCase& load);
+std::vector<structure::LiftingPoint> vessel_lugs(const given::Load& load);
 
 /// A box of a file, for the drawing.
 DrawnBox drawn_box(const BoxShape& box);

@@ -11,7 +11,7 @@ namespace blocklift::pipeline {
 
 std::string doubt_about_lugs(const LiftCase& lift_case) {
   std::map<std::string, std::vector<std::string>> ropes_by_lug;
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     for (const ResolvedPoint& point : rope.path) {
       if (point.lug.empty()) continue;
       std::vector<std::string>& ropes = ropes_by_lug[point.lug];

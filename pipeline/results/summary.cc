@@ -95,7 +95,7 @@ class LoadTables {
       if (!rope.lug.empty()) row["lug"] = rope.lug;
       if (!rope.hoist.empty()) row["hoist"] = rope.hoist;
       row["breaking_load_N"] = rope.breaking_load;
-      if (const RopeInCase& in_case = *case_.find_rope(rope.name);
+      if (const given::Rope& in_case = *case_.find_rope(rope.name);
           in_case.rope.diameter && knows_bend(in_case) && find_bend(in_case, lift_))
         row["bend_efficiency"] = bend_efficiency(in_case, lift_);
       if (const auto& rope_of = lift_.model.system.ropes()[rope.rope];
@@ -204,7 +204,7 @@ class LoadTables {
   }
 
   /// Which edges a rope touches stands beside its forces on them.
-  bool knows_bend(const RopeInCase& rope) const {
+  bool knows_bend(const given::Rope& rope) const {
     return rope.edges.empty() || lift_.dynamic_history().recording().rope_forces;
   }
 
@@ -272,7 +272,7 @@ Json lugs_json(const Assessment& assessment) {
     Json row{{"name", lugs[i].name}};
     // The instant of the lug's own rope tells most about its neighbourhood.
     const LoadComparison* own = &block.simultaneous;
-    for (const RopeInCase& rope : assessment.lift_case.ropes) {
+    for (const given::Rope& rope : assessment.lift_case.ropes) {
       if (rope.lug() != lugs[i].name) continue;
       row["rope"] = rope.name.value;
       for (const LoadComparison& by_rope : block.simultaneous_by_rope) {
@@ -495,7 +495,7 @@ void add_motion(const LiftCase& lift_case, const LiftRun& lift, const WantedPart
 /// An assessment and a simulation that is written have all parts.
 bool all_parts(std::string_view) { return true; }
 
-Json document_json(const DocumentInCase& document) {
+Json document_json(const given::Document& document) {
   Json json = Json::object();
   const auto add = [&](const char* key, const std::string& text) {
     if (!text.empty()) json[key] = text;

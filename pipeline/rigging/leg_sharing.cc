@@ -14,7 +14,7 @@ namespace {
 constexpr double degrees_of_legs = std::numbers::pi / 180;
 
 /// Whether a rope is a sling from a hook.
-bool hangs_from(const LiftCase& lift_case, const RopeInCase& rope, const std::string& hook) {
+bool hangs_from(const LiftCase& lift_case, const given::Rope& rope, const std::string& hook) {
   return rope.is_sling() && rope.path.front().kind == ResolvedPoint::Kind::hook &&
          rope.path.front().body_name(lift_case.cranes) == hook;
 }
@@ -51,7 +51,7 @@ std::string legs_note(double at_rest, const SharedHook& hook, const std::string&
 
 SharedHook find_shared_hook(const LiftCase& lift_case, const LiftRun& lift,
                             const std::string& rope) {
-  const RopeInCase& own = *lift_case.find_rope(rope);
+  const given::Rope& own = *lift_case.find_rope(rope);
   if (own.path.front().kind != ResolvedPoint::Kind::hook) return {};
   const std::string name = own.path.front().body_name(lift_case.cranes);
   const auto hoist = std::find_if(lift.model.hoists.begin(), lift.model.hoists.end(),

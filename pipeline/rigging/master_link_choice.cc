@@ -28,7 +28,7 @@ std::vector<Check> check_link(const MasterLinkInStock& candidate, const LiftCase
   const LoadFactors factors(*lift_case.standard, *facts);
   // The weight of a link that the case has already is in the facts.
   HookFacts with_link = *hook;
-  const MasterLinkInCase* known = find_by_name(lift_case.standard->master_links, demand.hook);
+  const given::MasterLink* known = find_by_name(lift_case.standard->master_links, demand.hook);
   with_link.rigging += (link.mass - (known ? known->mass : 0)) * lift_case.gravity;
   StandardAssessment assessment;
   assessment.name = lift_case.standard->rules.name;
@@ -46,12 +46,12 @@ std::vector<MasterLinkDemand> master_link_demands(const LiftCase& lift_case, con
   std::vector<MasterLinkDemand> demands;
   for (const LiftHoist& hoist : lift.model.hoists) {
     MasterLinkDemand demand{hoist.name, 0, 0};
-    for (const RopeInCase& rope : lift_case.ropes)
+    for (const given::Rope& rope : lift_case.ropes)
       if (rope.is_sling() && rope.path.front().kind == ResolvedPoint::Kind::hook &&
           rope.path.front().body_name(lift_case.cranes) == hoist.name)
         ++demand.legs;
     if (demand.legs < 2) continue;
-    const CraneInCase& crane = lift_case.cranes[hoist.crane];
+    const given::Crane& crane = lift_case.cranes[hoist.crane];
     const HoistModel& model = *crane.model->find_hoist(hoist.name.substr(hoist.name.find('.') + 1));
     const auto& tackle = lift.static_history.ropes[hoist.rope];
     demand.at_rest =

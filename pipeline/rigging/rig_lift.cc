@@ -36,16 +36,16 @@ class LiftRunner {
   void set_rope(const std::string& name, const StockSling& sling) {
     const auto rope =
         std::find_if(assessment_.lift_case.ropes.begin(), assessment_.lift_case.ropes.end(),
-                     [&](const RopeInCase& one) { return one.name.value == name; });
+                     [&](const given::Rope& one) { return one.name.value == name; });
     rope->rope = sling.rope;
     rope->rope_choice = sling.rope_choice;
   }
 
   /// The bar in the place of the case's, which keeps its name and where it starts.
-  void set_spreader(const std::string& name, const SpreaderInCase& chosen) {
-    for (SpreaderInCase& bar : assessment_.lift_case.spreaders) {
+  void set_spreader(const std::string& name, const given::Spreader& chosen) {
+    for (given::Spreader& bar : assessment_.lift_case.spreaders) {
       if (bar.name.value != name) continue;
-      SpreaderInCase changed = chosen;
+      given::Spreader changed = chosen;
       changed.name = bar.name;
       changed.position = bar.position;
       changed.attitude = bar.attitude;
@@ -91,7 +91,7 @@ class LiftRunner {
 
 bool has_slings(const LiftCase& lift_case) {
   return std::any_of(lift_case.ropes.begin(), lift_case.ropes.end(),
-                     [](const RopeInCase& rope) { return rope.is_sling() && !rope.winch; });
+                     [](const given::Rope& rope) { return rope.is_sling() && !rope.winch; });
 }
 
 Diagnostics complain_of_no_slings(const LiftCase& lift_case) {
@@ -126,7 +126,7 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
   rigged.stock = std::move(stock);
   LiftRunner runner(std::move(lift_case), progress);
   std::vector<std::string> bars;
-  for (const SpreaderInCase& bar : runner.the_case().spreaders)
+  for (const given::Spreader& bar : runner.the_case().spreaders)
     if (has_spreaders_of_size(rigged.stock, bar)) bars.push_back(bar.name.value);
   Loads loads;
   // Slings first, then bars.
@@ -159,7 +159,7 @@ RiggedLift rig_lift(LiftCase lift_case, Stock stock, const Progress& progress) {
     const std::size_t index = rigged.settled.choice[i];
     rigged.slings.push_back(
         {loads.demands[i], {index, checks.of(rigged.stock.slings[index], loads.demands[i])}});
-    const RopeInCase& rope = *runner.the_case().find_rope(loads.demands[i].rope);
+    const given::Rope& rope = *runner.the_case().find_rope(loads.demands[i].rope);
     if (is_led_over_sheaves(rope) && !rigged.stock.sheaves.empty())
       rigged.sheaves.push_back(choose_sheave(rigged.stock, runner.the_case(), loads.facts,
                                              loads.demands[i],

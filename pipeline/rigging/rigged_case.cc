@@ -141,7 +141,7 @@ YAML::Node section_node(const BarSection& section) {
 YAML::Node rigged_spreaders(const RiggedLift& rigged, const YAML::Node& spreaders) {
   std::vector<std::pair<std::string, YAML::Node>> changed;
   for (const ChosenSpreader& one : rigged.spreaders) {
-    const SpreaderInCase& bar = rigged.stock.spreaders[one.index].spreader.bar;
+    const given::Spreader& bar = rigged.stock.spreaders[one.index].spreader.bar;
     YAML::Node node = YAML::Clone(spreaders[one.name]);
     node.remove("mass");
     if (bar.given_mass) node["mass"] = fmt::format("{:.10g} kg", *bar.given_mass);

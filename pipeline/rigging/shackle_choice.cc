@@ -51,7 +51,7 @@ std::vector<ShackleDemand> shackle_demands(const LiftCase& lift_case, const Lift
     ShackleDemand demand{lug.lug, lug.load(lift.static_history).maxCoeff(), {}};
     bool has_sling = false;
     for (const SlingEnd& end : lug.ends) {
-      const RopeInCase& rope = *lift_case.find_rope(lift.model.ropes[end.sling].name);
+      const given::Rope& rope = *lift_case.find_rope(lift.model.ropes[end.sling].name);
       if (!rope.is_sling() || rope.winch) continue;
       has_sling = true;
       const SharedHook hook = find_shared_hook(lift_case, lift, rope.name.value);

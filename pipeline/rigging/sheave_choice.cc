@@ -33,7 +33,7 @@ std::vector<Check> check_sheave_of(const SheaveInStock& candidate, const LiftCas
 
 }  // namespace
 
-bool is_led_over_sheaves(const RopeInCase& rope) { return rope.path.size() > 2; }
+bool is_led_over_sheaves(const given::Rope& rope) { return rope.path.size() > 2; }
 
 ChosenSheave choose_sheave(const Stock& stock, const LiftCase& lift_case,
                            const std::optional<LiftFacts>& facts, const SlingDemand& demand,

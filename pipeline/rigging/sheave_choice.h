@@ -21,7 +21,7 @@ struct ChosenSheave {
 };
 
 /// Is a rope of the case led over anything between its ends?
-bool is_led_over_sheaves(const RopeInCase& rope);
+bool is_led_over_sheaves(const given::Rope& rope);
 
 /// The weakest sheave whose groove takes the sling and that passes: with a standard its chains, at
 /// rest and in motion, else its working load against twice the largest tension at rest. Where none

@@ -35,7 +35,7 @@ std::string obstacle_of_name(const char* key, const std::optional<Located<std::s
 }  // namespace
 
 std::optional<double> SlingChecks::bend_diameter(const std::string& name) const {
-  const RopeInCase* rope = case_.find_rope(name);
+  const given::Rope* rope = case_.find_rope(name);
   const std::optional<double> own = rope ? rope->least_bend() : std::nullopt;
   if (rope && rope->bend_diameter) return own;
   const std::optional<double> by_standard =
@@ -47,7 +47,7 @@ std::optional<double> SlingChecks::bend_diameter(const std::string& name) const 
 std::string SlingChecks::obstacle(const SlingInStock& candidate, const SlingDemand& demand) const {
   const RopeModel& rope = candidate.sling.rope;
   if (case_.standard && case_.standard->rules.sling) {
-    const StandardInCase& standard = *case_.standard;
+    const given::Standard& standard = *case_.standard;
     const SlingRules& rules = *standard.rules.sling;
     std::string obstacle =
         obstacle_of_name("material", rope.material, rules.material, standard.rules.name);
@@ -66,7 +66,7 @@ std::string SlingChecks::obstacle(const SlingInStock& candidate, const SlingDema
 std::vector<Check> SlingChecks::of(const SlingInStock& candidate, const SlingDemand& demand) const {
   const double factor = case_.checks.rope_safety_factor;
   const RopeModel& rope = candidate.sling.rope;
-  const RopeInCase* in_case = case_.find_rope(demand.rope);
+  const given::Rope* in_case = case_.find_rope(demand.rope);
   const std::optional<double> bend = in_case ? in_case->least_bend() : std::nullopt;
   const double left = bend ? bend_efficiency(*bend, *rope.diameter) : 1;
   std::vector<Check> checks;
@@ -135,7 +135,7 @@ std::vector<SlingDemand> sling_demands(const LiftCase& lift_case, const LiftRun&
   const auto in_motion = dynamics::find_largest_tensions(lift.dynamic_history());
   std::vector<SlingDemand> demands;
   for (const LiftRope& rope : lift.model.ropes) {
-    const RopeInCase& in_case = *lift_case.find_rope(rope.name);
+    const given::Rope& in_case = *lift_case.find_rope(rope.name);
     if (!in_case.is_sling() || in_case.winch) continue;
     const auto i = static_cast<std::size_t>(rope.rope);
     demands.push_back({rope.name, rope.lug, at_rest[i].tension, in_motion[i].tension,

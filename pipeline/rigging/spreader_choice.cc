@@ -16,8 +16,8 @@ namespace {
 
 constexpr double same_length = 1e-3;  // m
 
-bool is_as_large(const SpreaderInStock& one, const SpreaderInCase& in_case) {
-  const SpreaderInCase& bar = one.spreader.bar;
+bool is_as_large(const SpreaderInStock& one, const given::Spreader& in_case) {
+  const given::Spreader& bar = one.spreader.bar;
   return bar.is_frame() == in_case.is_frame() &&
          std::abs(bar.length.value - in_case.length.value) <= same_length &&
          (!bar.is_frame() || std::abs(*bar.width - *in_case.width) <= same_length);
@@ -29,7 +29,7 @@ const LiftSpreader& bar_of(const LiftRun& lift, const std::string& name) {
 }
 
 /// By the chain of the rules, with the candidate's resistance in place of that of the case's bar.
-std::vector<Check> checks_by_rules(const SpreaderInCase& candidate, const LiftCase& lift_case,
+std::vector<Check> checks_by_rules(const given::Spreader& candidate, const LiftCase& lift_case,
                                    const LiftRun& lift, const LiftFacts& facts,
                                    const LiftSpreader& bar) {
   SpreaderFacts spreader =
@@ -46,7 +46,7 @@ std::vector<Check> checks_by_rules(const SpreaderInCase& candidate, const LiftCa
 
 }  // namespace
 
-bool has_spreaders_of_size(const Stock& stock, const SpreaderInCase& in_case) {
+bool has_spreaders_of_size(const Stock& stock, const given::Spreader& in_case) {
   return std::any_of(stock.spreaders.begin(), stock.spreaders.end(),
                      [&](const SpreaderInStock& one) { return is_as_large(one, in_case); });
 }
@@ -71,7 +71,7 @@ std::vector<Check> check_spreader(const SpreaderInStock& candidate, const LiftCa
 
 ChosenSpreader choose_spreader(const Stock& stock, const LiftCase& lift_case, const LiftRun& lift,
                                const std::optional<LiftFacts>& facts, const std::string& name) {
-  const SpreaderInCase& in_case = *lift_case.find_spreader(name);
+  const given::Spreader& in_case = *lift_case.find_spreader(name);
   std::optional<ChosenSpreader> lightest, nearest;
   double least_use = 0;
   for (std::size_t i = 0; i < stock.spreaders.size(); ++i) {

@@ -22,7 +22,7 @@ struct ChosenSpreader {
 
 /// Has the stock spreaders of that size, bars of its length or frames of its length and width,
 /// within a millimetre? A larger one would be another rigging.
-bool has_spreaders_of_size(const Stock& stock, const SpreaderInCase& in_case);
+bool has_spreaders_of_size(const Stock& stock, const given::Spreader& in_case);
 
 /// The lightest spreader of the stock, of the size that the case's has, that passes: by its
 /// strength under the forces of its ropes at every instant, at rest and in motion, by the case's

@@ -146,7 +146,7 @@ void OutputRecorder::add_everything(const MechanismFile& file) {
   for (const SpringModel& spring : file.springs) {
     add_spring(spring.name.value + "_force", spring.name.value, "force");
   }
-  for (const RopeInCase& rope : file.ropes) {
+  for (const given::Rope& rope : file.ropes) {
     add_rope(rope.name.value + "_tension", rope.name.value, "tension");
   }
   const auto add_tension = [&](const auto& line) {

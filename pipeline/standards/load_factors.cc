@@ -54,12 +54,12 @@ class FactorsAtLug {
   double growth_ = 1;
 };
 
-bool has_length_tolerance(const StandardInCase& standard) {
+bool has_length_tolerance(const given::Standard& standard) {
   return standard.length_tolerance || standard.rules.length_tolerance;
 }
 
 /// Why nothing was computed from tolerances of length of the slings about a frame.
-std::string why_no_tolerances(const StandardInCase& standard) {
+std::string why_no_tolerances(const given::Standard& standard) {
   if (!has_length_tolerance(standard)) return "no tolerance of lengths is given";
   return fmt::format(
       "the tolerance of lengths is not worked (more than {} slings have it, or baskets or a rope "
@@ -78,7 +78,7 @@ std::optional<double> skew_by_standard(const SpreaderFacts& frame,
 }
 
 /// The two figures in words, and which of them the standard's column has.
-std::string frame_skew_in_words(const StandardInCase& standard, const SpreaderFacts& frame,
+std::string frame_skew_in_words(const given::Standard& standard, const SpreaderFacts& frame,
                                 const std::optional<double>& of_slings) {
   const std::optional<double>&by_rules = frame.skew_by_rules, &computed = frame.skew_computed;
   std::string text = "what its sides bear and its corners bend, over that without: ";
@@ -109,7 +109,7 @@ std::optional<double> LoadFacts::share_of_resharing() const {
   return std::log(resharing) / std::log(in_motion / at_rest);
 }
 
-LoadFactors::LoadFactors(const StandardInCase& standard, const LiftFacts& facts)
+LoadFactors::LoadFactors(const given::Standard& standard, const LiftFacts& facts)
     : standard_(standard), facts_(facts) {}
 
 const NamedFactor* LoadFactors::contingency() const {

@@ -14,7 +14,7 @@ namespace blocklift::pipeline {
 /// The factors on loads that hooks, slings, lugs and cranes have in common, as steps of a chain.
 class LoadFactors {
  public:
-  LoadFactors(const StandardInCase& standard, const LiftFacts& facts);
+  LoadFactors(const given::Standard& standard, const LiftFacts& facts);
 
   void add_contingency(ChainBuilder& chain) const;
   /// By the box of the centre where the case has one, else by the rules' factor.
@@ -65,7 +65,7 @@ class LoadFactors {
   /// Fastest of the hoists, m/s.
   double hoisting_speed() const;
 
-  const StandardInCase& standard() const { return standard_; }
+  const given::Standard& standard() const { return standard_; }
   const StandardRules& rules() const { return standard_.rules; }
   const LiftFacts& facts() const { return facts_; }
   const HoistingClass* hoisting_class() const;
@@ -91,7 +91,7 @@ class LoadFactors {
   const NamedFactor* contingency() const;
   const AmplificationRow* amplification_row() const;
 
-  const StandardInCase& standard_;
+  const given::Standard& standard_;
   const LiftFacts& facts_;
 };
 

@@ -307,7 +307,7 @@ Chain sling_chain(const LoadFactors& factors, const SlingFacts& sling) {
   return chain.finish();
 }
 
-std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCase& shackle,
+std::vector<Chain> shackle_chains(const LoadFactors& factors, const given::Shackle& shackle,
                                   const LugPull& pull) {
   const ShackleRules& rules = *factors.rules().shackle;
   const std::string& lug = shackle.name.value;
@@ -349,7 +349,7 @@ std::vector<Chain> shackle_chains(const LoadFactors& factors, const ShackleInCas
   return chains;
 }
 
-std::vector<Chain> master_link_chains(const LoadFactors& factors, const MasterLinkInCase& link,
+std::vector<Chain> master_link_chains(const LoadFactors& factors, const given::MasterLink& link,
                                       const HookFacts& hook) {
   const Accessory accessory{link.working_load, link.breaking_load, "standard.master_links"};
   const auto begin = [&](const std::string& name) {
@@ -373,7 +373,7 @@ std::vector<Chain> master_link_chains(const LoadFactors& factors, const MasterLi
   return chains;
 }
 
-std::vector<Chain> sheave_chains(const LoadFactors& factors, const SheaveInCase& sheave,
+std::vector<Chain> sheave_chains(const LoadFactors& factors, const given::Sheave& sheave,
                                  const SlingFacts& sling) {
   const Accessory accessory{sheave.working_load, sheave.breaking_load, "standard.sheaves"};
   const auto begin = [&](const std::string& name, bool in_motion) {

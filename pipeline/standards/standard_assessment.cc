@@ -127,7 +127,7 @@ const Chain* StandardAssessment::governing() const {
   return worst;
 }
 
-StandardAssessment assess_standard(const StandardInCase& standard, const LiftFacts& facts) {
+StandardAssessment assess_standard(const given::Standard& standard, const LiftFacts& facts) {
   const LoadFactors factors(standard, facts);
   const StandardRules& rules = standard.rules;
   StandardAssessment result{rules.name, rules.title, rules.edition, rules.source, {}, {}};
@@ -135,17 +135,17 @@ StandardAssessment assess_standard(const StandardInCase& standard, const LiftFac
   chains.push_back(lift_chain(factors));
   for (const HookFacts& hook : facts.hooks) chains.push_back(hook_chain(factors, hook));
   for (const SlingFacts& sling : facts.slings) chains.push_back(sling_chain(factors, sling));
-  for (const ShackleInCase& shackle : standard.shackles)
+  for (const given::Shackle& shackle : standard.shackles)
     for (const LugPull& pull : facts.pulls)
       if (pull.lug == shackle.name.value)
         for (Chain& chain : shackle_chains(factors, shackle, pull))
           chains.push_back(std::move(chain));
-  for (const MasterLinkInCase& link : standard.master_links)
+  for (const given::MasterLink& link : standard.master_links)
     for (const HookFacts& hook : facts.hooks)
       if (hook.name == link.name.value)
         for (Chain& chain : master_link_chains(factors, link, hook))
           chains.push_back(std::move(chain));
-  for (const SheaveInCase& sheave : standard.sheaves)
+  for (const given::Sheave& sheave : standard.sheaves)
     for (const SlingFacts& sling : facts.slings)
       if (sling.name == sheave.name.value)
         for (Chain& chain : sheave_chains(factors, sheave, sling))

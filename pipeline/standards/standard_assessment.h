@@ -28,6 +28,6 @@ struct StandardAssessment {
 
 /// @throws std::out_of_range if the case chooses what the rules do not have; a case that was read
 /// without complaints does not.
-StandardAssessment assess_standard(const StandardInCase& standard, const LiftFacts& facts);
+StandardAssessment assess_standard(const given::Standard& standard, const LiftFacts& facts);
 
 }  // namespace blocklift::pipeline

@@ -63,7 +63,7 @@ std::unique_ptr<structure::ElasticModel> model_of(const LiftCase& lift_case) {
 
 bool runs_over_edges(const LiftCase& lift_case) {
   return std::ranges::any_of(lift_case.ropes,
-                             [](const RopeInCase& rope) { return !rope.edges.empty(); });
+                             [](const given::Rope& rope) { return !rope.edges.empty(); });
 }
 
 template <class Value>

@@ -15,7 +15,8 @@ constexpr std::array<const char*, 6> freedoms = {"surge", "sway", "heave", "roll
 
 bool is_of_buoyancy(std::size_t freedom) { return freedom >= 2 && freedom <= 4; }
 
-void check_matrix_of_buoyancy(const LinearBuoyancyInCase& buoyancy, Reading& reading, const Mark&) {
+void check_matrix_of_buoyancy(const given::LinearBuoyancy& buoyancy, Reading& reading,
+                              const Mark&) {
   if (!buoyancy.stiffness) {
     if (buoyancy.about) {
       reading.error(buoyancy.place, "about is given without the stiffness that it is meant for");
@@ -23,7 +24,7 @@ void check_matrix_of_buoyancy(const LinearBuoyancyInCase& buoyancy, Reading& rea
     return;
   }
   check_matrix("stiffness", buoyancy.stiffness, stiffness_dimensions, reading);
-  const MatrixInCase& rows = buoyancy.stiffness->value;
+  const given::FreedomMatrix& rows = buoyancy.stiffness->value;
   for (std::size_t row = 0; row < 6; ++row) {
     for (std::size_t column = 0; column < 6; ++column) {
       if ((is_of_buoyancy(row) && is_of_buoyancy(column)) || rows[row][column].value == 0.0) {
@@ -74,8 +75,8 @@ std::string more_than_buoyancy(const Eigen::MatrixXd& stiffness, Eigen::Index bo
   return {};
 }
 
-void check_database(const VesselInCase& vessel, Diagnostics& diagnostics) {
-  const LinearBuoyancyInCase& buoyancy = *vessel.linear_buoyancy;
+void check_database(const given::Vessel& vessel, Diagnostics& diagnostics) {
+  const given::LinearBuoyancy& buoyancy = *vessel.linear_buoyancy;
   if (buoyancy.stiffness || !vessel.hydrodynamics) return;
   const Eigen::MatrixXd& stiffness = vessel.hydrodynamics->hydrostatic_stiffness;
   const auto refuse = [&](const std::string& what) {
@@ -95,30 +96,30 @@ void check_database(const VesselInCase& vessel, Diagnostics& diagnostics) {
 
 }  // namespace
 
-Format<LinearBuoyancyInCase> linear_buoyancy_format() {
-  Table<LinearBuoyancyInCase> table(
+Format<given::LinearBuoyancy> linear_buoyancy_format() {
+  Table<given::LinearBuoyancy> table(
       "linear buoyancy",
       "Buoyancy that is linear in heave, roll and pitch about where the vessel floats at the "
       "start, with all of the waves' forces from a database, in place of the pressure on the hull "
       "as it lies at each instant. Weight, and that of what the vessel carries, acts as ever.");
   table
-      .optional("stiffness", &LinearBuoyancyInCase::stiffness,
+      .optional("stiffness", &given::LinearBuoyancy::stiffness,
                 located(matrix_format(stiffness_dimensions)),
                 "of buoyancy and weight together, as publications have it: 6 rows of 6 for surge, "
                 "sway, heave, roll, pitch, yaw along the vessel's axes, where those of surge, sway "
                 "and yaw are 0; the weight is that of the vessel's own mass at its centre of mass. "
                 "That of its database if left out, or, computed, of its hull at the start")
-      .optional("about", &LinearBuoyancyInCase::about, position_format(),
+      .optional("about", &given::LinearBuoyancy::about, position_format(),
                 "point of the vessel's frame for which the stiffness is meant; its centre of mass "
                 "if left out")
-      .place(&LinearBuoyancyInCase::place)
+      .place(&given::LinearBuoyancy::place)
       .rule(check_matrix_of_buoyancy);
   return table.format();
 }
 
-void check_linear_buoyancy(const std::vector<VesselInCase>& vessels, bool in_waves,
+void check_linear_buoyancy(const std::vector<given::Vessel>& vessels, bool in_waves,
                            Diagnostics& diagnostics) {
-  for (const VesselInCase& vessel : vessels) {
+  for (const given::Vessel& vessel : vessels) {
     if (!vessel.linear_buoyancy) continue;
     const Mark& mark = vessel.linear_buoyancy->place;
     const std::string start =

@@ -27,17 +27,17 @@ using dynamics::WaveField;
 
 WaveField make_waves(const MarineParts& parts, double gravity, const SeaBand& band) {
   const dynamics::Water water = water_of(*parts.sea, gravity);
-  const WavesInCase& waves = *parts.sea->waves;
+  const given::Waves& waves = *parts.sea->waves;
   const dynamics::WaveRamp ramp{0.0, waves.ramp};
   if (waves.regular) {
     std::vector<dynamics::WaveComponent> components;
-    for (const RegularWaveInCase& wave : *waves.regular) {
+    for (const given::RegularWave& wave : *waves.regular) {
       components.push_back({wave.amplitude, wave.omega(), wave.heading, wave.phase});
     }
     return WaveField(water, components, ramp);
   }
   if (waves.spectrum) {
-    const SpectrumInCase& s = *waves.spectrum;
+    const given::Spectrum& s = *waves.spectrum;
     dynamics::SeaRealisation how;
     how.heading = s.heading;
     how.spreading_exponent = s.spreading;
@@ -53,9 +53,9 @@ WaveField make_waves(const MarineParts& parts, double gravity, const SeaBand& ba
   return realise(record, water);
 }
 
-dynamics::Current make_current(const SeaInCase& sea, const dynamics::Water& water) {
+dynamics::Current make_current(const given::Sea& sea, const dynamics::Water& water) {
   if (!sea.current) return {};
-  const CurrentInCase& current = *sea.current;
+  const given::Current& current = *sea.current;
   switch (current.profile) {
     case CurrentProfile::tidal:
       return dynamics::Current::tidal(current.speed, current.towards, water.depth);
@@ -67,7 +67,7 @@ dynamics::Current make_current(const SeaInCase& sea, const dynamics::Water& wate
   return dynamics::Current::uniform(current.speed, current.towards);
 }
 
-void read_record(WaveRecordInCase& record, const std::filesystem::path& folder,
+void read_record(given::WaveRecord& record, const std::filesystem::path& folder,
                  Diagnostics& diagnostics) {
   const auto path = path_of_named_file(record.file, folder, diagnostics);
   if (!path) return;
@@ -98,7 +98,7 @@ void read_record(WaveRecordInCase& record, const std::filesystem::path& folder,
 
 /// Complains if a hull's panels are too large for waves.
 /// @param length of the waves, m. @param panels that must go into one of them.
-void check_panels(const VesselInCase& vessel, const dynamics::Water& water, double length,
+void check_panels(const given::Vessel& vessel, const dynamics::Water& water, double length,
                   double panels, const Mark& mark, Diagnostics& diagnostics) {
   dynamics::HullDemands demands;
   demands.largest_warp = 0.5;
@@ -122,7 +122,7 @@ void check_panels(const VesselInCase& vessel, const dynamics::Water& water, doub
 }
 
 /// An irregular sea's shortest waves have little of its energy.
-void check_panels(const VesselInCase& vessel, const WaveField& waves, const SeaBand& band,
+void check_panels(const given::Vessel& vessel, const WaveField& waves, const SeaBand& band,
                   const Mark& mark, Diagnostics& diagnostics) {
   const dynamics::Water& water = waves.water();
   const double shortest = waves.shortest_wave_length();
@@ -141,10 +141,10 @@ void check_panels(const VesselInCase& vessel, const WaveField& waves, const SeaB
 /// A database tells nothing of waves beyond its frequencies. Only regular ones may be there.
 void check_frequencies(const MarineParts& parts, Diagnostics& diagnostics) {
   if (!parts.sea->waves->regular) return;
-  for (const VesselInCase& vessel : parts.vessels) {
+  for (const given::Vessel& vessel : parts.vessels) {
     if (vessel.radiation.value == RadiationMethod::none || !vessel.hydrodynamics) continue;
     const std::vector<double>& known = vessel.hydrodynamics->frequencies;
-    for (const RegularWaveInCase& wave : *parts.sea->waves->regular) {
+    for (const given::RegularWave& wave : *parts.sea->waves->regular) {
       const double omega = wave.omega();
       if (omega >= (1 - 1e-9) * known.front() && omega <= (1 + 1e-9) * known.back()) continue;
       const Mark& mark = wave.frequency ? wave.frequency->mark : wave.period->mark;
@@ -159,7 +159,7 @@ void check_frequencies(const MarineParts& parts, Diagnostics& diagnostics) {
 }
 
 void check_sea(const MarineParts& parts, double gravity, Diagnostics& diagnostics) {
-  const SeaInCase& sea = *parts.sea;
+  const given::Sea& sea = *parts.sea;
   if (sea.current && sea.current->profile == CurrentProfile::tidal && !sea.depth) {
     diagnostics.error(sea.current->place, "a tidal current needs the depth of the sea");
     return;
@@ -175,7 +175,7 @@ void check_sea(const MarineParts& parts, double gravity, Diagnostics& diagnostic
     if (!check_sea_band(band, mark, diagnostics)) return;
     const Sea made = make_sea(parts, gravity, band);
     require_not_breaking(made.waves);
-    for (const VesselInCase& vessel : parts.vessels) {
+    for (const given::Vessel& vessel : parts.vessels) {
       if (vessel.model) check_panels(vessel, made.waves, band, mark, diagnostics);
     }
   } catch (const dynamics::ModelError& error) {
@@ -184,13 +184,13 @@ void check_sea(const MarineParts& parts, double gravity, Diagnostics& diagnostic
 }
 
 /// Of the vessel's frame, upright, by its own weight, m.
-double floating_height(const VesselInCase& vessel, const SeaInCase& sea) {
+double floating_height(const given::Vessel& vessel, const given::Sea& sea) {
   return dynamics::find_floating_height(dynamics::HullClusters(vessel.model->hull),
                                         dynamics::Matrix3::Identity(),
                                         vessel.model->model.mass / sea.density);
 }
 
-void check_floating(const VesselInCase& vessel, const SeaInCase& sea, Diagnostics& diagnostics) {
+void check_floating(const given::Vessel& vessel, const given::Sea& sea, Diagnostics& diagnostics) {
   if (!vessel.model) return;
   try {
     const double height = vessel.draught ? -vessel.draught->value : floating_height(vessel, sea);
@@ -207,7 +207,7 @@ void check_floating(const VesselInCase& vessel, const SeaInCase& sea, Diagnostic
   }
 }
 
-void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
+void check_vessel(const given::Vessel& vessel, Diagnostics& diagnostics) {
   if (vessel.name.value == "world" || vessel.name.value == "load") {
     diagnostics.error(vessel.name.mark,
                       fmt::format("a vessel cannot be named \"{}\"", vessel.name.value));
@@ -228,9 +228,9 @@ void check_vessel(const VesselInCase& vessel, Diagnostics& diagnostics) {
 }
 
 /// Draughts belong to databases, and to one vessel.
-void check_lowered(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
-  const VesselInCase* lowered = nullptr;
-  for (const VesselInCase& vessel : vessels) {
+void check_lowered(const std::vector<given::Vessel>& vessels, Diagnostics& diagnostics) {
+  const given::Vessel* lowered = nullptr;
+  for (const given::Vessel& vessel : vessels) {
     if (!vessel.draughts) continue;
     const std::string& name = vessel.name.value;
     if (vessel.radiation.value != RadiationMethod::database) {
@@ -250,10 +250,10 @@ void check_lowered(const std::vector<VesselInCase>& vessels, Diagnostics& diagno
 }
 
 /// There is one surface of the water.
-void check_radiation(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+void check_radiation(const std::vector<given::Vessel>& vessels, Diagnostics& diagnostics) {
   check_lowered(vessels, diagnostics);
-  const VesselInCase* first = nullptr;
-  for (const VesselInCase& vessel : vessels) {
+  const given::Vessel* first = nullptr;
+  for (const given::Vessel& vessel : vessels) {
     if (vessel.radiation.value == RadiationMethod::none) continue;
     if (!first) first = &vessel;
     if (vessel.radiation.value == first->radiation.value) continue;
@@ -272,7 +272,7 @@ void check_method(const MarineParts& parts, Diagnostics& diagnostics) {
   const Located<dynamics::PanelMethod>& method = parts.sea->radiation.method;
   if (method.value == dynamics::PanelMethod::marched_surface) return;
   bool computed = false;
-  for (const VesselInCase& vessel : parts.vessels) {
+  for (const given::Vessel& vessel : parts.vessels) {
     if (vessel.radiation.value == RadiationMethod::none) continue;
     computed = true;
     const std::string& name = vessel.name.value;
@@ -299,11 +299,11 @@ void check_method(const MarineParts& parts, Diagnostics& diagnostics) {
 }
 
 /// Drift needs mean forces: of one vessel alone from its far field, or of its database.
-void check_drift(const std::vector<VesselInCase>& vessels, Diagnostics& diagnostics) {
+void check_drift(const std::vector<given::Vessel>& vessels, Diagnostics& diagnostics) {
   const auto radiating = std::count_if(vessels.begin(), vessels.end(), [](const auto& vessel) {
     return vessel.radiation.value != RadiationMethod::none;
   });
-  for (const VesselInCase& vessel : vessels) {
+  for (const given::Vessel& vessel : vessels) {
     if (vessel.drift.value == DriftMethod::none) continue;
     const std::string& name = vessel.name.value;
     const auto refuse = [&](const std::string& why, const std::string& hint) {
@@ -335,7 +335,7 @@ class LineChecker {
   LineChecker(const MarineParts& parts, const std::vector<std::string>& bodies,
               Diagnostics& diagnostics)
       : known_(bodies), diagnostics_(diagnostics) {
-    for (const VesselInCase& vessel : parts.vessels) known_.push_back(vessel.name.value);
+    for (const given::Vessel& vessel : parts.vessels) known_.push_back(vessel.name.value);
   }
 
   void check(const std::string& line, const PointModel& from, const PointModel& to) {
@@ -363,12 +363,12 @@ class LineChecker {
 
 }  // namespace
 
-double RegularWaveInCase::omega() const {
+double given::RegularWave::omega() const {
   if (frequency) return frequency->value;
   return period ? 2.0 * std::numbers::pi / period->value : std::numeric_limits<double>::quiet_NaN();
 }
 
-Eigen::Matrix<double, 6, 1> DampingInCase::vector() const {
+Eigen::Matrix<double, 6, 1> given::Damping::vector() const {
   Eigen::Matrix<double, 6, 1> values;
   values << roll, pitch, yaw, surge, sway, heave;
   return values;
@@ -393,8 +393,8 @@ void check_draughts(const std::string& who, const Located<std::vector<double>>& 
   }
 }
 
-const VesselInCase* MarineParts::find_vessel(const std::string& name) const {
-  const auto found = std::find_if(vessels.begin(), vessels.end(), [&](const VesselInCase& vessel) {
+const given::Vessel* MarineParts::find_vessel(const std::string& name) const {
+  const auto found = std::find_if(vessels.begin(), vessels.end(), [&](const given::Vessel& vessel) {
     return vessel.name.value == name;
   });
   return found == vessels.end() ? nullptr : &*found;
@@ -402,7 +402,7 @@ const VesselInCase* MarineParts::find_vessel(const std::string& name) const {
 
 void load_marine_models(MarineParts& parts, const std::filesystem::path& beside,
                         ModelLibrary& library, Diagnostics& diagnostics) {
-  for (VesselInCase& vessel : parts.vessels) {
+  for (given::Vessel& vessel : parts.vessels) {
     if (vessel.model_name.value.empty()) continue;
     vessel.model = library.load_vessel(vessel.model_name, beside, diagnostics);
   }
@@ -420,7 +420,7 @@ void check_marine_parts(const MarineParts& parts, double gravity,
                       fmt::format("vessel {} floats in no sea", parts.vessels.front().name.value),
                       {"add sea: {} for calm deep sea water"});
   }
-  for (const VesselInCase& vessel : parts.vessels) check_vessel(vessel, diagnostics);
+  for (const given::Vessel& vessel : parts.vessels) check_vessel(vessel, diagnostics);
   check_radiation(parts.vessels, diagnostics);
   check_method(parts, diagnostics);
   check_vessel_databases(parts, gravity, diagnostics);
@@ -428,22 +428,22 @@ void check_marine_parts(const MarineParts& parts, double gravity,
   check_linear_buoyancy(parts.vessels, parts.sea && parts.sea->waves, diagnostics);
   if (parts.sea && sound_so_far) {
     check_sea(parts, gravity, diagnostics);
-    for (const VesselInCase& vessel : parts.vessels) {
+    for (const given::Vessel& vessel : parts.vessels) {
       check_floating(vessel, *parts.sea, diagnostics);
     }
   }
   LineChecker lines(parts, bodies, diagnostics);
-  for (const MooringInCase& mooring : parts.moorings) {
+  for (const given::Mooring& mooring : parts.moorings) {
     lines.check("mooring " + mooring.name.value, mooring.anchor, mooring.fairlead);
   }
-  for (const TuggerInCase& tugger : parts.tuggers) {
+  for (const given::Tugger& tugger : parts.tuggers) {
     lines.check("tugger line " + tugger.name.value, tugger.from, tugger.to);
   }
 }
 
 std::vector<PlacedHull> place_hulls(const MarineParts& parts) {
   std::vector<PlacedHull> hulls;
-  for (const VesselInCase& vessel : parts.vessels) {
+  for (const given::Vessel& vessel : parts.vessels) {
     const dynamics::Hull& hull = vessel.model->hull;
     const double height =
         vessel.draught ? -vessel.draught->value : floating_height(vessel, *parts.sea);

@@ -23,8 +23,10 @@ struct HydrodynamicDatabase;
 
 namespace blocklift::pipeline {
 
+namespace given {
+
 /// A regular wave: by its frequency or its period.
-struct RegularWaveInCase {
+struct RegularWave {
   double amplitude = std::numeric_limits<double>::quiet_NaN();  ///< m
   std::optional<Located<double>> frequency;                     ///< rad/s
   std::optional<Located<double>> period;                        ///< s
@@ -34,10 +36,14 @@ struct RegularWaveInCase {
   double omega() const;  ///< rad/s; NaN if neither is given
 };
 
+}  // namespace given
+
 enum class SpectrumShape { jonswap, pierson_moskowitz, issc, table };
 
+namespace given {
+
 /// An irregular sea.
-struct SpectrumInCase {
+struct Spectrum {
   SpectrumShape shape = SpectrumShape::jonswap;
   std::optional<Located<double>> significant_height;                   ///< m
   std::optional<Located<double>> peak_period;                          ///< s
@@ -52,7 +58,7 @@ struct SpectrumInCase {
 };
 
 /// A measured elevation.
-struct WaveRecordInCase {
+struct WaveRecord {
   Located<std::string> file;                                    ///< CSV: time in s, elevation in m
   double heading = 0;                                           ///< direction of travel, rad
   std::vector<double> elevation;                                ///< after the file has been read, m
@@ -62,22 +68,28 @@ struct WaveRecordInCase {
 };
 
 /// Waves: regular ones, a spectrum, or a record.
-struct WavesInCase {
-  std::optional<std::vector<RegularWaveInCase>> regular;
-  std::optional<SpectrumInCase> spectrum;
-  std::optional<WaveRecordInCase> record;
+struct Waves {
+  std::optional<std::vector<RegularWave>> regular;
+  std::optional<Spectrum> spectrum;
+  std::optional<WaveRecord> record;
   double ramp = 0;  ///< s
   Mark place;
 };
 
+}  // namespace given
+
 enum class CurrentProfile { uniform, tidal, wind_driven };
 
-struct CurrentInCase {
+namespace given {
+
+struct Current {
   double speed = 0;    ///< m/s
   double towards = 0;  ///< rad
   CurrentProfile profile = CurrentProfile::uniform;
   Mark place;
 };
+
+}  // namespace given
 
 /// For what the radiation of floating bodies is computed.
 struct RadiationSettings {
@@ -89,18 +101,20 @@ struct RadiationSettings {
   Mark place;
 };
 
+namespace given {
+
 /// The water and what moves it.
-struct SeaInCase {
+struct Sea {
   double density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m^3
   std::optional<double> depth;                                ///< m; none: deep
-  std::optional<WavesInCase> waves;
-  std::optional<CurrentInCase> current;
+  std::optional<Waves> waves;
+  std::optional<Current> current;
   RadiationSettings radiation;
   Mark place;
 };
 
 /// Damping of a vessel's six motions.
-struct DampingInCase {
+struct Damping {
   double surge = 0, sway = 0, heave = 0;  ///< N s/m, or N s2/m2
   double roll = 0, pitch = 0, yaw = 0;    ///< N m s, or N m s2
 
@@ -109,25 +123,25 @@ struct DampingInCase {
 };
 
 /// A slender member in the water.
-struct MemberInCase {
+struct Member {
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< in the vessel's frame, m
   double diameter = 0;                                   ///< m
   double drag_coefficient = 0;
 };
 
 /// Spring and damper of six freedoms that hold a vessel at its place.
-struct RestraintInCase {
-  std::optional<Located<MatrixInCase>> stiffness, damping;
+struct Restraint {
+  std::optional<Located<FreedomMatrix>> stiffness, damping;
   std::optional<Vector3> about;  ///< in the vessel's frame, m; none: its centre of mass
   bool symmetric = true;
 
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   /// (moment; force) by (turn; displacement), SI; zero if it is not given.
-  static Matrix6 matrix(const std::optional<Located<MatrixInCase>>& given);
+  static Matrix6 matrix(const std::optional<Located<FreedomMatrix>>& given);
 };
 
 /// Drag of the current by coefficients over the heading.
-struct CurrentLoadInCase {
+struct CurrentLoad {
   double area = std::numeric_limits<double>::quiet_NaN();    ///< m2
   double length = std::numeric_limits<double>::quiet_NaN();  ///< of the yawing moment, m
   /// Angle of the relative flow (rad), C_X, C_Y, C_N.
@@ -136,12 +150,16 @@ struct CurrentLoadInCase {
   Mark place;
 };
 
+}  // namespace given
+
 enum class DriftMethod { none, newman };
 
 enum class RadiationMethod { none, database, direct };
 
+namespace given {
+
 /// A vessel afloat.
-struct VesselInCase {
+struct Vessel {
   Located<std::string> name;
   Located<std::string> model_name;
   std::shared_ptr<const Vessel> model;     ///< after the look-up; null if it failed
@@ -158,15 +176,15 @@ struct VesselInCase {
   int hydrodynamic_body = 0;
   Located<DriftMethod> drift{DriftMethod::none, {}};
   std::string database_content;  ///< fingerprint of the file
-  DampingInCase damping, quadratic_damping;
-  std::optional<CurrentLoadInCase> current_load;
-  std::optional<RestraintInCase> restraint;
-  std::optional<LinearBuoyancyInCase> linear_buoyancy;  ///< none: of the hull as it lies
-  std::vector<MemberInCase> members;
+  Damping damping, quadratic_damping;
+  std::optional<CurrentLoad> current_load;
+  std::optional<Restraint> restraint;
+  std::optional<LinearBuoyancy> linear_buoyancy;  ///< none: of the hull as it lies
+  std::vector<Member> members;
 };
 
 /// A heavy line from an anchor.
-struct MooringInCase {
+struct Mooring {
   Located<std::string> name;
   PointModel anchor;
   PointModel fairlead;
@@ -178,7 +196,7 @@ struct MooringInCase {
 };
 
 /// A light straight line, of a winch that stands or of one that holds a tension.
-struct TuggerInCase {
+struct Tugger {
   Located<std::string> name;
   PointModel from;
   PointModel to;
@@ -189,25 +207,27 @@ struct TuggerInCase {
   std::optional<double> breaking_load;     ///< N
 };
 
+}  // namespace given
+
 /// What floats, in what, and how it is held; part of lift cases and of mechanism files. SI units.
 struct MarineParts {
-  std::optional<SeaInCase> sea;
-  std::vector<VesselInCase> vessels;
-  std::vector<MooringInCase> moorings;
-  std::vector<TuggerInCase> tuggers;
+  std::optional<given::Sea> sea;
+  std::vector<given::Vessel> vessels;
+  std::vector<given::Mooring> moorings;
+  std::vector<given::Tugger> tuggers;
   /// A load that makes waves while it is lowered into the water; null: there is none.
   std::shared_ptr<const Vessel> lowered_load;
   double deepest_draught_of_load = 0;  ///< from its lowest point, m
 
-  const VesselInCase* find_vessel(const std::string& name) const;
+  const given::Vessel* find_vessel(const std::string& name) const;
 };
 
-Format<SeaInCase> sea_format();
-Format<DampingInCase> vessel_damping_format();
-Format<DampingInCase> vessel_quadratic_damping_format();
-Format<VesselInCase> vessel_in_case_format();
-Format<MooringInCase> mooring_format();
-Format<TuggerInCase> tugger_format();
+Format<given::Sea> sea_format();
+Format<given::Damping> vessel_damping_format();
+Format<given::Damping> vessel_quadratic_damping_format();
+Format<given::Vessel> vessel_in_case_format();
+Format<given::Mooring> mooring_format();
+Format<given::Tugger> tugger_format();
 
 /// Declares the keys of the marine parts in the table of a case or mechanism.
 template <class T>

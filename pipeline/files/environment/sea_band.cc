@@ -26,7 +26,7 @@ constexpr double left_out_below = 1e-3, left_out_above = 4e-3;
 /// How the energy of a sea lies over the frequencies, m2.
 class SeaEnergy {
  public:
-  SeaEnergy(const WavesInCase& waves, const dynamics::Water& water) {
+  SeaEnergy(const given::Waves& waves, const dynamics::Water& water) {
     if (waves.spectrum) {
       spectrum_ = make_spectrum(*waves.spectrum);
       all_ = spectrum_->moment(0);
@@ -109,7 +109,7 @@ Carried find_carried(const MarineParts& parts, const dynamics::Water& water) {
     constexpr double margin = 1.001;
     carried = {frequency_of_length(margin * panels_in_shortest_wave * widest, water), hull, widest};
   };
-  for (const VesselInCase& vessel : parts.vessels)
+  for (const given::Vessel& vessel : parts.vessels)
     if (vessel.model)
       take("vessel " + vessel.name.value, *vessel.model, water_level_of(vessel, water));
   if (const Vessel* load = parts.lowered_load.get())
@@ -118,7 +118,7 @@ Carried find_carried(const MarineParts& parts, const dynamics::Water& water) {
 }
 
 const dynamics::HydrodynamicDatabase* find_given(const MarineParts& parts) {
-  for (const VesselInCase& vessel : parts.vessels)
+  for (const given::Vessel& vessel : parts.vessels)
     if (vessel.radiation.value != RadiationMethod::none && vessel.hydrodynamics)
       return vessel.hydrodynamics.get();
   return nullptr;
@@ -126,7 +126,7 @@ const dynamics::HydrodynamicDatabase* find_given(const MarineParts& parts) {
 
 bool computes_radiation(const MarineParts& parts) {
   return parts.lowered_load ||
-         std::any_of(parts.vessels.begin(), parts.vessels.end(), [](const VesselInCase& vessel) {
+         std::any_of(parts.vessels.begin(), parts.vessels.end(), [](const given::Vessel& vessel) {
            return vessel.radiation.value != RadiationMethod::none;
          });
 }
@@ -245,7 +245,7 @@ std::string band_text(const SeaBand& band) {
 
 }  // namespace
 
-WaveSpectrum make_spectrum(const SpectrumInCase& s) {
+WaveSpectrum make_spectrum(const given::Spectrum& s) {
   switch (s.shape) {
     case SpectrumShape::jonswap:
       return WaveSpectrum::jonswap(s.significant_height->value, s.peak_period->value,
@@ -265,7 +265,7 @@ WaveSpectrum make_spectrum(const SpectrumInCase& s) {
   return WaveSpectrum::table(std::move(omega), std::move(density));
 }
 
-dynamics::WaveRecord make_record(const WaveRecordInCase& r) {
+dynamics::WaveRecord make_record(const given::WaveRecord& r) {
   dynamics::WaveRecord record;
   record.elevation = r.elevation;
   record.time_step = r.time_step;
@@ -274,7 +274,7 @@ dynamics::WaveRecord make_record(const WaveRecordInCase& r) {
   return record;
 }
 
-dynamics::Water water_of(const SeaInCase& sea, double gravity) {
+dynamics::Water water_of(const given::Sea& sea, double gravity) {
   dynamics::Water water;
   water.density = sea.density;
   water.gravity = gravity;
@@ -282,7 +282,7 @@ dynamics::Water water_of(const SeaInCase& sea, double gravity) {
   return water;
 }
 
-double water_level_of(const VesselInCase& vessel, const dynamics::Water& water) {
+double water_level_of(const given::Vessel& vessel, const dynamics::Water& water) {
   const dynamics::Hull& hull = vessel.model->hull;
   if (vessel.draughts && !vessel.draughts->value.empty())
     return hull.bounds()[0].z() + vessel.draughts->value.back();
@@ -294,7 +294,7 @@ double water_level_of(const VesselInCase& vessel, const dynamics::Water& water) 
 }
 
 SeaBand find_sea_band(const MarineParts& parts, double gravity) {
-  const SeaInCase& sea = *parts.sea;
+  const given::Sea& sea = *parts.sea;
   const RadiationSettings& settings = sea.radiation;
   SeaBand band;
   band.radiation = {settings.lowest.value_or(usual_radiation[0]),

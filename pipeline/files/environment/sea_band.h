@@ -55,14 +55,14 @@ std::string doubt_about_sea(const MarineParts& parts, double gravity);
 /// @return Is it sound?
 bool check_sea_band(const SeaBand& band, const Mark& mark, Diagnostics& diagnostics);
 
-dynamics::Water water_of(const SeaInCase& sea, double gravity);
+dynamics::Water water_of(const given::Sea& sea, double gravity);
 /// Height of the calm water in the vessel's frame, m: by its deepest draught, its draught or its
 /// own weight. The vessel has its model.
 /// @throws dynamics::ModelError if it does not float.
-double water_level_of(const VesselInCase& vessel, const dynamics::Water& water);
+double water_level_of(const given::Vessel& vessel, const dynamics::Water& water);
 /// @throws dynamics::ModelError if it cannot be.
-dynamics::WaveSpectrum make_spectrum(const SpectrumInCase& spectrum);
+dynamics::WaveSpectrum make_spectrum(const given::Spectrum& spectrum);
 /// The record that was read, with all its frequencies and without a ramp.
-dynamics::WaveRecord make_record(const WaveRecordInCase& record);
+dynamics::WaveRecord make_record(const given::WaveRecord& record);
 
 }  // namespace blocklift::pipeline

@@ -51,7 +51,7 @@ DatabaseFile find_database(const Located<std::string>& file, const std::filesyst
   return place->second;
 }
 
-void find_body(VesselInCase& vessel, Diagnostics& diagnostics) {
+void find_body(given::Vessel& vessel, Diagnostics& diagnostics) {
   const std::vector<std::string>& names = vessel.hydrodynamics->body_names;
   if (names.size() == 1 && !vessel.database_body) return;
   const Located<std::string>& wanted = vessel.database_body ? *vessel.database_body : vessel.name;
@@ -66,7 +66,7 @@ void find_body(VesselInCase& vessel, Diagnostics& diagnostics) {
   vessel.hydrodynamic_body = static_cast<int>(found - names.begin());
 }
 
-void check_alone(const VesselInCase& vessel, Diagnostics& diagnostics) {
+void check_alone(const given::Vessel& vessel, Diagnostics& diagnostics) {
   if (!vessel.database && vessel.database_body) {
     diagnostics.error(vessel.database_body->mark,
                       fmt::format("vessel {} is a body of no database", vessel.name.value),
@@ -89,15 +89,15 @@ void check_alone(const VesselInCase& vessel, Diagnostics& diagnostics) {
 }
 
 /// One file for all that make waves, each of its bodies once.
-void check_together(const std::vector<const VesselInCase*>& vessels, Diagnostics& diagnostics) {
-  const auto first = std::find_if(vessels.begin(), vessels.end(), [](const VesselInCase* vessel) {
+void check_together(const std::vector<const given::Vessel*>& vessels, Diagnostics& diagnostics) {
+  const auto first = std::find_if(vessels.begin(), vessels.end(), [](const given::Vessel* vessel) {
     return bool{vessel->database};
   });
   if (first == vessels.end()) return;
   const Located<std::string>& file = *(*first)->database;
-  std::vector<const VesselInCase*> of_body(
+  std::vector<const given::Vessel*> of_body(
       (*first)->hydrodynamics ? (*first)->hydrodynamics->body_names.size() : 0, nullptr);
-  for (const VesselInCase* vessel : vessels) {
+  for (const given::Vessel* vessel : vessels) {
     if (!vessel->database || vessel->database->value != file.value) {
       diagnostics.error(vessel->database ? vessel->database->mark : vessel->name.mark,
                         fmt::format("vessel {} does not name the database {}, as {} does",
@@ -107,7 +107,7 @@ void check_together(const std::vector<const VesselInCase*>& vessels, Diagnostics
       return;
     }
     if (!vessel->hydrodynamics) return;
-    const VesselInCase*& taken = of_body[vessel->hydrodynamic_body];
+    const given::Vessel*& taken = of_body[vessel->hydrodynamic_body];
     if (taken != nullptr) {
       diagnostics.error(vessel->database->mark,
                         fmt::format("vessels {} and {} are the same body of {}", taken->name.value,
@@ -127,7 +127,7 @@ void check_together(const std::vector<const VesselInCase*>& vessels, Diagnostics
 }
 
 void check_water(const Located<std::string>& file, const HydrodynamicDatabase& database,
-                 const SeaInCase& sea, double gravity, Diagnostics& diagnostics) {
+                 const given::Sea& sea, double gravity, Diagnostics& diagnostics) {
   const auto differ = [](double a, double b) {
     return std::isinf(a) != std::isinf(b) || (!std::isinf(a) && std::abs(a - b) > 2e-3 * b);
   };
@@ -151,7 +151,7 @@ void check_water(const Located<std::string>& file, const HydrodynamicDatabase& d
 
 /// A vessel that waves meet must have their forces from all sides, since it may turn.
 void check_headings(const Located<std::string>& file, const HydrodynamicDatabase& database,
-                    const SeaInCase& sea, Diagnostics& diagnostics) {
+                    const given::Sea& sea, Diagnostics& diagnostics) {
   if (!sea.waves) return;
   try {
     dynamics::headings_of_whole_turn(file.value, database.headings);
@@ -171,10 +171,10 @@ void check_lids(const MarineParts& parts, bool named, bool radiating, Diagnostic
 
 }  // namespace
 
-void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesystem::path& beside,
+void load_vessel_databases(std::vector<given::Vessel>& vessels, const std::filesystem::path& beside,
                            Diagnostics& diagnostics) {
   DatabaseOfFile known;
-  for (VesselInCase& vessel : vessels) {
+  for (given::Vessel& vessel : vessels) {
     if (!vessel.database) continue;
     const DatabaseFile file = find_database(*vessel.database, beside, known, diagnostics);
     vessel.hydrodynamics = file.database;
@@ -184,17 +184,17 @@ void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesy
 }
 
 void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostics& diagnostics) {
-  std::vector<const VesselInCase*> radiating;
-  for (const VesselInCase& vessel : parts.vessels) {
+  std::vector<const given::Vessel*> radiating;
+  for (const given::Vessel& vessel : parts.vessels) {
     check_alone(vessel, diagnostics);
     if (vessel.radiation.value != RadiationMethod::none) radiating.push_back(&vessel);
   }
   check_together(radiating, diagnostics);
   check_lids(parts,
              std::any_of(radiating.begin(), radiating.end(),
-                         [](const VesselInCase* vessel) { return vessel->database.has_value(); }),
+                         [](const given::Vessel* vessel) { return vessel->database.has_value(); }),
              !radiating.empty(), diagnostics);
-  for (const VesselInCase* vessel : radiating) {
+  for (const given::Vessel* vessel : radiating) {
     if (!vessel->hydrodynamics || !parts.sea) continue;
     check_water(*vessel->database, *vessel->hydrodynamics, *parts.sea, gravity, diagnostics);
     check_headings(*vessel->database, *vessel->hydrodynamics, *parts.sea, diagnostics);
@@ -202,9 +202,9 @@ void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostic
   }
 }
 
-std::vector<std::string> doubts_about_database(const std::vector<VesselInCase>& vessels) {
+std::vector<std::string> doubts_about_database(const std::vector<given::Vessel>& vessels) {
   std::vector<std::string> sentences;
-  for (const VesselInCase& vessel : vessels) {
+  for (const given::Vessel& vessel : vessels) {
     if (vessel.radiation.value == RadiationMethod::none || !vessel.hydrodynamics) continue;
     std::vector<std::string> doubts = doubts_about_conventions(*vessel.hydrodynamics);
     if (std::string memory = doubt_about_memory(*vessel.hydrodynamics); !memory.empty())

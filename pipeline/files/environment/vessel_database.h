@@ -10,7 +10,7 @@ namespace blocklift::pipeline {
 
 /// Reads the databases that vessels name, each file once, and finds the vessels' bodies in them.
 /// Complains about files that cannot be used and bodies that they do not hold.
-void load_vessel_databases(std::vector<VesselInCase>& vessels, const std::filesystem::path& beside,
+void load_vessel_databases(std::vector<given::Vessel>& vessels, const std::filesystem::path& beside,
                            Diagnostics& diagnostics);
 
 /// Complains about databases that cannot stand for the water of these vessels: some vessels with
@@ -22,6 +22,6 @@ void check_vessel_databases(const MarineParts& parts, double gravity, Diagnostic
 /// What is doubtful of the database that vessels name, in sentences: that its memory does not give
 /// back its added mass and damping (doubt_about_memory), and that its figures contradict each other
 /// (doubts_about_conventions).
-std::vector<std::string> doubts_about_database(const std::vector<VesselInCase>& vessels);
+std::vector<std::string> doubts_about_database(const std::vector<given::Vessel>& vessels);
 
 }  // namespace blocklift::pipeline

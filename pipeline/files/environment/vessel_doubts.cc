@@ -11,7 +11,7 @@ namespace {
 
 std::string doubt_about_dry_vessels(const MarineParts& parts) {
   std::vector<std::string> names;
-  for (const VesselInCase& vessel : parts.vessels) {
+  for (const given::Vessel& vessel : parts.vessels) {
     if (vessel.radiation.value == RadiationMethod::none) names.push_back(vessel.name.value);
   }
   if (names.empty()) return {};
@@ -25,7 +25,7 @@ std::string doubt_about_dry_vessels(const MarineParts& parts) {
 
 /// Newtons by which the current at the surface pulls a vessel that lies still, by its linear
 /// damping.
-double pull_of_damping(const VesselInCase& vessel, const CurrentInCase& current) {
+double pull_of_damping(const given::Vessel& vessel, const given::Current& current) {
   const double angle = current.towards - vessel.heading;
   return current.speed *
          std::hypot(vessel.damping.surge * std::cos(angle), vessel.damping.sway * std::sin(angle));
@@ -41,7 +41,7 @@ std::vector<std::string> doubts_about_vessels(const MarineParts& parts) {
       doubts.push_back(std::move(dry));
   }
   if (!parts.sea->current) return doubts;
-  for (const VesselInCase& vessel : parts.vessels) {
+  for (const given::Vessel& vessel : parts.vessels) {
     if (!vessel.current_load) continue;
     const double pull = pull_of_damping(vessel, *parts.sea->current);
     if (!(pull > 0.0)) continue;

@@ -46,10 +46,10 @@ struct WaveDirections {
   bool spread = false;         ///< about one of them
 };
 
-WaveDirections directions_of(const WavesInCase& waves) {
+WaveDirections directions_of(const given::Waves& waves) {
   WaveDirections directions;
   if (waves.regular) {
-    for (const RegularWaveInCase& wave : *waves.regular) directions.single.push_back(wave.heading);
+    for (const given::RegularWave& wave : *waves.regular) directions.single.push_back(wave.heading);
   }
   if (waves.spectrum) {
     directions.single.push_back(waves.spectrum->heading);
@@ -64,7 +64,7 @@ WaveDirections directions_of(const WavesInCase& waves) {
 std::string doubt_about_headings(const MarineParts& parts) {
   if (!parts.sea || !parts.sea->waves) return {};
   const WaveDirections directions = directions_of(*parts.sea->waves);
-  const auto radiates = [](const VesselInCase& vessel) {
+  const auto radiates = [](const given::Vessel& vessel) {
     return vessel.radiation.value != RadiationMethod::none;
   };
   const auto first = std::find_if(parts.vessels.begin(), parts.vessels.end(), radiates);

@@ -11,8 +11,10 @@
 
 namespace blocklift::pipeline {
 
+namespace given {
+
 /// A single gust: by its shape, or by a table over time.
-struct GustInCase {
+struct Gust {
   std::optional<Located<dynamics::WindGust::Shape>> shape;             ///< none: one_minus_cosine
   std::optional<Located<double>> magnitude;                            ///< m/s
   std::optional<Located<double>> start;                                ///< s
@@ -25,7 +27,7 @@ struct GustInCase {
 };
 
 /// Wind, steady or with gusts.
-struct WindInCase {
+struct Wind {
   double speed = 0;    ///< at a height of 10 m, m/s
   double towards = 0;  ///< direction of travel from +x towards +y, rad
   double air_density = std::numeric_limits<double>::quiet_NaN();  ///< kg/m^3
@@ -33,7 +35,7 @@ struct WindInCase {
   dynamics::GustSpectrum gusts = dynamics::GustSpectrum::none;
   double gust_height = 10;  ///< at which the spectrum is taken, m
   int seed = 1;
-  std::optional<GustInCase> gust;
+  std::optional<Gust> gust;
 
   /// Does it change over time?
   bool is_gusty() const { return gusts != dynamics::GustSpectrum::none || gust; }
@@ -43,7 +45,9 @@ struct WindInCase {
   std::shared_ptr<const dynamics::WindField> make_field(bool at_rest) const;
 };
 
+}  // namespace given
+
 /// Shared by lift cases and mechanism files.
-Format<WindInCase> wind_format();
+Format<given::Wind> wind_format();
 
 }  // namespace blocklift::pipeline

@@ -9,13 +9,13 @@ namespace blocklift::pipeline {
 Format<Located<RopePoint>> rope_point_format();
 
 /// What the operator of a drive keeps, and what laws of Python see, at points in that format.
-Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point);
+Format<given::Keep> keep_format(const Format<Located<RopePoint>>& point);
 /// A law of a mechanism's drive, and what it sees, at such points.
-Format<KeepInCase> mechanism_law_format(const Format<Located<RopePoint>>& point);
+Format<given::Keep> mechanism_law_format(const Format<Located<RopePoint>>& point);
 /// A stage of a mechanism's operation, which ends with the last of its moves.
-Format<StageInCase> steered_stage_format(const Format<KeepInCase>& keeps);
+Format<given::Stage> steered_stage_format(const Format<given::Keep>& keeps);
 /// What goes wrong.
-Format<FaultInCase> fault_format();
+Format<given::Fault> fault_format();
 
 Format<DynamicsSettings> dynamics_format();
 Format<StructureSettings> structure_format();

@@ -15,7 +15,7 @@ std::string short_name(const std::string& model_name);
 std::string before_dot(const std::string& name);
 
 /// The hoists of a crane whose model could be read, and its bodies where asked: "C1.main".
-std::vector<std::string> parts_of(const CraneInCase& crane, bool with_bodies);
+std::vector<std::string> parts_of(const given::Crane& crane, bool with_bodies);
 
 /// Ropes, and hoists whose tackles count as ropes; nothing if a crane could not be read.
 std::vector<std::string> names_of_ropes(const LiftCase& lift_case);

@@ -2,7 +2,7 @@
 
 namespace blocklift::pipeline {
 
-CranePose pose_at_start(const CraneInCase& crane) {
+CranePose pose_at_start(const given::Crane& crane) {
   return pose_at_start(
       *crane.model, [&](const std::string& drive) { return crane.find_start(drive)->value.value; },
       crane.name.value);

@@ -6,7 +6,7 @@
 namespace blocklift::pipeline {
 namespace {
 
-void add(ContentHash& hash, const VesselInCase& vessel) {
+void add(ContentHash& hash, const given::Vessel& vessel) {
   if (vessel.model) add(hash, vessel.model->hull);
   hash.add(std::string_view(vessel.database_content));
 }
@@ -20,9 +20,9 @@ std::string hash_of_input(const LiftCase& lift_case) {
   if (const auto& block = lift_case.load.model; block && block->mesh)
     hash.add(std::string_view(block->mesh->content));
   if (const auto& vessel = lift_case.load.vessel) add(hash, vessel->hull);
-  for (const VesselInCase& vessel : lift_case.vessels) add(hash, vessel);
+  for (const given::Vessel& vessel : lift_case.vessels) add(hash, vessel);
   if (lift_case.sea && lift_case.sea->waves && lift_case.sea->waves->record) {
-    const WaveRecordInCase& record = *lift_case.sea->waves->record;
+    const given::WaveRecord& record = *lift_case.sea->waves->record;
     hash.add(record.elevation);
     hash.add(record.time_step);
     hash.add(record.start_time);

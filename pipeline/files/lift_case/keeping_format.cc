@@ -6,7 +6,7 @@
 namespace blocklift::pipeline {
 namespace {
 
-void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
+void check_keep(const given::Keep& keep, Reading& reading, const Mark& mark) {
   const int wishes = keep.level.has_value() + keep.over.has_value() + keep.tension.has_value() +
                      keep.share.has_value() + keep.law.has_value();
   if (wishes != 1)
@@ -47,7 +47,7 @@ void check_keep(const KeepInCase& keep, Reading& reading, const Mark& mark) {
                       std::string(text_of(due).noun) + " is due");
 }
 
-void check_sight(const SightInCase& sight, Reading& reading, const Mark& mark) {
+void check_sight(const given::Sight& sight, Reading& reading, const Mark& mark) {
   const int figures = sight.level.has_value() + sight.over.has_value() + sight.pull.has_value() +
                       sight.share.has_value();
   if (figures != 1)
@@ -64,7 +64,7 @@ void check_sight(const SightInCase& sight, Reading& reading, const Mark& mark) {
   only_with(sight.share.has_value(), "share", !sight.of.empty(), "of");
 }
 
-void check_sight_of_mechanism(const SightInCase& sight, Reading& reading, const Mark& mark) {
+void check_sight_of_mechanism(const given::Sight& sight, Reading& reading, const Mark& mark) {
   const int figures = sight.level.has_value() + sight.over.has_value() + sight.pull.has_value() +
                       sight.share.has_value();
   if (figures != 1)
@@ -76,8 +76,8 @@ void check_sight_of_mechanism(const SightInCase& sight, Reading& reading, const 
     reading.error(mark, "a share takes share and of, both");
 }
 
-void check_names_of_sights(const KeepInCase& keep, Reading& reading, const Mark&) {
-  for (const SightInCase& sight : keep.sees) {
+void check_names_of_sights(const given::Keep& keep, Reading& reading, const Mark&) {
+  for (const given::Sight& sight : keep.sees) {
     if (sight.name.value == "position" || sight.name.value == "speed")
       reading.error(sight.name.mark,
                     "\"" + sight.name.value + "\" is what a law sees of its own drive anyway",
@@ -85,139 +85,140 @@ void check_names_of_sights(const KeepInCase& keep, Reading& reading, const Mark&
   }
 }
 
-Format<SightInCase> sight_format(const Format<Located<RopePoint>>& point) {
-  Table<SightInCase> table("sight",
-                           "A figure that a law sees: a height (`level`), how far its drive would "
-                           "have to go to bring a head plumb over a point (`head`, `over`), a "
-                           "`tension`, or a `share` of the load.");
+Format<given::Sight> sight_format(const Format<Located<RopePoint>>& point) {
+  Table<given::Sight> table("sight",
+                            "A figure that a law sees: a height (`level`), how far its drive would "
+                            "have to go to bring a head plumb over a point (`head`, `over`), a "
+                            "`tension`, or a `share` of the load.");
   table
-      .optional("level", &SightInCase::level, point,
+      .optional("level", &given::Sight::level, point,
                 "the height of a hook (C1.main), lug, eye or point of a body, m")
-      .optional("with", &SightInCase::with, point,
+      .optional("with", &given::Sight::with, point,
                 "over that of this point; a height in the world if left out")
-      .optional("head", &SightInCase::head, located(reference()),
+      .optional("head", &given::Sight::head, located(reference()),
                 "hoist (C1.main) whose upper sheave a drive of a joint moves")
-      .optional("over", &SightInCase::over, point,
+      .optional("over", &given::Sight::over, point,
                 "from plumb over this hook, lug, eye or point of a body: travel of the drive, m or "
                 "rad")
-      .optional("tension", &SightInCase::pull, located(reference()),
+      .optional("tension", &given::Sight::pull, located(reference()),
                 "of this rope, or of this hoist's (C1.main) tackle, N")
-      .optional("share", &SightInCase::share, located(reference()),
+      .optional("share", &given::Sight::share, located(reference()),
                 "that this rope or hoist pulls of what it and those of `of` pull together, 0 to 1")
-      .optional("of", &SightInCase::of, list_of(located(reference()), 1),
+      .optional("of", &given::Sight::of, list_of(located(reference()), 1),
                 "ropes, or hoists (C1.main) whose tackle it is")
       .rule(check_sight)
-      .place(&SightInCase::place);
+      .place(&given::Sight::place);
   return table.format();
 }
 
 // What the head of a case is here a point of a body, which stands in `with`.
-Format<SightInCase> mechanism_sight_format(const Format<Located<RopePoint>>& point) {
-  Table<SightInCase> table(
+Format<given::Sight> mechanism_sight_format(const Format<Located<RopePoint>>& point) {
+  Table<given::Sight> table(
       "seen figure",
       "A figure that a law of a mechanism sees: a height (`level`), how far "
       "its drive would have to go to bring a point plumb over another (`from`, "
       "`over`), a `tension`, or a `share` of what ropes pull.");
-  table.optional("level", &SightInCase::level, point, "the height of this point, m")
+  table.optional("level", &given::Sight::level, point, "the height of this point, m")
       .optional(
-          "from", &SightInCase::with, point,
+          "from", &given::Sight::with, point,
           "over that of this point; a height in the world if left out. With `over`: the point "
           "that the drive moves")
-      .optional("over", &SightInCase::over, point,
+      .optional("over", &given::Sight::over, point,
                 "from plumb over this point: travel of the drive of a joint, m or rad")
-      .optional("tension", &SightInCase::pull, located(reference()), "of this rope, N")
-      .optional("share", &SightInCase::share, located(reference()),
+      .optional("tension", &given::Sight::pull, located(reference()), "of this rope, N")
+      .optional("share", &given::Sight::share, located(reference()),
                 "that this rope pulls of what it and those of `of` pull together, 0 to 1")
-      .optional("of", &SightInCase::of, list_of(located(reference()), 1), "ropes")
+      .optional("of", &given::Sight::of, list_of(located(reference()), 1), "ropes")
       .rule(check_sight_of_mechanism)
-      .place(&SightInCase::place);
+      .place(&given::Sight::place);
   return table.format();
 }
 
 }  // namespace
 
-Format<KeepInCase> keep_format(const Format<Located<RopePoint>>& point) {
-  Table<KeepInCase> table("keeping",
-                          "What the operator of a drive keeps while he steers it after what he "
-                          "sees: a height (`level`), a head plumb over a point (`head`, `over`), a "
-                          "`tension`, or a `share` of the load. He asks for the speed that "
-                          "would take away in the time `correction` what he saw a `reaction` ago, "
-                          "and the drive follows within its limits. Or a `law`, a function of "
-                          "Python, gives the speed.");
+Format<given::Keep> keep_format(const Format<Located<RopePoint>>& point) {
+  Table<given::Keep> table(
+      "keeping",
+      "What the operator of a drive keeps while he steers it after what he "
+      "sees: a height (`level`), a head plumb over a point (`head`, `over`), a "
+      "`tension`, or a `share` of the load. He asks for the speed that "
+      "would take away in the time `correction` what he saw a `reaction` ago, "
+      "and the drive follows within its limits. Or a `law`, a function of "
+      "Python, gives the speed.");
   table
-      .optional("level", &KeepInCase::level, point,
+      .optional("level", &given::Keep::level, point,
                 "a hook (C1.main), lug, eye or point of a body, whose height a winch keeps")
-      .optional("with", &KeepInCase::with, point,
+      .optional("with", &given::Keep::with, point,
                 "as high as this point; a height in the world if left out")
-      .optional("above", &KeepInCase::above, located(quantity(Dimension::length)),
+      .optional("above", &given::Keep::above, located(quantity(Dimension::length)),
                 "of level over with; if left out 0 m, or without `with` the height at which the "
                 "keeping begins")
-      .optional("head", &KeepInCase::head, located(reference()),
+      .optional("head", &given::Keep::head, located(reference()),
                 "hoist (C1.main) whose upper sheave the drive of a joint keeps plumb")
-      .optional("over", &KeepInCase::over, point,
+      .optional("over", &given::Keep::over, point,
                 "over this hook, lug, eye or point of a body, as near as the drive alone can")
-      .optional("tension", &KeepInCase::tension,
+      .optional("tension", &given::Keep::tension,
                 located(quantity(Dimension::force, Range::positive())),
                 "of the winch's own rope, or of the hoist's tackle")
-      .optional("share", &KeepInCase::share,
+      .optional("share", &given::Keep::share,
                 located(quantity(Dimension::ratio, Range::between(0, 1))),
                 "that it pulls of what it and the ropes of `of` pull together")
-      .optional("of", &KeepInCase::of, list_of(located(reference()), 1),
+      .optional("of", &given::Keep::of, list_of(located(reference()), 1),
                 "ropes, or hoists (C1.main) whose tackle it is")
-      .optional("stiffness", &KeepInCase::stiffness,
+      .optional("stiffness", &given::Keep::stiffness,
                 located(quantity(Dimension::stiffness, Range::positive())),
                 "by how much the tension, or what is pulled above the share, falls for each metre "
                 "that is let out. That of the rope alone if left out, which is never too little to "
                 "come to rest; a load that follows its hook changes its share far less, and is "
                 "brought to it sooner with its own figure")
-      .by_default("reaction", &KeepInCase::reaction,
+      .by_default("reaction", &given::Keep::reaction,
                   quantity(Dimension::time, Range::not_negative()), "1 s",
                   "from what the operator sees to what he does")
-      .optional("correction", &KeepInCase::correction,
+      .optional("correction", &given::Keep::correction,
                 located(quantity(Dimension::time, Range::positive())),
                 fmt::format("in which he would take away what he sees, {} s if left out; behind a "
                             "wish that moves on evenly he lags by its speed times this",
-                            KeepInCase::usual_correction))
-      .optional("tolerance", &KeepInCase::tolerance,
+                            given::Keep::usual_correction))
+      .optional("tolerance", &given::Keep::tolerance,
                 quantity_of({Dimension::length, Dimension::force, Dimension::ratio},
                             Range::not_negative()),
                 "what he lets be: length, force or share, as the wish is; nothing if left out")
-      .optional("law", &KeepInCase::law, located(reference()),
+      .optional("law", &given::Keep::law, located(reference()),
                 "name of the function of Python that gives the drive's speed in place of a wish: "
                 "such a case is run from Python, by the argument `laws` of Case.simulate")
-      .optional("sees", &KeepInCase::sees, named_tables(sight_format(point)),
+      .optional("sees", &given::Keep::sees, named_tables(sight_format(point)),
                 "what the law is given, by name, beside the `position` and `speed` of its drive")
-      .optional("every", &KeepInCase::every, quantity(Dimension::time, Range::between(0.01, 1)),
+      .optional("every", &given::Keep::every, quantity(Dimension::time, Range::between(0.01, 1)),
                 "time between two looks of the law, shortened so that the reaction is a number of "
                 "them; 0.2 s if left out")
       .rule(check_keep)
       .rule(check_names_of_sights)
-      .place(&KeepInCase::place);
+      .place(&given::Keep::place);
   return table.format();
 }
 
-Format<KeepInCase> mechanism_law_format(const Format<Located<RopePoint>>& point) {
-  Table<KeepInCase> table("law",
-                          "A law of your own, a function of Python, that gives the speed of a "
-                          "mechanism's drive after what it sees.");
+Format<given::Keep> mechanism_law_format(const Format<Located<RopePoint>>& point) {
+  Table<given::Keep> table("law",
+                           "A law of your own, a function of Python, that gives the speed of a "
+                           "mechanism's drive after what it sees.");
   table
-      .optional("law", &KeepInCase::law, located(reference()),
+      .optional("law", &given::Keep::law, located(reference()),
                 "name of the function: such a mechanism is run from Python, by the argument `laws` "
                 "of Case.simulate")
-      .optional("sees", &KeepInCase::sees, named_tables(mechanism_sight_format(point)),
+      .optional("sees", &given::Keep::sees, named_tables(mechanism_sight_format(point)),
                 "what the law is given, by name, beside the `position` and `speed` of its drive")
-      .optional("every", &KeepInCase::every, quantity(Dimension::time, Range::between(0.01, 1)),
+      .optional("every", &given::Keep::every, quantity(Dimension::time, Range::between(0.01, 1)),
                 "time between two looks of the law, shortened so that the reaction is a number of "
                 "them; 0.2 s if left out")
-      .by_default("reaction", &KeepInCase::reaction,
+      .by_default("reaction", &given::Keep::reaction,
                   quantity(Dimension::time, Range::not_negative()), "1 s",
                   "from what the law sees to what is done")
-      .rule([](const KeepInCase& keep, Reading& reading, const Mark& mark) {
+      .rule([](const given::Keep& keep, Reading& reading, const Mark& mark) {
         if (!keep.law)
           reading.error(mark, "the move does not name its law", {"for example {law: go}"});
       })
       .rule(check_names_of_sights)
-      .place(&KeepInCase::place);
+      .place(&given::Keep::place);
   return table.format();
 }
 

@@ -66,7 +66,7 @@ void read_measured_series(LiftCase& lift_case, Diagnostics& diagnostics) {
 
 void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagnostics) {
   const fs::path folder = lift_case.file.parent_path();
-  for (CraneInCase& crane : lift_case.cranes) {
+  for (given::Crane& crane : lift_case.cranes) {
     if (crane.model_name.value.empty()) continue;
     crane.model = library.load_crane(crane.model_name, folder, diagnostics, crane.parameters);
   }
@@ -82,7 +82,7 @@ void load_models(LiftCase& lift_case, ModelLibrary& library, Diagnostics& diagno
   }
   load_marine_models(lift_case, folder, library, diagnostics);
   read_measured_series(lift_case, diagnostics);
-  for (RopeInCase& rope : lift_case.ropes) {
+  for (given::Rope& rope : lift_case.ropes) {
     rope.rope = library.resolve(rope.rope_choice, folder, diagnostics);
   }
   if (lift_case.standard) load_rules(*lift_case.standard, folder, library, diagnostics);
@@ -115,7 +115,7 @@ void refuse_other_kinds(const fs::path& path) {
 
 }  // namespace
 
-dynamics::Pose LoadInCase::pose_afloat() const {
+dynamics::Pose given::Load::pose_afloat() const {
   const Eigen::Matrix3d R_start = rotation_of(attitude);
   const double yaw = afloat ? afloat->heading : std::atan2(R_start(1, 0), R_start(0, 0));
   const std::array<double, 2> place =
@@ -124,12 +124,12 @@ dynamics::Pose LoadInCase::pose_afloat() const {
           {place[0], place[1], -vessel->hull.bounds()[0].z() - draughts->value.back()}};
 }
 
-const Located<Quantity>* CraneInCase::find_start(const std::string& drive_or_hoist) const {
+const Located<Quantity>* given::Crane::find_start(const std::string& drive_or_hoist) const {
   const auto* found = find_by_name(start, drive_or_hoist);
   return found ? &found->value : nullptr;
 }
 
-std::string ResolvedPoint::body_name(const std::vector<CraneInCase>& cranes) const {
+std::string ResolvedPoint::body_name(const std::vector<given::Crane>& cranes) const {
   switch (kind) {
     case Kind::world:
       return "world";
@@ -155,22 +155,22 @@ Vector3 LoadTable::direction_at(const std::string& lug) const {
 std::optional<double> LiftCase::ground_height() const {
   if (ground || sea) return ground;
   double lowest = 0;
-  for (const SupportInCase& support : supports) lowest = std::min(lowest, support.ground);
+  for (const given::Support& support : supports) lowest = std::min(lowest, support.ground);
   return lowest;
 }
 
-double RopeInCase::friction() const {
+double given::Rope::friction() const {
   if (sheave_friction) return sheave_friction->value;
   // exp(-mu pi) is left over half a turn.
   return sheave_efficiency ? -std::log(sheave_efficiency->value) / std::numbers::pi : 0;
 }
 
-bool LiftCase::hangs(const RopeInCase& rope) const {
+bool LiftCase::hangs(const given::Rope& rope) const {
   return rope_weight && rope_weight->value && rope.rope.mass_per_length && rope.through.empty() &&
          rope.over.empty();
 }
 
-bool LiftCase::hangs(const CraneInCase& crane, const HoistModel& hoist) const {
+bool LiftCase::hangs(const given::Crane& crane, const HoistModel& hoist) const {
   if (!rope_weight || !rope_weight->value || !hoist.rope.mass_per_length) return false;
   if (hoist.hook_block.turning) return false;
   if (!crane.equalised) return true;
@@ -178,7 +178,7 @@ bool LiftCase::hangs(const CraneInCase& crane, const HoistModel& hoist) const {
   return pair[0].value != hoist.name.value && pair[1].value != hoist.name.value;
 }
 
-std::optional<double> RopeInCase::least_bend() const {
+std::optional<double> given::Rope::least_bend() const {
   std::optional<double> least;
   if (bend_diameter) least = bend_diameter->value;
   for (const LoadEdge& edge : edges)
@@ -186,19 +186,19 @@ std::optional<double> RopeInCase::least_bend() const {
   return least;
 }
 
-const CraneInCase* LiftCase::find_crane(const std::string& crane) const {
+const given::Crane* LiftCase::find_crane(const std::string& crane) const {
   return find_by_name(cranes, crane);
 }
 
-const RopeInCase* LiftCase::find_rope(const std::string& rope) const {
+const given::Rope* LiftCase::find_rope(const std::string& rope) const {
   return find_by_name(ropes, rope);
 }
 
-const SpreaderInCase* LiftCase::find_spreader(const std::string& spreader) const {
+const given::Spreader* LiftCase::find_spreader(const std::string& spreader) const {
   return find_by_name(spreaders, spreader);
 }
 
-std::string LiftCase::hook_above(const RopeInCase& rope) const {
+std::string LiftCase::hook_above(const given::Rope& rope) const {
   std::string hook;
   std::set<std::string> passed;  // spreaders; a ring of them hangs on nothing
   std::vector<const ResolvedPoint*> open = {&rope.path.front()};
@@ -212,7 +212,7 @@ std::string LiftCase::hook_above(const RopeInCase& rope) const {
       hook = found;
     } else if (first.kind == ResolvedPoint::Kind::spreader) {
       if (!passed.insert(first.part).second) continue;
-      for (const RopeInCase& above : ropes)
+      for (const given::Rope& above : ropes)
         if (above.ends_at_spreader(first.part)) open.push_back(&above.path.front());
     } else {
       return {};

@@ -24,8 +24,10 @@
 
 namespace blocklift::pipeline {
 
+namespace given {
+
 /// A crane of the lift: where it stands and where its drives and winches are at the start.
-struct CraneInCase {
+struct Crane {
   Located<std::string> name;
   Located<std::string> model_name;
   std::shared_ptr<const CraneModel> model;   ///< after the look-up; null if it failed
@@ -41,22 +43,26 @@ struct CraneInCase {
   const Located<Quantity>* find_start(const std::string& drive_or_hoist) const;
 };
 
+}  // namespace given
+
 /// Where a load is while it is in the water.
 struct PlaceAfloat {
   std::array<double, 2> position{};  ///< of its frame's origin in the world, m
   double heading = 0.0;              ///< of its x axis, rad
 };
 
+namespace given {
+
 /// What is lifted: a block, whose stress is asked; a vessel, which may float; or both, one ship.
-struct LoadInCase {
+struct Load {
   Located<std::string> model_name;          ///< of the block; empty for a vessel
   std::shared_ptr<const BlockModel> model;  ///< after the look-up; null if it failed
   std::optional<Located<std::string>> vessel_name;
   std::shared_ptr<const Vessel>
       vessel;  ///< after the look-up; null if it failed; beside a block its hull
-  std::vector<Named<Vector3>> lugs;          ///< of a vessel, in its frame, m
-  std::vector<LoadEdge> edges;               ///< of a vessel without a block, in its frame
-  DampingInCase damping, quadratic_damping;  ///< of a vessel in the water
+  std::vector<Named<Vector3>> lugs;    ///< of a vessel, in its frame, m
+  std::vector<LoadEdge> edges;         ///< of a vessel without a block, in its frame
+  Damping damping, quadratic_damping;  ///< of a vessel in the water
   /// Of a vessel for which the water that it sets in motion is computed, from its lowest point, m.
   std::optional<Located<std::vector<double>>> draughts;
   std::optional<PlaceAfloat> afloat;   ///< where it is meanwhile; none: as at the start
@@ -68,6 +74,8 @@ struct LoadInCase {
   /// The block's edges, or those of a vessel without one.
   const std::vector<LoadEdge>& all_edges() const { return model ? model->edges : edges; }
 };
+
+}  // namespace given
 
 /// An edge of the load that a rope may touch.
 struct EdgeOnTheWay {
@@ -92,11 +100,13 @@ struct ResolvedPoint {
   Vector3 point = Vector3::Zero();  ///< in the body's frame, m
 
   /// Name of the body in the lift: "world", "load", "C1.gantry", "C1.upper_1".
-  std::string body_name(const std::vector<CraneInCase>& cranes) const;
+  std::string body_name(const std::vector<given::Crane>& cranes) const;
 };
 
+namespace given {
+
 /// A rope, sling or line of the lift.
-struct RopeInCase {
+struct Rope {
   Located<std::string> name;
   Located<RopePoint> from;
   std::vector<Located<RopePoint>> through;
@@ -138,7 +148,7 @@ struct RopeInCase {
 };
 
 /// A figure that a law from outside sees: one of height, plumb, tension and share.
-struct SightInCase {
+struct Sight {
   Located<std::string> name;
   std::optional<Located<RopePoint>> level;    ///< whose height it is
   std::optional<Located<RopePoint>> with;     ///< over this point's; none: in the world
@@ -153,7 +163,7 @@ struct SightInCase {
 };
 
 /// What an operator who steers a drive keeps, after what he sees: one wish, or a law from outside.
-struct KeepInCase {
+struct Keep {
   std::optional<Located<RopePoint>> level;  ///< whose height a winch keeps
   std::optional<Located<RopePoint>> with;   ///< against this point's; none: in the world
   /// Of `level` over `with`, m. None: 0 with `with`, else as it is when the keeping begins.
@@ -169,7 +179,7 @@ struct KeepInCase {
   std::optional<Located<double>> correction;
   std::optional<Located<Quantity>> tolerance;
   std::optional<Located<std::string>> law;  ///< name of a law from outside (LiftCase::laws)
-  std::vector<SightInCase> sees;            ///< what it is given
+  std::vector<Sight> sees;                  ///< what it is given
   std::optional<double> every;              ///< time between two of its looks, s; none: the usual
   Mark place;
   // After the look-up; none if it failed.
@@ -180,7 +190,7 @@ struct KeepInCase {
 };
 
 /// Moves of one or several drives or winches, alike.
-struct MoveInCase {
+struct Move {
   std::vector<Located<std::string>> drives;
   std::optional<Located<Quantity>> by;
   std::optional<Located<Quantity>> to;
@@ -192,9 +202,11 @@ struct MoveInCase {
   std::optional<Located<std::string>> follows;
   /// Own travel over the leader's travel, both since the start of the leader's move.
   std::optional<Located<std::vector<std::array<Quantity, 2>>>> table;
-  std::optional<KeepInCase> keeps = {};  ///< in place of a motion that is known
+  std::optional<Keep> keeps = {};  ///< in place of a motion that is known
   Mark place;
 };
+
+}  // namespace given
 
 /// What ends a stage: one of the conditions, and how long it may take.
 struct StageUntil {
@@ -208,16 +220,18 @@ struct StageUntil {
   Mark place;
 };
 
+namespace given {
+
 /// A stage of the operation: its moves begin together, each after its own delay.
-struct StageInCase {
+struct Stage {
   Located<std::string> name;
   double pause = 0;  ///< before the stage, s
-  std::vector<MoveInCase> moves;
+  std::vector<Move> moves;
   std::optional<StageUntil> until = {};  ///< none: it ends with the last of its moves
 };
 
 /// What goes wrong at an instant: ropes part, drives come to a stand, winches run away.
-struct FaultInCase {
+struct Fault {
   std::optional<Located<double>> at;  ///< of the operation, s; none: at the worst instant
   /// Ropes and hoists of which one then carries the most of its breaking load, or "all".
   std::vector<Located<std::string>> worst_for;
@@ -233,7 +247,7 @@ struct FaultInCase {
 };
 
 /// A pad on which the load stands at the start, and from which it lifts off.
-struct SupportInCase {
+struct Support {
   Located<std::string> name;
   Vector3 point = Vector3::Zero();  ///< of the load, in the block's frame, m
   double ground = 0;                ///< height of the ground, m
@@ -245,13 +259,15 @@ struct SupportInCase {
 };
 
 /// Ground that bears the load wherever it is set down.
-struct GroundInCase {
+struct Ground {
   double stiffness = std::numeric_limits<double>::quiet_NaN();  ///< at each corner, N/m
   double damping = 0;                                           ///< N s/m
   double friction_coefficient = 0;
   double tangential_stiffness = 0;  ///< N/m
   Mark place;
 };
+
+}  // namespace given
 
 /// How the block gives way where the ropes pull at it.
 enum class Flexibility {
@@ -287,7 +303,7 @@ struct StructureSettings {
   int most_unknowns = 1000000;  ///< that are spent on it
   std::vector<Named<Vector3>> stress_points{};  ///< whose stress is followed in time, in B, m
   FatigueSettings fatigue{};
-  std::vector<HotSpotInFile> hot_spots{};  ///< weld toes of the block, in B
+  std::vector<given::HotSpot> hot_spots{};  ///< weld toes of the block, in B
 };
 
 struct CheckSettings {
@@ -350,8 +366,10 @@ struct LoadTable {
   Vector3 direction_at(const std::string& lug) const;
 };
 
+namespace given {
+
 /// What the report says of itself as a document: text as it is given, empty where it is not.
-struct DocumentInCase {
+struct Document {
   std::string project;
   std::string client;
   std::string revision;
@@ -359,6 +377,8 @@ struct DocumentInCase {
   std::string checked;
   std::string approved;
 };
+
+}  // namespace given
 
 /// A model file as it stands, with the name that a case, or a model of it, calls it by.
 struct ModelText {
@@ -374,25 +394,25 @@ using LawMaker = std::function<dynamics::SpeedLaw(const std::vector<std::string>
 struct LiftCase : MarineParts {
   std::string name;
   std::string title;
-  DocumentInCase document;
+  given::Document document;
   double gravity = std::numeric_limits<double>::quiet_NaN();  ///< m/s^2
-  LoadInCase load;
-  std::vector<CraneInCase> cranes;
-  std::vector<SpreaderInCase> spreaders;
-  std::vector<RopeInCase> ropes;
+  given::Load load;
+  std::vector<given::Crane> cranes;
+  std::vector<given::Spreader> spreaders;
+  std::vector<given::Rope> ropes;
   std::optional<Located<bool>> rope_weight;  ///< do ropes hang by their weight?
   double sling_tolerance = 0;                ///< share of a sling's length by which it may be off
-  std::vector<SupportInCase> supports;
+  std::vector<given::Support> supports;
   std::optional<double> ground;  ///< height of the ground or a dock's floor under the load, m
-  std::optional<GroundInCase> ground_contact;
-  std::optional<WindInCase> wind;
-  std::vector<StageInCase> operation;
+  std::optional<given::Ground> ground_contact;
+  std::optional<given::Wind> wind;
+  std::vector<given::Stage> operation;
   double settle = 0;  ///< after the last move, s
-  std::vector<FaultInCase> faults;
+  std::vector<given::Fault> faults;
   DynamicsSettings dynamics;
   StructureSettings structure;
   CheckSettings checks;
-  std::optional<StandardInCase> standard;
+  std::optional<given::Standard> standard;
   std::optional<Comparison> compare;
   std::optional<LoadTable> load_table;
   Mark place;
@@ -404,27 +424,27 @@ struct LiftCase : MarineParts {
   std::map<std::string, LawMaker> laws = {};
 
   /// Does a rope hang as a catenary by the mass of its model? Ropes over sheaves run straight.
-  bool hangs(const RopeInCase& rope) const;
+  bool hangs(const given::Rope& rope) const;
   /// Does the tackle of a crane's hoist? One that is equalised runs straight.
-  bool hangs(const CraneInCase& crane, const HoistModel& hoist) const;
+  bool hangs(const given::Crane& crane, const HoistModel& hoist) const;
   /// Is the load a block whose stress is asked?
   bool has_structure() const { return load.model != nullptr; }
   /// Height of the ground ashore, m: as given, else that of the lowest pad or zero; none at sea.
   std::optional<double> ground_height() const;
-  const CraneInCase* find_crane(const std::string& name) const;
-  const RopeInCase* find_rope(const std::string& name) const;
-  const SpreaderInCase* find_spreader(const std::string& name) const;
+  const given::Crane* find_crane(const std::string& name) const;
+  const given::Rope* find_rope(const std::string& name) const;
+  const given::Spreader* find_spreader(const std::string& name) const;
   /// The hook that a rope hangs on by its first point, "C1.main": at once, or by way of spreaders
   /// whose slings from above all hang on the same. Empty if it hangs on none, or on several.
-  std::string hook_above(const RopeInCase& rope) const;
+  std::string hook_above(const given::Rope& rope) const;
 };
 
 /// The keys of a rope; its points are given as the file at hand gives them.
-Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
-                                       bool breaking_load_required);
+Format<given::Rope> rope_in_case_format(const Format<Located<RopePoint>>& point,
+                                        bool breaking_load_required);
 /// A stage of an operation; shared with mechanism files.
 /// @param may_wait may it end by a condition? Of a lift case it may.
-Format<StageInCase> stage_format(bool may_wait);
+Format<given::Stage> stage_format(bool may_wait);
 
 /// The format of a case file, without the look-up of models.
 Format<LiftCase> lift_case_format();

@@ -17,7 +17,7 @@ namespace blocklift::pipeline {
 namespace {
 
 /// Start values of one crane: each drive and hoist has one, of its kind and within its range.
-void check_start(const CraneInCase& crane, Diagnostics& diagnostics) {
+void check_start(const given::Crane& crane, Diagnostics& diagnostics) {
   std::vector<std::string> known;
   const auto check_one = [&](const std::string& part, const char* noun, const char* example,
                              const DriveLimits& limits) {
@@ -66,7 +66,7 @@ void check_start(const CraneInCase& crane, Diagnostics& diagnostics) {
 }
 
 void check_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  for (const CraneInCase& crane : lift_case.cranes) {
+  for (const given::Crane& crane : lift_case.cranes) {
     if (crane.name.value == "world" || crane.name.value == "load") {
       diagnostics.error(crane.name.mark,
                         fmt::format("a crane cannot be named \"{}\"", crane.name.value));
@@ -86,7 +86,7 @@ void check_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
 }
 
 void check_spreader_names(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  for (const SpreaderInCase& bar : lift_case.spreaders) {
+  for (const given::Spreader& bar : lift_case.spreaders) {
     const std::string& name = bar.name.value;
     if (name == "world" || name == "load")
       diagnostics.error(bar.name.mark, fmt::format("a spreader cannot be named \"{}\"", name));
@@ -165,7 +165,7 @@ void check_ground(const LiftCase& lift_case, Diagnostics& diagnostics) {
     diagnostics.error(lift_case.ground_contact->place,
                       "the ground bears the load, and its height is not known",
                       {"give ground: the height of a quay or of a dock's floor"});
-  for (const SupportInCase& support : lift_case.supports)
+  for (const given::Support& support : lift_case.supports)
     if (support.name.value.starts_with("ground_"))
       diagnostics.error(support.name.mark,
                         fmt::format("\"{}\" is the name of a corner of the load on the ground",
@@ -198,7 +198,7 @@ void check_limits_hold_something(const LiftCase& lift_case, Diagnostics& diagnos
   const auto none_of_cranes = [&](const auto& has) {
     return std::none_of(
         lift_case.cranes.begin(), lift_case.cranes.end(),
-        [&](const CraneInCase& crane) { return !crane.model || has(*crane.model); });
+        [&](const given::Crane& crane) { return !crane.model || has(*crane.model); });
   };
   if (none_of_cranes([](const CraneModel& crane) { return crane.radius_from.has_value(); })) {
     constexpr const char* lack = "no crane says from where its radius counts";
@@ -226,7 +226,7 @@ void check_limits_hold_something(const LiftCase& lift_case, Diagnostics& diagnos
 }
 
 /// A ship that is given as a block and as a vessel is one.
-void check_weights(const LoadInCase& load, Diagnostics& diagnostics) {
+void check_weights(const given::Load& load, Diagnostics& diagnostics) {
   if (!load.model || !load.vessel || !load.model->mass) return;
   constexpr double allowed = 0.01;
   const double of_block = load.model->mass->value, of_vessel = load.vessel->model.mass;
@@ -241,10 +241,10 @@ void check_weights(const LoadInCase& load, Diagnostics& diagnostics) {
 
 /// The draughts of a load that makes waves.
 void check_draughts(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  const LoadInCase& load = lift_case.load;
+  const given::Load& load = lift_case.load;
   if (!load.draughts || !load.vessel) return;
   check_draughts("the load", *load.draughts, *load.vessel, diagnostics);
-  for (const VesselInCase& vessel : lift_case.vessels) {
+  for (const given::Vessel& vessel : lift_case.vessels) {
     if (vessel.draughts) {
       diagnostics.error(load.draughts->mark,
                         fmt::format("the load has draughts, as vessel {} has", vessel.name.value),
@@ -271,7 +271,7 @@ void check_draughts(const LiftCase& lift_case, Diagnostics& diagnostics) {
 /// Vessels, sea and lines, and the lugs and the water of a load that is a vessel.
 void check_afloat(const LiftCase& lift_case, Diagnostics& diagnostics) {
   std::vector<std::string> bodies = {"load"};
-  for (const CraneInCase& crane : lift_case.cranes) {
+  for (const given::Crane& crane : lift_case.cranes) {
     if (!crane.model) continue;
     for (const std::string& part : parts_of(crane, true)) bodies.push_back(part);
   }
@@ -312,7 +312,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_kind_of_case(lift_case, diagnostics);
   check_names(lift_case, diagnostics);
   check_spreader_names(lift_case, diagnostics);
-  for (const CraneInCase& crane : lift_case.cranes)
+  for (const given::Crane& crane : lift_case.cranes)
     if (crane.model && !lift_case.load_table) check_start(crane, diagnostics);
   check_rigging(lift_case, diagnostics);
   check_afloat(lift_case, diagnostics);
@@ -326,7 +326,7 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
 }
 
 void check_loops_at_start(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  for (const CraneInCase& crane : lift_case.cranes) {
+  for (const given::Crane& crane : lift_case.cranes) {
     if (crane.model->loops.empty()) continue;
     try {
       pose_at_start(crane);

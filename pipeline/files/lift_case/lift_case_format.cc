@@ -8,23 +8,23 @@ namespace {
 const auto zero_position = "[0 m, 0 m, 0 m]";
 const auto zero_attitude = "[0 deg, 0 deg, 0 deg]";
 
-Format<CraneInCase> crane_format() {
-  Table<CraneInCase> table("crane", "A crane of the lift.");
+Format<given::Crane> crane_format() {
+  Table<given::Crane> table("crane", "A crane of the lift.");
   table
-      .required("model", &CraneInCase::model_name, located(reference()),
+      .required("model", &given::Crane::model_name, located(reference()),
                 "name of the crane's model file")
-      .optional("parameters", &CraneInCase::parameters, parameter_overrides_format(),
+      .optional("parameters", &given::Crane::parameters, parameter_overrides_format(),
                 "values for parameters of the model, in place of its own")
-      .optional("base", &CraneInCase::base, located(reference()),
+      .optional("base", &given::Crane::base, located(reference()),
                 "vessel of the case that the crane stands on; the world if left out")
-      .by_default("position", &CraneInCase::position, position_format(), zero_position,
+      .by_default("position", &given::Crane::position, position_format(), zero_position,
                   "of the crane's base in the world, or in the frame of the vessel")
-      .by_default("orientation", &CraneInCase::attitude, attitude_format(), zero_attitude,
+      .by_default("orientation", &given::Crane::attitude, attitude_format(), zero_attitude,
                   "of the crane's base: roll, pitch, yaw")
-      .required("start", &CraneInCase::start, names_to(located(quantity_of(travels))),
+      .required("start", &given::Crane::start, names_to(located(quantity_of(travels))),
                 "where each drive stands, and how much rope (unstretched) each hoist has out, "
                 "when the operation begins")
-      .optional("equalised", &CraneInCase::equalised,
+      .optional("equalised", &given::Crane::equalised,
                 located(array_of<Located<std::string>, 2>(located(reference()))),
                 "two hoists whose tackles are reeved with one rope: both hooks carry alike, and "
                 "what one winch lets out lowers both; each hoist by itself if left out");
@@ -42,7 +42,7 @@ Format<PlaceAfloat> place_afloat_format() {
   return table.format();
 }
 
-void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
+void check_load(const given::Load& load, Reading& reading, const Mark& mark) {
   const bool block = !load.model_name.value.empty();
   if (!block && !load.vessel_name) {
     reading.error(mark, "the load is not described",
@@ -66,87 +66,88 @@ void check_load(const LoadInCase& load, Reading& reading, const Mark& mark) {
   }
 }
 
-Format<LoadInCase> load_format() {
-  Table<LoadInCase> table("load",
-                          "What is lifted: a block, one model for its motion and its stress; a "
-                          "vessel, which floats where it reaches the water and whose stress is not "
-                          "asked; or both, one ship: the block that she is built as, afloat by "
-                          "the hull of the vessel.");
+Format<given::Load> load_format() {
+  Table<given::Load> table(
+      "load",
+      "What is lifted: a block, one model for its motion and its stress; a "
+      "vessel, which floats where it reaches the water and whose stress is not "
+      "asked; or both, one ship: the block that she is built as, afloat by "
+      "the hull of the vessel.");
   table
-      .optional("model", &LoadInCase::model_name, located(reference()),
+      .optional("model", &given::Load::model_name, located(reference()),
                 "name of the block's model file")
       .optional(
-          "vessel", &LoadInCase::vessel_name, located(reference()),
+          "vessel", &given::Load::vessel_name, located(reference()),
           "name of a vessel's model file: in place of model, or beside it for its hull, in the "
           "frame of the block; the two weigh the same")
-      .optional("lugs", &LoadInCase::lugs, names_to(position_format()),
+      .optional("lugs", &given::Load::lugs, names_to(position_format()),
                 "of a vessel without a block: places of its lugs in its frame")
-      .optional("edges", &LoadInCase::edges, named_tables(load_edge_format()),
+      .optional("edges", &given::Load::edges, named_tables(load_edge_format()),
                 "of a vessel without a block: edges in its frame that ropes may touch; those of a "
                 "block stand in its model file")
-      .by_default("damping", &LoadInCase::damping, vessel_damping_format(), "{}",
+      .by_default("damping", &given::Load::damping, vessel_damping_format(), "{}",
                   "of a vessel in the water: linear, in proportion to the wet volume")
-      .by_default("quadratic_damping", &LoadInCase::quadratic_damping,
+      .by_default("quadratic_damping", &given::Load::quadratic_damping,
                   vessel_quadratic_damping_format(), "{}",
                   "of a vessel in the water: with the square of the velocity, in proportion to the "
                   "wet volume")
       .optional(
-          "draughts", &LoadInCase::draughts, located(draughts_format()),
+          "draughts", &given::Load::draughts, located(draughts_format()),
           "of a vessel, upright, from the lowest point of its hull: for them added mass, memory "
           "and diffraction are computed together with those vessels whose radiation is, and "
           "interpolated while it is lowered or lifted; it makes no waves if left out")
       .optional(
-          "afloat", &LoadInCase::afloat, place_afloat_format(),
+          "afloat", &given::Load::afloat, place_afloat_format(),
           "where it lies against the vessels at those draughts, these being where they start; "
           "as its position and orientation say if left out")
-      .by_default("position", &LoadInCase::position, position_format(), zero_position,
+      .by_default("position", &given::Load::position, position_format(), zero_position,
                   "of the load's frame in the world at the start; a first guess, the run begins "
                   "from equilibrium")
-      .by_default("orientation", &LoadInCase::attitude, attitude_format(), zero_attitude,
+      .by_default("orientation", &given::Load::attitude, attitude_format(), zero_attitude,
                   "of the load at the start: roll, pitch, yaw; a first guess")
       .rule(check_load);
   return table.format();
 }
 
-Format<SupportInCase> support_format() {
-  Table<SupportInCase> table("support", "A pad under the load, from which it lifts off.");
+Format<given::Support> support_format() {
+  Table<given::Support> table("support", "A pad under the load, from which it lifts off.");
   table
-      .required("point", &SupportInCase::point, position_format(),
+      .required("point", &given::Support::point, position_format(),
                 "of the load that stands on the pad, in the block's frame")
-      .by_default("ground", &SupportInCase::ground, quantity(Dimension::length), "0 m",
+      .by_default("ground", &given::Support::ground, quantity(Dimension::length), "0 m",
                   "height of the pad's upper face")
-      .required("stiffness", &SupportInCase::stiffness,
+      .required("stiffness", &given::Support::stiffness,
                 quantity(Dimension::stiffness, Range::positive()), "against sinking in")
-      .by_default("damping", &SupportInCase::damping,
+      .by_default("damping", &given::Support::damping,
                   quantity(Dimension::damping, Range::not_negative()), "0 kN s/m",
                   "against sinking in")
-      .by_default("friction_coefficient", &SupportInCase::friction_coefficient,
+      .by_default("friction_coefficient", &given::Support::friction_coefficient,
                   number(Range::between(0, 2)), "0.3", "level force over the load on the pad")
-      .by_default("tangential_stiffness", &SupportInCase::tangential_stiffness,
+      .by_default("tangential_stiffness", &given::Support::tangential_stiffness,
                   quantity(Dimension::stiffness, Range::not_negative()), "1 MN/m",
                   "against sliding, up to the friction")
       .optional(
-          "reach", &SupportInCase::reach, quantity(Dimension::length, Range::positive()),
+          "reach", &given::Support::reach, quantity(Dimension::length, Range::positive()),
           "level distance within which there is ground; everywhere if left out. A load that is "
           "set down elsewhere, lower, needs it");
   return table.format();
 }
 
-Format<GroundInCase> ground_format() {
-  Table<GroundInCase> table("ground contact",
-                            "The ground bears the load at the eight corners of the box around it, "
-                            "wherever and however it comes down.");
+Format<given::Ground> ground_format() {
+  Table<given::Ground> table("ground contact",
+                             "The ground bears the load at the eight corners of the box around it, "
+                             "wherever and however it comes down.");
   table
-      .required("stiffness", &GroundInCase::stiffness,
+      .required("stiffness", &given::Ground::stiffness,
                 quantity(Dimension::stiffness, Range::positive()), "of each corner")
-      .by_default("damping", &GroundInCase::damping,
+      .by_default("damping", &given::Ground::damping,
                   quantity(Dimension::damping, Range::not_negative()), "0 kN s/m", "of each corner")
-      .by_default("friction_coefficient", &GroundInCase::friction_coefficient,
+      .by_default("friction_coefficient", &given::Ground::friction_coefficient,
                   number(Range::between(0, 2)), "0.3", "level force over the load on the corner")
-      .by_default("tangential_stiffness", &GroundInCase::tangential_stiffness,
+      .by_default("tangential_stiffness", &given::Ground::tangential_stiffness,
                   quantity(Dimension::stiffness, Range::positive()), "1 MN/m",
                   "against sliding from where the corner touched down, up to the friction")
-      .place(&GroundInCase::place);
+      .place(&given::Ground::place);
   return table.format();
 }
 
@@ -213,7 +214,7 @@ Format<EdgeOnTheWay> edge_on_the_way_format() {
   return by_shape<EdgeOnTheWay>(by_name, std::nullopt, table.format());
 }
 
-void check_sheave_friction(const RopeInCase& rope, Reading& reading, const Mark&) {
+void check_sheave_friction(const given::Rope& rope, Reading& reading, const Mark&) {
   if (rope.sheave_friction && rope.sheave_efficiency)
     reading.error(rope.sheave_efficiency->mark,
                   "the rope has both a friction and an efficiency of its sheaves",
@@ -243,45 +244,45 @@ Format<Located<RopePoint>> rope_point_format() {
   return located(by_shape<RopePoint>(by_name, std::nullopt, table.format()));
 }
 
-Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
-                                       bool breaking_load_required) {
-  Table<RopeInCase> table("rope",
-                          "A rope, sling or line of the lift. Its ends and the sheaves "
-                          "between them are hooks (crane and hoist: C1.upper_1), lugs of "
-                          "the load (L1), eyes of spreaders (B1.lower_a), or points of bodies.");
-  table.required("from", &RopeInCase::from, point, "upper end")
-      .optional("through", &RopeInCase::through, list_of(point),
+Format<given::Rope> rope_in_case_format(const Format<Located<RopePoint>>& point,
+                                        bool breaking_load_required) {
+  Table<given::Rope> table("rope",
+                           "A rope, sling or line of the lift. Its ends and the sheaves "
+                           "between them are hooks (crane and hoist: C1.upper_1), lugs of "
+                           "the load (L1), eyes of spreaders (B1.lower_a), or points of bodies.");
+  table.required("from", &given::Rope::from, point, "upper end")
+      .optional("through", &given::Rope::through, list_of(point),
                 "sheaves on its way, without friction unless it is given")
-      .optional("sheave_friction", &RopeInCase::sheave_friction,
+      .optional("sheave_friction", &given::Rope::sheave_friction,
                 located(number(Range::between(0, 1))),
                 "coefficient of friction mu at each of the sheaves, which do not turn: a pin, a "
                 "hook, a trunnion. Tensions on the two sides differ by exp(mu x angle of wrap) "
                 "before the rope slips; 0 if left out")
       .optional(
-          "sheave_efficiency", &RopeInCase::sheave_efficiency,
+          "sheave_efficiency", &given::Rope::sheave_efficiency,
           located(quantity(Dimension::ratio, Range::between(0.2, 1))),
           "of each of the sheaves, in place of the coefficient: the lesser tension over the "
           "greater while the rope runs over the sheave by 180 degrees, 96 to 98 % for sheaves "
           "on rolling bearings. A sheave turned by less loses less")
-      .required("to", &RopeInCase::to, point, "lower end")
-      .required("model", &RopeInCase::rope_choice, rope_choice_format(breaking_load_required),
+      .required("to", &given::Rope::to, point, "lower end")
+      .required("model", &given::Rope::rope_choice, rope_choice_format(breaking_load_required),
                 "name of the rope's model file, or the rope's keys")
-      .required("length", &RopeInCase::length, quantity(Dimension::length, Range::positive()),
+      .required("length", &given::Rope::length, quantity(Dimension::length, Range::positive()),
                 "unstretched, at the start")
-      .optional("end_stiffness", &RopeInCase::end_stiffness,
+      .optional("end_stiffness", &given::Rope::end_stiffness,
                 quantity(Dimension::stiffness, Range::positive()),
                 "of what the rope is fastened to, in series with it; rigid if left out")
-      .optional("winch", &RopeInCase::winch, winch_format(),
+      .optional("winch", &given::Rope::winch, winch_format(),
                 "of its own: then the rope is moved by its name, like a hoist");
   // Of a mechanism nothing is held against the breaking load.
   if (breaking_load_required)
     table
-        .optional("bend_diameter", &RopeInCase::bend_diameter,
+        .optional("bend_diameter", &given::Rope::bend_diameter,
                   located(quantity(Dimension::length, Range::positive())),
                   "of the least hook, pin, trunnion or sheave that the wire rope is bent round: "
                   "of its breaking load 1 - 0.5 / sqrt(D/d) is left, d being the diameter of its "
                   "model; nothing is lost if left out, as by fibre slings")
-        .optional("over", &RopeInCase::over, list_of(edge_on_the_way_format()),
+        .optional("over", &given::Rope::over, list_of(edge_on_the_way_format()),
                   "edges of the load that it may touch, in the order of its path from its upper "
                   "end, up to 6 between two of its points; names, or {edge: name, span: 2} for one "
                   "behind the first of through. It ends at a lug of the load or, as a basket, goes "
@@ -290,14 +291,14 @@ Format<RopeInCase> rope_in_case_format(const Format<Located<RopePoint>>& point,
   return table.format();
 }
 
-Format<DocumentInCase> document_format() {
-  Table<DocumentInCase> table("document", "What the report says of itself as a document.");
-  table.optional("project", &DocumentInCase::project, text(), "for which the lift is assessed")
-      .optional("client", &DocumentInCase::client, text(), "for whom")
-      .optional("revision", &DocumentInCase::revision, text(), "of the document")
-      .optional("prepared", &DocumentInCase::prepared, text(), "who made it")
-      .optional("checked", &DocumentInCase::checked, text(), "who checked it")
-      .optional("approved", &DocumentInCase::approved, text(), "who approved it");
+Format<given::Document> document_format() {
+  Table<given::Document> table("document", "What the report says of itself as a document.");
+  table.optional("project", &given::Document::project, text(), "for which the lift is assessed")
+      .optional("client", &given::Document::client, text(), "for whom")
+      .optional("revision", &given::Document::revision, text(), "of the document")
+      .optional("prepared", &given::Document::prepared, text(), "who made it")
+      .optional("checked", &given::Document::checked, text(), "who checked it")
+      .optional("approved", &given::Document::approved, text(), "who approved it");
   return table.format();
 }
 

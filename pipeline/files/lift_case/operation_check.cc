@@ -42,8 +42,8 @@ class FaultCheck {
         any_unread_(diagnostics.has_errors()),
         // Of an operation with mistakes nobody knows how long it lasts.
         duration_(any_unread_ ? 0 : schedule.duration) {
-    for (const RopeInCase& rope : lift_case.ropes) ropes_.push_back(rope.name.value);
-    for (const CraneInCase& crane : lift_case.cranes) {
+    for (const given::Rope& rope : lift_case.ropes) ropes_.push_back(rope.name.value);
+    for (const given::Crane& crane : lift_case.cranes) {
       if (!crane.model) continue;
       for (const HoistModel& hoist : crane.model->hoists)
         ropes_.push_back(crane.name.value + "." + hoist.name.value);
@@ -55,7 +55,7 @@ class FaultCheck {
     drives_.emplace_back("all");
   }
 
-  void check(const FaultInCase& fault) {
+  void check(const given::Fault& fault) {
     // A list that could not be read has been complained of.
     if (!any_unread_ && fault.parts.empty() && fault.stops.empty() && fault.runs_away.empty())
       diagnostics_.error(fault.place, "the fault says not what goes wrong",
@@ -80,7 +80,7 @@ class FaultCheck {
   }
 
  private:
-  void check_instant(const FaultInCase& fault) {
+  void check_instant(const given::Fault& fault) {
     const bool sought = !fault.worst_for.empty();
     if (fault.at.has_value() == sought)
       diagnostics_.error(fault.place,
@@ -140,8 +140,8 @@ void check_head(const std::optional<Located<std::string>>& head, const Mover& mo
 }
 
 /// What a law sees is there, and can be seen from its drive.
-void check_sights(const KeepInCase& keep, const Mover& mover, const std::vector<std::string>& ropes,
-                  Diagnostics& diagnostics) {
+void check_sights(const given::Keep& keep, const Mover& mover,
+                  const std::vector<std::string>& ropes, Diagnostics& diagnostics) {
   const auto check_rope = [&](const Located<std::string>& rope) {
     if (std::find(ropes.begin(), ropes.end(), rope.value) == ropes.end())
       diagnostics.error(
@@ -150,7 +150,7 @@ void check_sights(const KeepInCase& keep, const Mover& mover, const std::vector<
                       rope.value),
           {names_hint("its ropes and hoists are", ropes, rope.value)});
   };
-  for (const SightInCase& sight : keep.sees) {
+  for (const given::Sight& sight : keep.sees) {
     if (sight.pull) check_rope(*sight.pull);
     if (sight.share) check_rope(*sight.share);
     for (const Located<std::string>& rope : sight.of) {
@@ -172,7 +172,7 @@ void check_keeping(const LiftCase& lift_case, const Schedule& schedule, Diagnost
   const std::vector<std::string> ropes = names_of_ropes(lift_case);
   if (ropes.empty()) return;
   for (const ScheduledSteering& steering : schedule.steerings) {
-    const KeepInCase& keep = steering.keep;
+    const given::Keep& keep = steering.keep;
     const Mover& mover = schedule.movers[steering.mover];
     check_sights(keep, mover, ropes, diagnostics);
     if (keep.law) continue;
@@ -202,7 +202,7 @@ void check_keeping(const LiftCase& lift_case, const Schedule& schedule, Diagnost
 void check_conditions(const LiftCase& lift_case, Diagnostics& diagnostics) {
   const std::vector<std::string> ropes = names_of_ropes(lift_case);
   if (ropes.empty()) return;
-  for (const StageInCase& stage : lift_case.operation) {
+  for (const given::Stage& stage : lift_case.operation) {
     if (!stage.until) continue;
     for (const auto& rope : {stage.until->slack, stage.until->taut}) {
       if (!rope || std::find(ropes.begin(), ropes.end(), rope->value) != ropes.end()) continue;
@@ -229,7 +229,7 @@ void check_operation(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_duration(lift_case, schedule, diagnostics);
   check_keeping(lift_case, schedule, diagnostics);
   FaultCheck faults(lift_case, schedule, diagnostics);
-  for (const FaultInCase& fault : lift_case.faults) faults.check(fault);
+  for (const given::Fault& fault : lift_case.faults) faults.check(fault);
 }
 
 }  // namespace blocklift::pipeline

@@ -6,40 +6,40 @@ namespace {
 
 /// @param keeps after what drives may be steered.
 /// @param what that is, for the manual.
-Format<MoveInCase> move_format(const Format<KeepInCase>& keeps, const std::string& what) {
+Format<given::Move> move_format(const Format<given::Keep>& keeps, const std::string& what) {
   const auto limit = [](Dimension linear, Dimension angular) {
     return quantity_of({linear, angular}, Range::positive());
   };
-  Table<MoveInCase> table(
+  Table<given::Move> table(
       "move",
       "What one or several drives or winches do, alike. It goes `by` a distance or `to` a place, "
       "from rest to rest, `follows` another one, or `keeps` something.");
   table
-      .required("drives", &MoveInCase::drives, list_of(located(reference()), 1),
+      .required("drives", &given::Move::drives, list_of(located(reference()), 1),
                 "crane and drive or hoist (C1.travel, C1.upper_1), or a rope with its own winch")
-      .optional("by", &MoveInCase::by, quantity_of(travels),
+      .optional("by", &given::Move::by, quantity_of(travels),
                 "distance or angle; of a winch the change of rope length, negative to hoist")
-      .optional("to", &MoveInCase::to, quantity_of(travels),
+      .optional("to", &given::Move::to, quantity_of(travels),
                 "in place of by: the coordinate or rope length at the end")
-      .optional("speed", &MoveInCase::speed, limit(Dimension::speed, Dimension::angular_speed),
+      .optional("speed", &given::Move::speed, limit(Dimension::speed, Dimension::angular_speed),
                 "below the drive's own limit, which holds if left out")
-      .optional("acceleration", &MoveInCase::acceleration,
+      .optional("acceleration", &given::Move::acceleration,
                 limit(Dimension::acceleration, Dimension::angular_acceleration),
                 "below the drive's own limit, which holds if left out")
-      .optional("jerk", &MoveInCase::jerk, limit(Dimension::jerk, Dimension::angular_jerk),
+      .optional("jerk", &given::Move::jerk, limit(Dimension::jerk, Dimension::angular_jerk),
                 "below the drive's own limit, which holds if left out")
-      .optional("duration", &MoveInCase::duration, quantity(Dimension::time, Range::positive()),
+      .optional("duration", &given::Move::duration, quantity(Dimension::time, Range::positive()),
                 "stretches the move to last that long; as short as the limits allow if left out")
-      .by_default("delay", &MoveInCase::delay, quantity(Dimension::time, Range::not_negative()),
+      .by_default("delay", &given::Move::delay, quantity(Dimension::time, Range::not_negative()),
                   "0 s", "after the start of the stage")
-      .optional("follows", &MoveInCase::follows, reference(),
+      .optional("follows", &given::Move::follows, reference(),
                 "the drive or winch whose travel in this stage leads this one")
-      .optional("table", &MoveInCase::table,
+      .optional("table", &given::Move::table,
                 list_of(array_of<Quantity, 2>(quantity_of(travels)), 2),
                 "own travel over the leader's travel, a smooth curve through these points: "
                 "[[leader, own], ...]")
-      .place(&MoveInCase::place);
-  table.optional("keeps", &MoveInCase::keeps, keeps,
+      .place(&given::Move::place);
+  table.optional("keeps", &given::Move::keeps, keeps,
                  what + ", until the other moves of the stage have ended, or for the duration");
   return table.format();
 }
@@ -88,69 +88,69 @@ Format<StageUntil> stage_until_format() {
 
 namespace {
 
-Format<StageInCase> stage_format_with(const Format<MoveInCase>& move, bool may_wait) {
-  Table<StageInCase> table("stage", may_wait ? "A part of the operation; it ends with the last of "
-                                               "its moves, or by a condition."
-                                             : "A part of the operation; it ends with the last of "
-                                               "its moves.");
-  table.required("stage", &StageInCase::name, text(), "its name, for people")
-      .by_default("pause", &StageInCase::pause, quantity(Dimension::time, Range::not_negative()),
+Format<given::Stage> stage_format_with(const Format<given::Move>& move, bool may_wait) {
+  Table<given::Stage> table("stage", may_wait ? "A part of the operation; it ends with the last of "
+                                                "its moves, or by a condition."
+                                              : "A part of the operation; it ends with the last of "
+                                                "its moves.");
+  table.required("stage", &given::Stage::name, text(), "its name, for people")
+      .by_default("pause", &given::Stage::pause, quantity(Dimension::time, Range::not_negative()),
                   "0 s", "before the stage begins")
-      .optional("moves", &StageInCase::moves, list_of(move), "what moves");
+      .optional("moves", &given::Stage::moves, list_of(move), "what moves");
   if (may_wait)
-    table.optional("until", &StageInCase::until, stage_until_format(),
+    table.optional("until", &given::Stage::until, stage_until_format(),
                    "what ends the stage, before its moves have ended; they go as far as it takes");
   return table.format();
 }
 
 }  // namespace
 
-Format<StageInCase> stage_format(bool may_wait) {
+Format<given::Stage> stage_format(bool may_wait) {
   return stage_format_with(move_format(keep_format(rope_point_format()),
                                        "the drive is steered after what its operator sees"),
                            may_wait);
 }
 
-Format<StageInCase> steered_stage_format(const Format<KeepInCase>& keeps) {
+Format<given::Stage> steered_stage_format(const Format<given::Keep>& keeps) {
   return stage_format_with(move_format(keeps, "the drive is steered by a law of your own"), false);
 }
 
-Format<FaultInCase> fault_format() {
-  Table<FaultInCase> table("fault",
-                           "What goes wrong in motion; the equilibria at rest are those of the "
-                           "whole rigging.");
+Format<given::Fault> fault_format() {
+  Table<given::Fault> table("fault",
+                            "What goes wrong in motion; the equilibria at rest are those of the "
+                            "whole rigging.");
   table
-      .optional("at", &FaultInCase::at, located(quantity(Dimension::time, Range::not_negative())),
+      .optional("at", &given::Fault::at, located(quantity(Dimension::time, Range::not_negative())),
                 "time of the operation at which it happens; or give worst_for")
       .optional(
-          "worst_for", &FaultInCase::worst_for, list_of(located(reference()), 1),
+          "worst_for", &given::Fault::worst_for, list_of(located(reference()), 1),
           "it happens at the worst instant for these ropes and hoists (C1.main), or for [all]: "
           "the one after which one of them carries the most of its breaking load. Instants at "
           "which drives move are tried, closer and closer around the worst ones")
-      .optional("from", &FaultInCase::from,
+      .optional("from", &given::Fault::from,
                 located(quantity(Dimension::time, Range::not_negative())),
                 "the worst instant is sought from then on; from the first move on if left out")
-      .optional("to", &FaultInCase::to, located(quantity(Dimension::time, Range::not_negative())),
+      .optional("to", &given::Fault::to, located(quantity(Dimension::time, Range::not_negative())),
                 "until then; until the last move ends if left out")
-      .by_default("watched", &FaultInCase::watched, quantity(Dimension::time, Range::positive()),
+      .by_default("watched", &given::Fault::watched, quantity(Dimension::time, Range::positive()),
                   "20 s", "how long the ropes are watched behind a tried instant")
-      .optional("parts", &FaultInCase::parts, list_of(located(reference()), 1),
+      .optional("parts", &given::Fault::parts, list_of(located(reference()), 1),
                 "ropes that break, or hoists (C1.main) whose tackle does")
-      .optional("stops", &FaultInCase::stops, list_of(located(reference()), 1),
+      .optional("stops", &given::Fault::stops, list_of(located(reference()), 1),
                 "drives and winches that come to a stand and stay there; [all] for an emergency "
                 "stop")
-      .optional("runs_away", &FaultInCase::runs_away, list_of(located(reference()), 1),
+      .optional("runs_away", &given::Fault::runs_away, list_of(located(reference()), 1),
                 "winches (hoists, or ropes with one) that leave their motion and pay out")
-      .optional("speed", &FaultInCase::speed, quantity(Dimension::speed, Range::positive()),
+      .optional("speed", &given::Fault::speed, quantity(Dimension::speed, Range::positive()),
                 "at which they pay out; also beyond what the winch drives")
-      .optional("caught_after", &FaultInCase::caught_after,
+      .optional("caught_after", &given::Fault::caught_after,
                 quantity(Dimension::time, Range::positive()),
                 "from the instant until they are braked; then they stand")
-      .by_default("within", &FaultInCase::within, quantity(Dimension::time, Range::positive()),
+      .by_default("within", &given::Fault::within, quantity(Dimension::time, Range::positive()),
                   "0.5 s",
                   "in which drives come to a stand, evenly, and winches that run away to their "
                   "speed, and to a stand when they are caught")
-      .place(&FaultInCase::place);
+      .place(&given::Fault::place);
   return table.format();
 }
 

@@ -13,10 +13,10 @@ namespace {
 bool is_incomplete(const LiftCase& lift_case, const std::string& name) {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos) {
-    const RopeInCase* rope = lift_case.find_rope(name);
+    const given::Rope* rope = lift_case.find_rope(name);
     return rope && rope->winch;
   }
-  const CraneInCase* crane = lift_case.find_crane(name.substr(0, dot));
+  const given::Crane* crane = lift_case.find_crane(name.substr(0, dot));
   if (!crane) return false;
   if (!crane->model) return true;
   const std::string part = name.substr(dot + 1);
@@ -48,7 +48,7 @@ void add_mover(std::vector<Mover>& movers, std::string name, bool is_winch,
 
 std::vector<Mover> movers_of(const LiftCase& lift_case) {
   std::vector<Mover> movers;
-  for (const CraneInCase& crane : lift_case.cranes) {
+  for (const given::Crane& crane : lift_case.cranes) {
     if (!crane.model) continue;
     const auto start_of = [&](const std::string& part) {
       const Located<Quantity>* start = crane.find_start(part);
@@ -63,7 +63,7 @@ std::vector<Mover> movers_of(const LiftCase& lift_case) {
                 start_of(hoist.name.value));
     }
   }
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     if (rope.winch) {
       add_mover(movers, rope.name.value, true, *rope.winch, {rope.length.value, Dimension::length});
     }

@@ -69,7 +69,7 @@ struct ScheduledSteering {
   std::size_t mover = 0;
   std::size_t stage = 0;
   dynamics::Steering steering;  ///< but for its wish
-  KeepInCase keep;
+  given::Keep keep;
   std::optional<dynamics::Course> course = {};  ///< none: not known yet
   Mark mark;
 };
@@ -106,7 +106,7 @@ struct Schedule {
 struct OperationPlan {
   std::string owner;  ///< "the case": whose drives they are, for messages
   std::vector<Mover> movers;
-  const std::vector<StageInCase>* stages = nullptr;
+  const std::vector<given::Stage>* stages = nullptr;
   double settle = 0;  ///< after the last move, s
   /// Is it a drive that exists, but could not be read?
   std::function<bool(const std::string&)> is_incomplete;

@@ -20,12 +20,12 @@ void miss_law(const Located<std::string>& law, Diagnostics& diagnostics) {
 
 }  // namespace
 
-void check_laws(const OwnLaws& laws, const std::vector<StageInCase>& operation,
+void check_laws(const OwnLaws& laws, const std::vector<given::Stage>& operation,
                 const std::filesystem::path& file, Diagnostics& diagnostics) {
   std::vector<std::string> known;
   std::vector<const Located<std::string>*> missing;
-  for (const StageInCase& stage : operation)
-    for (const MoveInCase& move : stage.moves) {
+  for (const given::Stage& stage : operation)
+    for (const given::Move& move : stage.moves) {
       if (!move.keeps || !move.keeps->law) continue;
       known.push_back(move.keeps->law->value);
       if (!laws.contains(known.back())) missing.push_back(&*move.keeps->law);
@@ -42,7 +42,7 @@ void check_laws(const OwnLaws& laws, const std::vector<StageInCase>& operation,
 }
 
 // A law is given the coordinate and the rate of its drive, then what it sees besides.
-dynamics::OwnLaw make_own_law(const KeepInCase& keep, const OwnLaws& laws) {
+dynamics::OwnLaw make_own_law(const given::Keep& keep, const OwnLaws& laws) {
   const auto law = laws.find(keep.law->value);
   if (law == laws.end()) {
     Diagnostics diagnostics;
@@ -51,7 +51,7 @@ dynamics::OwnLaw make_own_law(const KeepInCase& keep, const OwnLaws& laws) {
   }
   dynamics::OwnLaw own{keep.law->value, {dynamics::SeenCoordinate{}, dynamics::SeenRate{}}, {}};
   std::vector<std::string> figures{"position", "speed"};
-  for (const SightInCase& sight : keep.sees) figures.push_back(sight.name.value);
+  for (const given::Sight& sight : keep.sees) figures.push_back(sight.name.value);
   own.begin = [make = law->second, figures] { return make(figures); };
   return own;
 }

@@ -13,7 +13,7 @@ bool same_point(const ResolvedPoint& a, const ResolvedPoint& b) {
 
 /// Complains about sheaves on the load or a spreader: only the forces of rope ends reach its
 /// stress.
-void check_sheaves(const RopeInCase& rope, Diagnostics& diagnostics) {
+void check_sheaves(const given::Rope& rope, Diagnostics& diagnostics) {
   for (std::size_t i = 1; i + 1 < rope.path.size(); ++i) {
     const bool on_load = rope.path[i].kind == ResolvedPoint::Kind::load;
     if (!on_load && rope.path[i].kind != ResolvedPoint::Kind::spreader) continue;
@@ -29,10 +29,10 @@ void check_sheaves(const RopeInCase& rope, Diagnostics& diagnostics) {
 }
 
 /// Slings from one hook to both ends of a bar must reach around it.
-void check_reach(const LiftCase& lift_case, const SpreaderInCase& bar, Diagnostics& diagnostics) {
-  for (const RopeInCase& one : lift_case.ropes) {
+void check_reach(const LiftCase& lift_case, const given::Spreader& bar, Diagnostics& diagnostics) {
+  for (const given::Rope& one : lift_case.ropes) {
     if (!one.ends_at_spreader(bar.name.value)) continue;
-    for (const RopeInCase& other : lift_case.ropes) {
+    for (const given::Rope& other : lift_case.ropes) {
       if (&other <= &one || !other.ends_at_spreader(bar.name.value)) continue;
       const double apart = (one.path.back().point - other.path.back().point).norm();
       if (!same_point(one.path.front(), other.path.front()) ||
@@ -49,11 +49,11 @@ void check_reach(const LiftCase& lift_case, const SpreaderInCase& bar, Diagnosti
 }
 
 /// Does a chain of slings lead from a spreader upwards to what is no spreader?
-bool hangs_on_something(const LiftCase& lift_case, const SpreaderInCase& bar) {
+bool hangs_on_something(const LiftCase& lift_case, const given::Spreader& bar) {
   std::vector<std::string> reached = {bar.name.value};
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const std::string name = reached[i];
-    for (const RopeInCase& rope : lift_case.ropes) {
+    for (const given::Rope& rope : lift_case.ropes) {
       if (rope.path.empty() || !rope.ends_at_spreader(name)) continue;
       const ResolvedPoint& first = rope.path.front();
       if (first.kind != ResolvedPoint::Kind::spreader) return true;
@@ -64,10 +64,10 @@ bool hangs_on_something(const LiftCase& lift_case, const SpreaderInCase& bar) {
 }
 
 void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  for (const SpreaderInCase& bar : lift_case.spreaders) {
+  for (const given::Spreader& bar : lift_case.spreaders) {
     int above = 0, below = 0;
     bool all_known = true;
-    for (const RopeInCase& rope : lift_case.ropes) {
+    for (const given::Rope& rope : lift_case.ropes) {
       all_known &= !rope.path.empty();
       if (rope.path.empty()) continue;
       above += int{rope.ends_at_spreader(bar.name.value)};
@@ -100,7 +100,7 @@ void check_spreaders(const LiftCase& lift_case, Diagnostics& diagnostics) {
   }
 }
 
-void check_bend(const RopeInCase& rope, Diagnostics& diagnostics) {
+void check_bend(const given::Rope& rope, Diagnostics& diagnostics) {
   if (!rope.bend_diameter) return;
   const auto& [bend, mark] = *rope.bend_diameter;
   if (!rope.rope.diameter) {
@@ -123,7 +123,7 @@ void check_bend(const RopeInCase& rope, Diagnostics& diagnostics) {
 void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
   bool all_known = true;
   bool load_hangs = false;
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     all_known &= !rope.path.empty() && rope.edges.size() == rope.over.size();
     load_hangs |= rope.is_basket();
     check_sheaves(rope, diagnostics);
@@ -155,7 +155,7 @@ void check_ropes(const LiftCase& lift_case, Diagnostics& diagnostics) {
 }
 
 /// Two hoists of one kind of rope can be reeved with one.
-void check_equalised(const CraneInCase& crane, Diagnostics& diagnostics) {
+void check_equalised(const given::Crane& crane, Diagnostics& diagnostics) {
   if (!crane.equalised) return;
   std::array<const HoistModel*, 2> hoists{};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -209,9 +209,9 @@ void check_rope_weight(const LiftCase& lift_case, Diagnostics& diagnostics) {
           {"a catenary has one stiffness: give axial_stiffness, leave the mass of its "
            "model out, or rope_weight"});
   };
-  for (const RopeInCase& rope : lift_case.ropes)
+  for (const given::Rope& rope : lift_case.ropes)
     look_at("rope " + rope.name.value, rope.rope, lift_case.hangs(rope));
-  for (const CraneInCase& crane : lift_case.cranes) {
+  for (const given::Crane& crane : lift_case.cranes) {
     if (!crane.model) return;
     for (const HoistModel& hoist : crane.model->hoists)
       look_at("tackle " + crane.name.value + "." + hoist.name.value, hoist.rope,
@@ -225,9 +225,9 @@ void check_rope_weight(const LiftCase& lift_case, Diagnostics& diagnostics) {
 
 /// Ropes with friction have one stiffness, and end at bodies that do not give way.
 void check_friction(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  for (const RopeInCase& rope : lift_case.ropes) check_curve_without_friction(rope, diagnostics);
+  for (const given::Rope& rope : lift_case.ropes) check_curve_without_friction(rope, diagnostics);
   if (lift_case.dynamics.flexibility == Flexibility::rigid) return;
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     const auto& given = rope.sheave_friction ? rope.sheave_friction : rope.sheave_efficiency;
     if (!given || rope.friction() == 0) continue;
     diagnostics.error(
@@ -239,7 +239,7 @@ void check_friction(const LiftCase& lift_case, Diagnostics& diagnostics) {
 }
 
 /// A lug at which a span begins or ends, within the round of an edge of that span.
-void check_lug_and_edge(const RopeInCase& rope, std::size_t i, Diagnostics& diagnostics) {
+void check_lug_and_edge(const given::Rope& rope, std::size_t i, Diagnostics& diagnostics) {
   const auto span = static_cast<std::size_t>(rope.over[i].span.value);
   const LoadEdge& edge = rope.edges[i];
   for (const ResolvedPoint* point : {&rope.path[span - 1], &rope.path[span]}) {
@@ -256,7 +256,7 @@ void check_lug_and_edge(const RopeInCase& rope, std::size_t i, Diagnostics& diag
   }
 }
 
-void check_spans(const RopeInCase& rope, Diagnostics& diagnostics) {
+void check_spans(const given::Rope& rope, Diagnostics& diagnostics) {
   // As the rope's path takes.
   constexpr int most_in_span = 6;
   constexpr std::size_t most_places = 32;
@@ -305,7 +305,7 @@ void check_spans(const RopeInCase& rope, Diagnostics& diagnostics) {
 }
 
 /// Both ways round a bar from one point are alike: which of them is meant, two edges say.
-void check_way_round(const RopeInCase& rope, Diagnostics& diagnostics) {
+void check_way_round(const given::Rope& rope, Diagnostics& diagnostics) {
   for (std::size_t i = 1; i < rope.path.size(); ++i) {
     if (!same_point(rope.path[i - 1], rope.path[i])) continue;
     const auto is_here = [i](const EdgeOnTheWay& passage) {
@@ -322,7 +322,7 @@ void check_way_round(const RopeInCase& rope, Diagnostics& diagnostics) {
 
 /// What a rope over edges may not have besides.
 void check_edges(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  for (const RopeInCase& rope : lift_case.ropes) {
+  for (const given::Rope& rope : lift_case.ropes) {
     if (rope.edges.empty() || rope.path.empty()) continue;
     const Mark& mark = rope.over.front().edge.mark;
     if (lift_case.dynamics.flexibility != Flexibility::rigid)
@@ -351,7 +351,7 @@ void check_edges(const LiftCase& lift_case, Diagnostics& diagnostics) {
 
 }  // namespace
 
-void check_curve_without_friction(const RopeInCase& rope, Diagnostics& diagnostics) {
+void check_curve_without_friction(const given::Rope& rope, Diagnostics& diagnostics) {
   const std::string hint =
       "ropes with friction have one stiffness: leave the friction out, or give axial_stiffness";
   for (std::size_t i = 0; i < rope.edges.size(); ++i) {
@@ -370,7 +370,7 @@ void check_curve_without_friction(const RopeInCase& rope, Diagnostics& diagnosti
 }
 
 void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {
-  for (const CraneInCase& crane : lift_case.cranes)
+  for (const given::Crane& crane : lift_case.cranes)
     if (crane.model && !lift_case.load_table) check_equalised(crane, diagnostics);
   check_ropes(lift_case, diagnostics);
   check_spreaders(lift_case, diagnostics);

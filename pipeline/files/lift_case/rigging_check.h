@@ -9,6 +9,6 @@ namespace blocklift::pipeline {
 void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics);
 
 /// Complains about a rope that has a curve of tension and friction at its sheaves.
-void check_curve_without_friction(const RopeInCase& rope, Diagnostics& diagnostics);
+void check_curve_without_friction(const given::Rope& rope, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

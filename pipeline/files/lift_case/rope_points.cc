@@ -25,7 +25,7 @@ class PointResolver {
     subject_ = std::move(subject);
     if (p.body) return resolve_body(*p.body, p.point);
     if (p.name.value.empty()) return std::nullopt;
-    if (const SpreaderInCase* bar = case_.find_spreader(before_dot(p.name.value)))
+    if (const given::Spreader* bar = case_.find_spreader(before_dot(p.name.value)))
       return resolve_eye(p.name, *bar);
     if (p.name.value.find('.') != std::string::npos && !is_lug(p.name.value)) {
       return resolve_part(p.name, false, Vector3::Zero());
@@ -77,14 +77,14 @@ class PointResolver {
   void fail_body(const Located<std::string>& body) {
     std::vector<std::string> known = {"world", "load"};
     for (const std::string& vessel : names_of(case_.vessels)) known.push_back(vessel);
-    for (const SpreaderInCase& bar : case_.spreaders) known.push_back(bar.name.value);
+    for (const given::Spreader& bar : case_.spreaders) known.push_back(bar.name.value);
     fail(body, fmt::format("{} body \"{}\", which does not exist", subject_, body.value),
          names_hint("a body is crane and body, for example C1.gantry, or one of", known,
                     body.value));
   }
 
   std::optional<ResolvedPoint> resolve_eye(const Located<std::string>& name,
-                                           const SpreaderInCase& bar) {
+                                           const given::Spreader& bar) {
     ResolvedPoint resolved;
     resolved.kind = ResolvedPoint::Kind::spreader;
     resolved.part = bar.name.value;
@@ -114,11 +114,11 @@ class PointResolver {
     const std::size_t dot = name.value.find('.');
     const std::string crane_name = name.value.substr(0, dot);
     const std::string part = name.value.substr(dot + 1);
-    const CraneInCase* crane = case_.find_crane(crane_name);
+    const given::Crane* crane = case_.find_crane(crane_name);
     if (!crane) {
       if (case_.cranes.empty() && diagnostics_.has_errors()) return std::nullopt;  // told
       std::vector<std::string> known = names_of(case_.cranes);
-      for (const SpreaderInCase& bar : case_.spreaders) known.push_back(bar.name.value);
+      for (const given::Spreader& bar : case_.spreaders) known.push_back(bar.name.value);
       const bool has_bars = !case_.spreaders.empty();
       fail(name,
            fmt::format("{} \"{}\", but the case has no crane {}\"{}\"", subject_, name.value,
@@ -229,8 +229,8 @@ class PointResolver {
 };
 
 /// Looks up the edges that a rope may touch.
-void resolve_edges(const LiftCase& lift_case, RopeInCase& rope, Diagnostics& diagnostics) {
-  const LoadInCase& load = lift_case.load;
+void resolve_edges(const LiftCase& lift_case, given::Rope& rope, Diagnostics& diagnostics) {
+  const given::Load& load = lift_case.load;
   if (!load.model && !load.model_name.value.empty()) return;  // it could not be read
   const std::vector<LoadEdge>& known = load.all_edges();
   bool all_found = true;
@@ -273,7 +273,7 @@ void resolve_seen(PointResolver& resolver, const std::string& subject, Keeping& 
 
 void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics) {
   PointResolver resolver(lift_case, diagnostics);
-  for (RopeInCase& rope : lift_case.ropes) {
+  for (given::Rope& rope : lift_case.ropes) {
     std::vector<std::optional<ResolvedPoint>> points;
     const std::string name = "rope " + rope.name.value;
     points.push_back(resolver.resolve(rope.from, name + " begins at"));
@@ -287,13 +287,13 @@ void resolve_points(LiftCase& lift_case, Diagnostics& diagnostics) {
     }
     for (auto& point : points) rope.path.push_back(std::move(*point));
   }
-  for (StageInCase& stage : lift_case.operation) {
-    for (MoveInCase& move : stage.moves) {
+  for (given::Stage& stage : lift_case.operation) {
+    for (given::Move& move : stage.moves) {
       if (!move.keeps) continue;
-      KeepInCase& keep = *move.keeps;
+      given::Keep& keep = *move.keeps;
       const std::string subject = fmt::format("stage \"{}\" keeps", stage.name.value);
       resolve_seen(resolver, subject, keep);
-      for (SightInCase& sight : keep.sees)
+      for (given::Sight& sight : keep.sees)
         resolve_seen(resolver, fmt::format("stage \"{}\" has a law that sees", stage.name.value),
                      sight);
     }

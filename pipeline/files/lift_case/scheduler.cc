@@ -32,7 +32,7 @@ class Scheduler {
 
   Schedule run() {
     double time = 0;
-    for (const StageInCase& stage : *plan_.stages) {
+    for (const given::Stage& stage : *plan_.stages) {
       time = add_stage(stage, time + (std::isfinite(stage.pause) ? stage.pause : 0));
     }
     schedule_.duration = time + (std::isfinite(plan_.settle) ? plan_.settle : 0);
@@ -41,23 +41,24 @@ class Scheduler {
 
  private:
   /// Adds a stage that begins at `start`; returns its end.
-  double add_stage(const StageInCase& stage, double start) {
+  double add_stage(const given::Stage& stage, double start) {
     stage_ = &stage;
     stage_index_ = schedule_.stages.size();
     errors_before_stage_ = diagnostics_.error_count();
     schedule_.stages.push_back({stage.name.value, start, start});
-    std::vector<const MoveInCase*> moves;
-    for (const MoveInCase& move : stage.moves) moves.push_back(&move);
-    std::stable_sort(moves.begin(), moves.end(),
-                     [](const MoveInCase* a, const MoveInCase* b) { return a->delay < b->delay; });
-    for (const MoveInCase* move : moves) {
+    std::vector<const given::Move*> moves;
+    for (const given::Move& move : stage.moves) moves.push_back(&move);
+    std::stable_sort(moves.begin(), moves.end(), [](const given::Move* a, const given::Move* b) {
+      return a->delay < b->delay;
+    });
+    for (const given::Move* move : moves) {
       if (!move->follows && !move->keeps) add_moves(*move, start);
     }
-    for (const MoveInCase* move : moves) {
+    for (const given::Move* move : moves) {
       if (move->follows && !move->keeps) add_followers(*move);
     }
     moves_end_ = schedule_.stages.back().end;
-    for (const MoveInCase* move : moves) {
+    for (const given::Move* move : moves) {
       if (move->keeps) add_keeping(*move, start);
     }
     if (stage.until) end_by_condition(*stage.until);
@@ -156,7 +157,7 @@ class Scheduler {
     return std::nullopt;
   }
 
-  void add_moves(const MoveInCase& move, double stage_start) {
+  void add_moves(const given::Move& move, double stage_start) {
     if (move.table) {
       diagnostics_.error(move.table->mark, "a table goes with \"follows\"",
                          {"name the drive that leads: follows: C1.lower"});
@@ -174,7 +175,7 @@ class Scheduler {
     }
   }
 
-  void add_move(const MoveInCase& move, const Located<std::string>& name, std::size_t index,
+  void add_move(const given::Move& move, const Located<std::string>& name, std::size_t index,
                 double stage_start) {
     const Mover& mover = schedule_.movers[index];
     const Located<Quantity>& travel = move.by ? *move.by : *move.to;
@@ -211,7 +212,7 @@ class Scheduler {
   }
 
   /// The limits of the move where it gives its own; complains where they exceed the drive's.
-  bool take_limits(const MoveInCase& move, const Mover& mover, dynamics::MotionLimits& limits) {
+  bool take_limits(const given::Move& move, const Mover& mover, dynamics::MotionLimits& limits) {
     const bool turns = mover.travel == Dimension::angle;
     bool sound = true;
     const auto take = [&](const std::optional<Located<Quantity>>& own, Dimension due,
@@ -284,7 +285,7 @@ class Scheduler {
                      in_words(mover.lowest), in_words(mover.highest), in_words(mover.start))});
   }
 
-  void add_followers(const MoveInCase& move) {
+  void add_followers(const given::Move& move) {
     const auto refuse = [&](bool given, const char* key) {
       if (!given) return;
       diagnostics_.error(move.place,
@@ -307,7 +308,7 @@ class Scheduler {
     }
   }
 
-  void add_follower(const MoveInCase& move, const Located<std::string>& name, std::size_t index,
+  void add_follower(const given::Move& move, const Located<std::string>& name, std::size_t index,
                     std::size_t leader) {
     const auto fail = [&](const Mark& mark, std::string message, std::vector<std::string> hints) {
       diagnostics_.error(mark, std::move(message), std::move(hints));
@@ -353,7 +354,7 @@ class Scheduler {
     schedule_.followers.push_back({index, leader, stage_index_, *spline, name.mark});
   }
 
-  void add_keeping(const MoveInCase& move, double stage_start) {
+  void add_keeping(const given::Move& move, double stage_start) {
     const auto refuse = [&](bool given, const char* keys) {
       if (given)
         diagnostics_.error(move.place, fmt::format("a move that keeps something takes no {}", keys),
@@ -362,7 +363,7 @@ class Scheduler {
     refuse(move.by || move.to, "\"by\" or \"to\"");
     refuse(move.follows || move.table, "\"follows\" or table");
     const double start = stage_start + (std::isfinite(move.delay) ? move.delay : 0);
-    const StageInCase& stage = *stage_;
+    const given::Stage& stage = *stage_;
     double end = moves_end_;
     if (stage.until && stage.until->within) end = std::max(end, stage_start + *stage.until->within);
     if (move.duration) end = start + move.duration->value;
@@ -380,7 +381,7 @@ class Scheduler {
     }
   }
 
-  void add_steering(const MoveInCase& move, const Located<std::string>& name, std::size_t index,
+  void add_steering(const given::Move& move, const Located<std::string>& name, std::size_t index,
                     double start, double end) {
     const auto overlap = [&](std::size_t stage, std::size_t mover, const Mark& mark) {
       if (stage != stage_index_ || mover != index) return false;
@@ -397,7 +398,7 @@ class Scheduler {
     for (const auto& other : schedule_.steerings)
       if (overlap(other.stage, other.mover, other.mark)) return;
     const Mover& mover = schedule_.movers[index];
-    const KeepInCase& keep = *move.keeps;
+    const given::Keep& keep = *move.keeps;
     dynamics::MotionLimits limits = mover.limits;
     if (!take_limits(move, mover, limits)) return;
     dynamics::Steering steering;
@@ -506,7 +507,7 @@ class Scheduler {
   Schedule schedule_;
   std::vector<double> coordinates_;  // of each mover, after what is scheduled so far
   std::set<std::size_t> left_range_;
-  const StageInCase* stage_ = nullptr;
+  const given::Stage* stage_ = nullptr;
   std::size_t stage_index_ = 0;
   std::size_t errors_before_stage_ = 0;
   double moves_end_ = 0;           // of the stage's moves and followers, s

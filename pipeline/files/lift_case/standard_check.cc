@@ -44,7 +44,7 @@ class StandardCheck {
                        {names_hint("they have", names_of(section), chosen.value)});
   }
 
-  void sling(const RopeInCase& rope) {
+  void sling(const given::Rope& rope) {
     // A model that could not be read has been complained of.
     if (!rope.rope.stretches()) return;
     const auto lacks = [&](const char* key, const char* why) {
@@ -84,7 +84,7 @@ class StandardCheck {
   void shackles() {
     std::vector<std::string> lugs = names_of(case_.load.lugs);
     if (case_.load.model) lugs = case_.load.model->lug_names();
-    for (const ShackleInCase& shackle : standard_.shackles) {
+    for (const given::Shackle& shackle : standard_.shackles) {
       if (!rules_.shackle) {
         diagnostics_.error(shackle.name.mark,
                            fmt::format("the rules {} say nothing of shackles", rules_.name),
@@ -108,12 +108,12 @@ class StandardCheck {
 
   void master_links() {
     std::vector<std::string> hooks;
-    for (const RopeInCase& rope : case_.ropes)
+    for (const given::Rope& rope : case_.ropes)
       if (rope.is_sling() && rope.path.front().kind == ResolvedPoint::Kind::hook)
         hooks.push_back(rope.path.front().body_name(case_.cranes));
     std::sort(hooks.begin(), hooks.end());
     hooks.erase(std::unique(hooks.begin(), hooks.end()), hooks.end());
-    for (const MasterLinkInCase& link : standard_.master_links) {
+    for (const given::MasterLink& link : standard_.master_links) {
       if (std::find(hooks.begin(), hooks.end(), link.name.value) == hooks.end())
         diagnostics_.error(link.name.mark,
                            fmt::format("a master link is at hook \"{}\", from which no sling hangs",
@@ -125,9 +125,9 @@ class StandardCheck {
 
   void sheaves() {
     std::vector<std::string> slings;
-    for (const RopeInCase& rope : case_.ropes)
+    for (const given::Rope& rope : case_.ropes)
       if (rope.is_sling()) slings.push_back(rope.name.value);
-    for (const SheaveInCase& sheave : standard_.sheaves) {
+    for (const given::Sheave& sheave : standard_.sheaves) {
       if (std::find(slings.begin(), slings.end(), sheave.name.value) == slings.end())
         diagnostics_.error(
             sheave.name.mark,
@@ -140,7 +140,7 @@ class StandardCheck {
   bool is_pulled_at(const std::string& lug) const {
     if (case_.load_table) return find_by_name(case_.load_table->static_loads, lug) != nullptr;
     // Ropes whose points could not be found have been complained of.
-    return std::any_of(case_.ropes.begin(), case_.ropes.end(), [&](const RopeInCase& rope) {
+    return std::any_of(case_.ropes.begin(), case_.ropes.end(), [&](const given::Rope& rope) {
       return rope.path.empty() || rope.path.front().lug == lug || rope.path.back().lug == lug;
     });
   }
@@ -154,7 +154,7 @@ class StandardCheck {
 
  private:
   const LiftCase& case_;
-  const StandardInCase& standard_;
+  const given::Standard& standard_;
   const StandardRules& rules_;
   Diagnostics& diagnostics_;
 };
@@ -164,7 +164,7 @@ class StandardCheck {
 void check_standard(const LiftCase& lift_case, Diagnostics& diagnostics) {
   // Rules that could not be read have been complained about.
   if (!lift_case.standard || lift_case.standard->rules.name.empty()) return;
-  const StandardInCase& standard = *lift_case.standard;
+  const given::Standard& standard = *lift_case.standard;
   const StandardRules& rules = standard.rules;
   StandardCheck check(lift_case, diagnostics);
   const bool moves = !lift_case.load_table;
@@ -177,7 +177,7 @@ void check_standard(const LiftCase& lift_case, Diagnostics& diagnostics) {
   std::vector<NamedFactor> wear;
   if (rules.sling) wear = rules.sling->wear;
   check.choice("wear", "wear", standard.wear, wear, moves);
-  for (const RopeInCase& rope : lift_case.ropes)
+  for (const given::Rope& rope : lift_case.ropes)
     if (rope.is_sling()) check.sling(rope);
   check.shackles();
   check.master_links();

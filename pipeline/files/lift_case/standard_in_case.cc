@@ -16,12 +16,12 @@ Format<std::vector<Located<std::string>>> rule_names_format() {
                                                      std::nullopt);
 }
 
-Format<ShackleInCase> shackle_in_case_format() {
-  Table<ShackleInCase> table("shackle", "Shackle at a lug.");
+Format<given::Shackle> shackle_in_case_format() {
+  Table<given::Shackle> table("shackle", "Shackle at a lug.");
   table
-      .required("working_load", &ShackleInCase::working_load,
+      .required("working_load", &given::Shackle::working_load,
                 quantity(Dimension::load, Range::positive()), "WLL")
-      .required("breaking_load", &ShackleInCase::breaking_load,
+      .required("breaking_load", &given::Shackle::breaking_load,
                 quantity(Dimension::load, Range::positive()), "MBL");
   return table.format();
 }
@@ -40,79 +40,81 @@ Format<std::vector<T>> tables_by_hook(Format<T> table) {
       });
 }
 
-Format<MasterLinkInCase> master_link_in_case_format() {
+Format<given::MasterLink> master_link_in_case_format() {
   const auto load = quantity(Dimension::load, Range::positive());
-  Table<MasterLinkInCase> table("master link", "Master link between a hook and its slings.");
-  table.required("working_load", &MasterLinkInCase::working_load, load, "WLL, of all legs together")
-      .required("breaking_load", &MasterLinkInCase::breaking_load, load, "MBL")
-      .by_default("mass", &MasterLinkInCase::mass, quantity(Dimension::mass, Range::not_negative()),
-                  "0 kg", "counted to the weight of the rigging");
+  Table<given::MasterLink> table("master link", "Master link between a hook and its slings.");
+  table
+      .required("working_load", &given::MasterLink::working_load, load, "WLL, of all legs together")
+      .required("breaking_load", &given::MasterLink::breaking_load, load, "MBL")
+      .by_default("mass", &given::MasterLink::mass,
+                  quantity(Dimension::mass, Range::not_negative()), "0 kg",
+                  "counted to the weight of the rigging");
   return table.format();
 }
 
-Format<SheaveInCase> sheave_in_case_format() {
+Format<given::Sheave> sheave_in_case_format() {
   const auto load = quantity(Dimension::load, Range::positive());
-  Table<SheaveInCase> table("sheave", "Sheave over which a sling is led.");
+  Table<given::Sheave> table("sheave", "Sheave over which a sling is led.");
   table
-      .required("working_load", &SheaveInCase::working_load, load,
+      .required("working_load", &given::Sheave::working_load, load,
                 "WLL, on its pin, for both parts of the rope")
-      .required("breaking_load", &SheaveInCase::breaking_load, load,
+      .required("breaking_load", &given::Sheave::breaking_load, load,
                 "MBL, on its pin, for both parts of the rope")
-      .required("tread", &SheaveInCase::tread, quantity(Dimension::length, Range::positive()),
+      .required("tread", &given::Sheave::tread, quantity(Dimension::length, Range::positive()),
                 "diameter at the bottom of the groove, round which the rope is bent");
   return table.format();
 }
 
 }  // namespace
 
-std::optional<double> StandardInCase::bend_of(const std::string& rope) const {
-  const SheaveInCase* sheave = find_by_name(sheaves, rope);
+std::optional<double> given::Standard::bend_of(const std::string& rope) const {
+  const given::Sheave* sheave = find_by_name(sheaves, rope);
   if (!sheave) return bend_diameter;
   return std::min(sheave->tread, bend_diameter.value_or(sheave->tread));
 }
 
-Format<StandardInCase> standard_in_case_format() {
-  Table<StandardInCase> table(
+Format<given::Standard> standard_in_case_format() {
+  Table<given::Standard> table(
       "standard",
       "Rules of a standard: their chain of factors is worked step by step for hooks, slings, lugs, "
       "shackles and cranes, beside what the simulation gives, and checked.");
   table
-      .required("rules", &StandardInCase::rule_names, rule_names_format(),
+      .required("rules", &given::Standard::rule_names, rule_names_format(),
                 "name of a standard's file, or a list: a section that the first lacks is taken "
                 "from the next")
-      .optional("weight_class", &StandardInCase::weight_class, reference(),
+      .optional("weight_class", &given::Standard::weight_class, reference(),
                 "of the net weight, as the rules name it")
-      .optional("setting", &StandardInCase::setting, reference(),
+      .optional("setting", &given::Standard::setting, reference(),
                 "whose dynamic amplification holds, as the rules name it: onshore")
-      .optional("hoisting_class", &StandardInCase::hoisting_class, reference(),
+      .optional("hoisting_class", &given::Standard::hoisting_class, reference(),
                 "of the cranes, as the rules name it: HC2")
-      .optional("tilt", &StandardInCase::tilt, reference(),
+      .optional("tilt", &given::Standard::tilt, reference(),
                 "arrangement of two hooks or cranes, as the rules name it")
-      .optional("skew", &StandardInCase::skew, reference(),
+      .optional("skew", &given::Standard::skew, reference(),
                 "rigging arrangement, as the rules name it: matched")
-      .optional("wear", &StandardInCase::wear, reference(), "of the slings, as the rules name it")
-      .optional("centre_box", &StandardInCase::centre_box, position_format(),
+      .optional("wear", &given::Standard::wear, reference(), "of the slings, as the rules name it")
+      .optional("centre_box", &given::Standard::centre_box, position_format(),
                 "how far the centre of mass may lie from where the block has it, either way along "
                 "each axis; in place of the rules' factor")
-      .optional("length_tolerance", &StandardInCase::length_tolerance,
+      .optional("length_tolerance", &given::Standard::length_tolerance,
                 quantity(Dimension::ratio, Range::between(0, 0.1)),
                 "of slings over their length, either way, for the computed skew; in place of the "
                 "rules' own")
-      .optional("bend_diameter", &StandardInCase::bend_diameter,
+      .optional("bend_diameter", &given::Standard::bend_diameter,
                 quantity(Dimension::length, Range::positive()),
                 "of the least pin, hook or trunnion that slings without a bend_diameter of their "
                 "own are bent round; they are not bent if left out")
-      .optional("shackles", &StandardInCase::shackles, named_tables(shackle_in_case_format()),
+      .optional("shackles", &given::Standard::shackles, named_tables(shackle_in_case_format()),
                 "by lug")
-      .optional("master_links", &StandardInCase::master_links,
+      .optional("master_links", &given::Standard::master_links,
                 tables_by_hook(master_link_in_case_format()), "by hook: C1.main")
-      .optional("sheaves", &StandardInCase::sheaves, named_tables(sheave_in_case_format()),
+      .optional("sheaves", &given::Standard::sheaves, named_tables(sheave_in_case_format()),
                 "by sling that is led over one")
-      .place(&StandardInCase::place);
+      .place(&given::Standard::place);
   return table.format();
 }
 
-void load_rules(StandardInCase& standard, const std::filesystem::path& beside,
+void load_rules(given::Standard& standard, const std::filesystem::path& beside,
                 ModelLibrary& library, Diagnostics& diagnostics) {
   bool first = true;
   for (const Located<std::string>& name : standard.rule_names) {

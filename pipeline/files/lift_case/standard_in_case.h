@@ -12,15 +12,17 @@ namespace blocklift::pipeline {
 
 class ModelLibrary;
 
+namespace given {
+
 /// Shackle at a lug.
-struct ShackleInCase {
+struct Shackle {
   Located<std::string> name;  ///< of the lug
   double working_load = 0;    ///< N
   double breaking_load = 0;   ///< N
 };
 
 /// Master link between a hook and its slings.
-struct MasterLinkInCase {
+struct MasterLink {
   Located<std::string> name;  ///< of the hook: "C1.main"
   double working_load = 0;    ///< N, of all legs together
   double breaking_load = 0;   ///< N
@@ -28,7 +30,7 @@ struct MasterLinkInCase {
 };
 
 /// Sheave over which a sling is led.
-struct SheaveInCase {
+struct Sheave {
   Located<std::string> name;  ///< of the rope
   double working_load = 0;    ///< N, on its pin
   double breaking_load = 0;   ///< N
@@ -36,7 +38,7 @@ struct SheaveInCase {
 };
 
 /// The standard by which a case is checked, with what the case chooses of it. SI units.
-struct StandardInCase {
+struct Standard {
   std::vector<Located<std::string>> rule_names;
   StandardRules rules;  ///< after the look-up, of all names together
   std::optional<Located<std::string>> weight_class;
@@ -48,19 +50,21 @@ struct StandardInCase {
   std::optional<Vector3> centre_box;       ///< how far the centre of mass may lie off, m
   std::optional<double> length_tolerance;  ///< of slings, over their length
   std::optional<double> bend_diameter;     ///< of what slings are bent round, m
-  std::vector<ShackleInCase> shackles;
-  std::vector<MasterLinkInCase> master_links;
-  std::vector<SheaveInCase> sheaves;
+  std::vector<Shackle> shackles;
+  std::vector<MasterLink> master_links;
+  std::vector<Sheave> sheaves;
   Mark place;
 
   /// What a rope is bent round, m; none: nothing.
   std::optional<double> bend_of(const std::string& rope) const;
 };
 
-Format<StandardInCase> standard_in_case_format();
+}  // namespace given
+
+Format<given::Standard> standard_in_case_format();
 
 /// Reads the files that the case names; the sections of the first count.
-void load_rules(StandardInCase& standard, const std::filesystem::path& beside,
+void load_rules(given::Standard& standard, const std::filesystem::path& beside,
                 ModelLibrary& library, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

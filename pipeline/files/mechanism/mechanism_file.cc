@@ -72,7 +72,7 @@ void add_robot(RobotImport robot, const Mark& mark, MechanismFile& mechanism,
 void add_vessels(MechanismFile& mechanism, Diagnostics& diagnostics) {
   std::vector<BodyModel> bodies;
   std::vector<JointModel> joints;
-  for (const VesselInCase& vessel : mechanism.vessels) {
+  for (const given::Vessel& vessel : mechanism.vessels) {
     if (mechanism.find_body(vessel.name.value) || mechanism.find_joint(vessel.name.value)) {
       diagnostics.error(vessel.name.mark, fmt::format("vessel {} has the name of a body or joint",
                                                       vessel.name.value));
@@ -109,8 +109,8 @@ void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
                             "hold its tension against",
                         {"leave it out"});
   };
-  for (const MooringInCase& line : mechanism.moorings) refuse_breaking_load(line);
-  for (const TuggerInCase& line : mechanism.tuggers) refuse_breaking_load(line);
+  for (const given::Mooring& line : mechanism.moorings) refuse_breaking_load(line);
+  for (const given::Tugger& line : mechanism.tuggers) refuse_breaking_load(line);
   const Vector3& g = mechanism.gravity;
   if (mechanism.sea && !(g.z() < 0 && g.head<2>().isZero())) {
     diagnostics.error(mechanism.sea->place, "a sea needs gravity that acts downwards, along -z");
@@ -123,7 +123,7 @@ void check_afloat(MechanismFile& mechanism, Diagnostics& diagnostics) {
     mechanism.doubts.push_back(std::move(doubt));
   for (std::string& doubt : doubts_about_vessels(mechanism))
     mechanism.doubts.push_back(std::move(doubt));
-  for (const VesselInCase& vessel : mechanism.vessels) {
+  for (const given::Vessel& vessel : mechanism.vessels) {
     if (!vessel.model) continue;
     const std::string who = "vessel " + vessel.name.value;
     const VesselModel& model = vessel.model->model;
@@ -166,7 +166,7 @@ std::optional<MechanismFile> read_robot(const fs::path& path, Diagnostics& diagn
 
 }  // namespace
 
-const RopeInCase* MechanismFile::find_rope(const std::string& rope) const {
+const given::Rope* MechanismFile::find_rope(const std::string& rope) const {
   return find_by_name(ropes, rope);
 }
 const SpringModel* MechanismFile::find_spring(const std::string& spring) const {
@@ -236,7 +236,7 @@ std::optional<MechanismFile> read_mechanism_file(const fs::path& path, ModelLibr
     if (!robot) return std::nullopt;
     add_robot(std::move(*robot), mark, mechanism, diagnostics);
   }
-  for (RopeInCase& rope : mechanism.ropes) {
+  for (given::Rope& rope : mechanism.ropes) {
     rope.rope = library.resolve(rope.rope_choice, file.parent_path(), diagnostics);
     check_curve_without_friction(rope, diagnostics);
   }

@@ -76,10 +76,10 @@ struct MechanismFile : MechanismParts, MarineParts {
   Vector3 gravity = Vector3::Zero();  ///< acceleration of gravity in the world, m/s^2
   ParameterValues parameters;
   std::optional<Located<std::string>> urdf;
-  std::vector<RopeInCase> ropes;
+  std::vector<given::Rope> ropes;
   std::vector<ForceModel> forces;
-  std::optional<WindInCase> wind;
-  std::vector<StageInCase> operation;
+  std::optional<given::Wind> wind;
+  std::vector<given::Stage> operation;
   InitialState initial;
   SimulationSettings simulate;
   std::vector<OutputModel> outputs;
@@ -90,7 +90,7 @@ struct MechanismFile : MechanismParts, MarineParts {
   Mark place;
   OwnLaws laws = {};  ///< that its operation names; not from the file
 
-  const RopeInCase* find_rope(const std::string& rope) const;
+  const given::Rope* find_rope(const std::string& rope) const;
   const SpringModel* find_spring(const std::string& spring) const;
   const LoopModel* find_loop(const std::string& loop) const;
   /// Where a drive that an operation moves stands at the start.

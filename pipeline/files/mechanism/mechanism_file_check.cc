@@ -20,7 +20,7 @@ class MechanismCheck {
     if (file_.bodies.empty() && !reading_.diagnostics().has_errors()) {
       reading_.error(file_.place, "the mechanism has no bodies");
     }
-    for (const RopeInCase& rope : file_.ropes) check_rope(rope);
+    for (const given::Rope& rope : file_.ropes) check_rope(rope);
     for (const ForceModel& force : file_.forces) check_force(force);
     for (const DriveModel& drive : file_.drives) check_drive(drive);
     check_operation();
@@ -45,7 +45,7 @@ class MechanismCheck {
                        : names_hint(fmt::format("its {}s are", noun), known, name.value)});
   }
 
-  void check_rope(const RopeInCase& rope) {
+  void check_rope(const given::Rope& rope) {
     const auto check = [&](const Located<RopePoint>& point) {
       if (!point.value.body) return;
       check_point(file_, {*point.value.body, Vector3::Zero(), point.mark},
@@ -251,7 +251,7 @@ class MechanismCheck {
   /// What a law sees is there, and can be seen from its drive.
   void check_sights(const ScheduledSteering& steering, const Mover& mover) {
     const std::string user = "the law of " + mover.name;
-    for (const SightInCase& sight : steering.keep.sees) {
+    for (const given::Sight& sight : steering.keep.sees) {
       for (const auto& point : {sight.level, sight.with, sight.over})
         if (point && point->value.body)
           check_point(file_, {*point->value.body, Vector3::Zero(), point->mark}, user, reading_);

@@ -11,13 +11,13 @@ Schedule schedule_operation(const MechanismFile& file, Diagnostics& diagnostics,
     if (drive.constant_speed || drive.table) continue;
     add_mover(movers, drive.name.value, false, drive, file.start_of(drive));
   }
-  for (const RopeInCase& rope : file.ropes) {
+  for (const given::Rope& rope : file.ropes) {
     if (rope.winch) {
       add_mover(movers, rope.name.value, true, *rope.winch, {rope.length.value, Dimension::length});
     }
   }
   const auto is_known = [&](const std::string& name) {
-    const RopeInCase* rope = file.find_rope(name);
+    const given::Rope* rope = file.find_rope(name);
     const DriveModel* drive = file.find_drive(name);
     return (rope && rope->winch) || (drive && !drive->constant_speed && !drive->table);
   };

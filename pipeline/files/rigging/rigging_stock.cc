@@ -210,7 +210,7 @@ void check_sheave(const StockSheave& sheave, Diagnostics& diagnostics) {
 }
 
 void check_spreader(const StockSpreader& spreader, double factor, Diagnostics& diagnostics) {
-  const SpreaderInCase& bar = spreader.bar;
+  const given::Spreader& bar = spreader.bar;
   const BarSection& section = bar.section.value;
   if (!section.is_whole() || !(bar.yield_stress > 0) || !(bar.length.value > 0)) return;
   if (bar.is_frame() && !(*bar.width > 0)) return;

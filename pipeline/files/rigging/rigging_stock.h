@@ -101,7 +101,7 @@ struct StockSheave {
 /// A spreader bar or frame in stock. SI units.
 struct StockSpreader {
   Located<std::string> name;
-  SpreaderInCase bar;
+  given::Spreader bar;
   double working_load = std::numeric_limits<double>::quiet_NaN();  ///< N, hung below it
   /// Of the slings above to the level, the least that the working load holds for, rad.
   double sling_angle = std::numeric_limits<double>::quiet_NaN();

@@ -67,7 +67,7 @@ void check_walls(const Located<BarSection>& located_section, double yield_stress
 
 /// Nothing but a bar's own steel and what is fastened to it has weight. Along the bar it rises or
 /// falls evenly, and is nowhere less than nothing while its centre lies within the middle third.
-void check_centre(const SpreaderInCase& spreader, Reading& reading) {
+void check_centre(const given::Spreader& spreader, Reading& reading) {
   if (!spreader.centre_of_mass || !spreader.section.value.is_whole()) return;
   const Vector3& centre = spreader.centre_of_mass->value;
   const double x = spreader.length.value / 6;
@@ -81,7 +81,7 @@ void check_centre(const SpreaderInCase& spreader, Reading& reading) {
                              x, y)});
 }
 
-void check_bars(const SpreaderInCase& spreader, Reading& reading) {
+void check_bars(const given::Spreader& spreader, Reading& reading) {
   check_walls(spreader.section, spreader.yield_stress, reading);
   check_centre(spreader, reading);
   if (!spreader.cross_section) return;
@@ -138,29 +138,29 @@ std::string buckling_curve_name(structure::BucklingCurve curve) {
   return {};
 }
 
-structure::Column SpreaderInCase::column() const { return member().column; }
+structure::Column given::Spreader::column() const { return member().column; }
 
-structure::FrameMember SpreaderInCase::member() const {
+structure::FrameMember given::Spreader::member() const {
   return member_of(section.value, length.value, yield_stress, curve);
 }
 
-structure::FrameMember SpreaderInCase::cross_member() const {
+structure::FrameMember given::Spreader::cross_member() const {
   const BarSection& across = cross_section ? cross_section->value : section.value;
   return member_of(across, *width, yield_stress, curve);
 }
 
-double SpreaderInCase::mass() const {
+double given::Spreader::mass() const {
   if (given_mass) return *given_mass;
   const double along = column().area * length.value;
   if (!is_frame()) return bar_density * along;
   return bar_density * 2 * (along + cross_member().column.area * *width);
 }
 
-Vector3 SpreaderInCase::centre() const {
+Vector3 given::Spreader::centre() const {
   return centre_of_mass ? centre_of_mass->value : Vector3::Zero();
 }
 
-Eigen::Matrix3d SpreaderInCase::inertia() const {
+Eigen::Matrix3d given::Spreader::inertia() const {
   // Of a bar along its first axis, over its mass.
   const auto of_bar = [](const structure::Column& bar) {
     const double along = bar.length * bar.length / 12;
@@ -179,12 +179,12 @@ Eigen::Matrix3d SpreaderInCase::inertia() const {
   return (mass() * I).asDiagonal();
 }
 
-std::vector<std::string> SpreaderInCase::eye_names() const {
+std::vector<std::string> given::Spreader::eye_names() const {
   if (!is_frame()) return {"upper_a", "upper_b", "lower_a", "lower_b"};
   return {"upper_1", "upper_2", "upper_3", "upper_4", "lower_1", "lower_2", "lower_3", "lower_4"};
 }
 
-std::optional<Vector3> SpreaderInCase::eye(const std::string& eye_name) const {
+std::optional<Vector3> given::Spreader::eye(const std::string& eye_name) const {
   const std::vector<std::string> names = eye_names();
   const auto found = std::ranges::find(names, eye_name);
   if (found == names.end()) return std::nullopt;
@@ -195,14 +195,14 @@ std::optional<Vector3> SpreaderInCase::eye(const std::string& eye_name) const {
   return Vector3((i % half == 0 ? -0.5 : 0.5) * length.value, 0, 0) + height;
 }
 
-std::string SpreaderInCase::size_text() const {
+std::string given::Spreader::size_text() const {
   const std::string text = format_quantity(length.value, Dimension::length);
   return is_frame() ? text + " x " + format_quantity(*width, Dimension::length) : text;
 }
 
-Format<SpreaderInCase> spreader_format() {
+Format<given::Spreader> spreader_format() {
   using structure::BucklingCurve;
-  Table<SpreaderInCase> table(
+  Table<given::Spreader> table(
       "spreader",
       "A spreader bar of steel, or with a width a rectangular frame of four bars that are rigidly "
       "joined at their corners, between slings from above and slings to the load. Ropes end and "
@@ -210,40 +210,40 @@ Format<SpreaderInCase> spreader_format() {
       "B1.lower_b; those of a frame over and under its corners 1 to 4, anticlockwise seen from "
       "above from the one at -x and -y: F1.upper_1, F1.lower_4.");
   table
-      .required("length", &SpreaderInCase::length,
+      .required("length", &given::Spreader::length,
                 located(quantity(Dimension::length, Range::positive())),
                 "from end a to end b; of a frame along x, from corner 1 to corner 2")
-      .optional("width", &SpreaderInCase::width, quantity(Dimension::length, Range::positive()),
+      .optional("width", &given::Spreader::width, quantity(Dimension::length, Range::positive()),
                 "of a frame along y, from corner 2 to corner 3; a bar if left out")
-      .required("section", &SpreaderInCase::section, located(bar_section_format()),
+      .required("section", &given::Spreader::section, located(bar_section_format()),
                 "cross-section, height upright; of a frame that of its sides along x, and along y "
                 "unless those have their own")
-      .optional("cross_section", &SpreaderInCase::cross_section, located(bar_section_format()),
+      .optional("cross_section", &given::Spreader::cross_section, located(bar_section_format()),
                 "of a frame's sides along y")
-      .required("yield_stress", &SpreaderInCase::yield_stress,
+      .required("yield_stress", &given::Spreader::yield_stress,
                 quantity(Dimension::stress, Range::positive()), "of its steel")
-      .by_default("buckling_curve", &SpreaderInCase::curve,
+      .by_default("buckling_curve", &given::Spreader::curve,
                   choice<BucklingCurve>(buckling_curves()), "c",
                   "of EN 1993-1-1, table 6.2: a for hollow sections finished hot, b for welded "
                   "boxes, c for sections formed cold")
       .optional(
-          "mass", &SpreaderInCase::given_mass, quantity(Dimension::mass, Range::positive()),
+          "mass", &given::Spreader::given_mass, quantity(Dimension::mass, Range::positive()),
           "with all that is fastened to it, spread evenly over its bars; that of these if left "
           "out")
-      .optional("centre_of_mass", &SpreaderInCase::centre_of_mass, located(position_format()),
+      .optional("centre_of_mass", &given::Spreader::centre_of_mass, located(position_format()),
                 "from its middle in its axes, with all that is fastened to it; its weight then "
                 "falls or rises evenly along it; the middle if left out")
-      .by_default("upper_eye", &SpreaderInCase::upper_eye,
+      .by_default("upper_eye", &given::Spreader::upper_eye,
                   quantity(Dimension::length, Range::not_negative()), "0 m",
                   "height of the upper eyes over the bars' axes")
-      .by_default("lower_eye", &SpreaderInCase::lower_eye,
+      .by_default("lower_eye", &given::Spreader::lower_eye,
                   quantity(Dimension::length, Range::not_negative()), "0 m",
                   "depth of the lower eyes below the bars' axes")
-      .optional("position", &SpreaderInCase::position, position_format(),
+      .optional("position", &given::Spreader::position, position_format(),
                 "of its middle at the start, a first guess; as its slings lead it if left out")
-      .optional("orientation", &SpreaderInCase::attitude, attitude_format(),
+      .optional("orientation", &given::Spreader::attitude, attitude_format(),
                 "at the start: roll, pitch, yaw; a first guess; along the lugs below if left out")
-      .rule([](const SpreaderInCase& bar, Reading& reading, const Mark&) {
+      .rule([](const given::Spreader& bar, Reading& reading, const Mark&) {
         check_bars(bar, reading);
       });
   return table.format();

@@ -28,11 +28,13 @@ struct BarSection {
   double width() const { return pipe ? (*pipe)[0] : (*box)[1]; }
 };
 
+namespace given {
+
 /// Spreader of the lift, of steel, its axes in its middle with z up: a straight bar, x along it
 /// from end a to end b; or, with a width, a rectangular frame of four bars rigidly joined at
 /// corners 1 to 4, anticlockwise from (-x, -y) seen from above. Slings from above end at its upper
 /// eyes, those to the load begin at its lower ones, over and under its ends or corners.
-struct SpreaderInCase {
+struct Spreader {
   Located<std::string> name;
   Located<double> length;       ///< along x, between the eyes, m
   std::optional<double> width;  ///< of a frame, along y, between the eyes, m
@@ -65,12 +67,14 @@ struct SpreaderInCase {
   std::string size_text() const;
 };
 
+}  // namespace given
+
 /// Young's modulus and density of the steel that bars are of, Pa and kg/m^3.
 inline constexpr double bar_modulus = 210e9, bar_density = 7850;
 
 /// The name of a buckling curve in files.
 std::string buckling_curve_name(structure::BucklingCurve curve);
 
-Format<SpreaderInCase> spreader_format();
+Format<given::Spreader> spreader_format();
 
 }  // namespace blocklift::pipeline

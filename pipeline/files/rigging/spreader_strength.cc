@@ -67,7 +67,7 @@ structure::ColumnForces largest_forces(const std::vector<PointForce>& forces, do
   return largest;
 }
 
-SpreaderStrength::SpreaderStrength(const SpreaderInCase& spreader,
+SpreaderStrength::SpreaderStrength(const given::Spreader& spreader,
                                    const std::vector<Vector3>& points)
     : bar_(spreader.column()) {
   if (spreader.is_frame()) frame_.emplace(spreader.member(), spreader.cross_member(), points);

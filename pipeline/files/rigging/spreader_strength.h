@@ -23,7 +23,7 @@ using SpreaderForces = std::vector<structure::MemberForces>;
 class SpreaderStrength {
  public:
   /// @param points where ropes pull at it, in its axes; a frame is divided there.
-  SpreaderStrength(const SpreaderInCase& spreader, const std::vector<Vector3>& points);
+  SpreaderStrength(const given::Spreader& spreader, const std::vector<Vector3>& points);
 
   /// Under those forces, one for each of the points, and the weight and inertia that balance them:
   /// `largest_forces` of a bar, structure::RectangularFrame of a frame.

@@ -29,25 +29,26 @@ Format<PartPlate> part_plate_format() {
   return table.format();
 }
 
-Format<PartFacesInFile> faces_format() {
-  Table<PartFacesInFile> table("faces", "The outer faces of the solids that lie in a box.");
-  table.required("from", &PartFacesInFile::from, position_format(), "corner of smallest x, y and z")
-      .required("to", &PartFacesInFile::to, position_format(), "corner of largest x, y and z")
-      .rule([](const PartFacesInFile& faces, Reading& reading, const Mark& mark) {
+Format<given::PartFaces> faces_format() {
+  Table<given::PartFaces> table("faces", "The outer faces of the solids that lie in a box.");
+  table
+      .required("from", &given::PartFaces::from, position_format(), "corner of smallest x, y and z")
+      .required("to", &given::PartFaces::to, position_format(), "corner of largest x, y and z")
+      .rule([](const given::PartFaces& faces, Reading& reading, const Mark& mark) {
         if ((faces.to - faces.from).minCoeff() < 0)
           reading.error(mark, "the box ends before it begins: to is smaller than from");
       });
   return table.format();
 }
 
-Format<PartPointInFile> part_point_format() {
-  Table<PartPointInFile> table("point", "The node at a place.");
-  table.required("at", &PartPointInFile::at, position_format(),
+Format<given::PartPoint> part_point_format() {
+  Table<given::PartPoint> table("point", "The node at a place.");
+  table.required("at", &given::PartPoint::at, position_format(),
                  "where it is, to a hundredth of the part's diagonal");
   return table.format();
 }
 
-void check_mesh(const PartMeshInFile& mesh, Reading& reading, const Mark& mark) {
+void check_mesh(const given::PartMesh& mesh, Reading& reading, const Mark& mark) {
   if (mesh.file.has_value() == mesh.padeye.has_value()) {
     reading.error(mark,
                   mesh.file ? "the mesh is both a file and a padeye"
@@ -62,38 +63,38 @@ void check_mesh(const PartMeshInFile& mesh, Reading& reading, const Mark& mark) 
         {"length_unit, element_size, element_order, plates, faces and points are for files"});
 }
 
-Format<PartMeshInFile> mesh_format() {
+Format<given::PartMesh> mesh_format() {
   const std::vector<std::pair<std::string, double>> units = {
       {"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"in", 0.0254}, {"ft", 0.3048}};
-  Table<PartMeshInFile> table("mesh", "The part's mesh, a geometry that is meshed, or a padeye.");
+  Table<given::PartMesh> table("mesh", "The part's mesh, a geometry that is meshed, or a padeye.");
   table
       .optional(
-          "file", &PartMeshInFile::file, located(text()),
+          "file", &given::PartMesh::file, located(text()),
           "what Gmsh opens (.msh, .geo, .step, .brep, .bdf, .unv), or .inp of Abaqus or CalculiX; "
           "relative to this file")
-      .optional("padeye", &PartMeshInFile::padeye, located(padeye_part_format()),
+      .optional("padeye", &given::PartMesh::padeye, located(padeye_part_format()),
                 "in the place of a file; a refinement doubles its divisions")
-      .optional("length_unit", &PartMeshInFile::length_unit, choice<double>(units),
+      .optional("length_unit", &given::PartMesh::length_unit, choice<double>(units),
                 "of the file's coordinates; a STEP or IGES file states its own, which this must be "
                 "where it is given; of other files m if left out, and then doubted where the part "
                 "comes out too large or too small")
-      .by_default("element_order", &PartMeshInFile::element_order, integer(Range::between(1, 2)),
+      .by_default("element_order", &given::PartMesh::element_order, integer(Range::between(1, 2)),
                   "2",
                   "that linear elements are raised to; linear ones are far too stiff in bending")
-      .optional("element_size", &PartMeshInFile::element_size,
+      .optional("element_size", &given::PartMesh::element_size,
                 quantity(Dimension::length, Range::positive()),
                 "largest edge where the file is a geometry")
-      .by_default("refinements", &PartMeshInFile::refinements, integer(Range::between(0, 6)), "0",
+      .by_default("refinements", &given::PartMesh::refinements, integer(Range::between(0, 6)), "0",
                   "how often every element is halved along each of its edges; curved sides of a "
                   "mesh that is "
                   "not made here get straight between its nodes")
       .optional(
-          "plates", &PartMeshInFile::plates, named_tables(part_plate_format()),
+          "plates", &given::PartMesh::plates, named_tables(part_plate_format()),
           "by group of surfaces: the file holds mid-surfaces of quadrangles, which are "
           "thickened into solids; each plate's sides are the groups \"NAME +\" and \"NAME -\"")
-      .optional("faces", &PartMeshInFile::faces, named_tables(faces_format()),
+      .optional("faces", &given::PartMesh::faces, named_tables(faces_format()),
                 "groups of faces by name, for meshes without names: a box around them chooses")
-      .optional("points", &PartMeshInFile::points, named_tables(part_point_format()),
+      .optional("points", &given::PartMesh::points, named_tables(part_point_format()),
                 "groups of one node each by name")
       .rule(check_mesh);
   return table.format();
@@ -115,24 +116,24 @@ Format<PartMaterial> part_material_format() {
   return table.format();
 }
 
-Format<PartJoinInFile> join_format() {
-  Table<PartJoinInFile> table(
+Format<given::PartJoin> join_format() {
+  Table<given::PartJoin> table(
       "join", "Bodies that share no node and face each other closely are joined there.");
-  table.required("within", &PartJoinInFile::within,
+  table.required("within", &given::PartJoin::within,
                  located(quantity(Dimension::length, Range::positive())),
                  "largest gap between them that is joined");
   return table.format();
 }
 
-Format<PartSupportInFile> part_support_format() {
+Format<given::PartSupport> part_support_format() {
   const std::vector<std::pair<std::string, std::size_t>> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
-  Table<PartSupportInFile> table("support", "Components of the displacement that are given.");
+  Table<given::PartSupport> table("support", "Components of the displacement that are given.");
   table
-      .required("groups", &PartSupportInFile::groups, list_of(located(text()), 1),
+      .required("groups", &given::PartSupport::groups, list_of(located(text()), 1),
                 "of faces, edges, points or solids")
-      .by_default("fixed", &PartSupportInFile::fixed, list_of(choice<std::size_t>(axes), 1),
+      .by_default("fixed", &given::PartSupport::fixed, list_of(choice<std::size_t>(axes), 1),
                   "[x, y, z]", "components")
-      .by_default("displacement", &PartSupportInFile::displacement, position_format(), origin,
+      .by_default("displacement", &given::PartSupport::displacement, position_format(), origin,
                   "of the fixed components");
   return table.format();
 }
@@ -145,7 +146,7 @@ Format<PartRotation> rotation_format() {
   return table.format();
 }
 
-void check_part_load(const PartLoadInFile& load, Reading& reading, const Mark& mark) {
+void check_part_load(const given::PartLoad& load, Reading& reading, const Mark& mark) {
   const int on_groups = load.pressure.has_value() + load.traction.has_value() +
                         load.force.has_value() + load.bearing.has_value();
   const int on_all =
@@ -173,40 +174,41 @@ Format<PartBearing> bearing_format() {
   return table.format();
 }
 
-Format<PartLoadInFile> part_load_format() {
-  Table<PartLoadInFile> table("load", "A load on groups, or on all material.");
+Format<given::PartLoad> part_load_format() {
+  Table<given::PartLoad> table("load", "A load on groups, or on all material.");
   table
-      .optional("groups", &PartLoadInFile::groups, list_of(located(text()), 1),
+      .optional("groups", &given::PartLoad::groups, list_of(located(text()), 1),
                 "of faces; a force may act on edges and points, too")
-      .optional("pressure", &PartLoadInFile::pressure, quantity(Dimension::stress),
+      .optional("pressure", &given::PartLoad::pressure, quantity(Dimension::stress),
                 "against the faces; negative pulls")
-      .optional("traction", &PartLoadInFile::traction, vector_of(Dimension::stress),
+      .optional("traction", &given::PartLoad::traction, vector_of(Dimension::stress),
                 "force for each area of the faces")
-      .optional("force", &PartLoadInFile::force, vector_of(Dimension::load),
+      .optional("force", &given::PartLoad::force, vector_of(Dimension::load),
                 "resultant, spread evenly over all of a group; each group bears it")
-      .optional("bearing", &PartLoadInFile::bearing, bearing_format(), "of a pin on a hole's faces")
-      .optional("gravity", &PartLoadInFile::gravity, vector_of(Dimension::acceleration),
+      .optional("bearing", &given::PartLoad::bearing, bearing_format(),
+                "of a pin on a hole's faces")
+      .optional("gravity", &given::PartLoad::gravity, vector_of(Dimension::acceleration),
                 "acceleration of gravity")
-      .optional("acceleration", &PartLoadInFile::acceleration, vector_of(Dimension::acceleration),
+      .optional("acceleration", &given::PartLoad::acceleration, vector_of(Dimension::acceleration),
                 "of the part: its inertia pulls the other way")
-      .optional("rotation", &PartLoadInFile::rotation, rotation_format(), "about a fixed axis")
+      .optional("rotation", &given::PartLoad::rotation, rotation_format(), "about a fixed axis")
       .rule(check_part_load);
   return table.format();
 }
 
-void check_probe(const PartProbeInFile& probe, Reading& reading, const Mark& mark) {
+void check_probe(const given::PartProbe& probe, Reading& reading, const Mark& mark) {
   const bool is_line = probe.from && probe.to && !probe.at;
   if (is_line || (probe.at && !probe.from && !probe.to)) return;
   reading.error(mark, "the probe is neither a point nor a line",
                 {"a point: at: [x, y, z]", "a line: from: [x, y, z], to: [x, y, z]"});
 }
 
-Format<PartProbeInFile> probe_format() {
-  Table<PartProbeInFile> table("probe", "Where displacement and stress are asked for.");
-  table.optional("at", &PartProbeInFile::at, position_format(), "a point")
-      .optional("from", &PartProbeInFile::from, position_format(), "start of a line")
-      .optional("to", &PartProbeInFile::to, position_format(), "its end")
-      .by_default("points", &PartProbeInFile::points, integer(Range::between(2, 100000)), "11",
+Format<given::PartProbe> probe_format() {
+  Table<given::PartProbe> table("probe", "Where displacement and stress are asked for.");
+  table.optional("at", &given::PartProbe::at, position_format(), "a point")
+      .optional("from", &given::PartProbe::from, position_format(), "start of a line")
+      .optional("to", &given::PartProbe::to, position_format(), "its end")
+      .by_default("points", &given::PartProbe::points, integer(Range::between(2, 100000)), "11",
                   "along a line")
       .rule(check_probe);
   return table.format();
@@ -304,7 +306,7 @@ Format<structure::SolverChoice> solver_format() {
 /// Complains unless the name is that of a point probe.
 bool is_point_probe(const PartFile& part, const Located<std::string>& name, Reading& reading) {
   std::vector<std::string> names;
-  for (const PartProbeInFile& probe : part.probes)
+  for (const given::PartProbe& probe : part.probes)
     if (probe.at) names.push_back(probe.name.value);
   if (std::find(names.begin(), names.end(), name.value) != names.end()) return true;
   reading.error(name.mark, fmt::format("there is no point probe \"{}\"", name.value),
@@ -342,10 +344,10 @@ void check_part(const PartFile& part, Reading& reading, const Mark& mark) {
                    "components"});
   if (part.accuracy && part.loads.empty())
     reading.error(mark, "an accuracy is asked for, but without loads there is no stress");
-  for (const PartProbeInFile& probe : part.probes)
+  for (const given::PartProbe& probe : part.probes)
     if (part.loads.empty())
       reading.error(probe.name.mark, "a part without loads has nothing to probe");
-  for (const HotSpotInFile& spot : part.hot_spots)
+  for (const given::HotSpot& spot : part.hot_spots)
     if (part.loads.empty())
       reading.error(spot.name.mark, "a part without loads has no stress at a weld toe");
   if (part.modes)

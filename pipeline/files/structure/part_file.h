@@ -20,20 +20,22 @@ struct PartPlate {
   double thickness = 0;       ///< m
 };
 
+namespace given {
+
 /// Outer faces of a mesh that lie in a box; they become a group.
-struct PartFacesInFile {
+struct PartFaces {
   Located<std::string> name;
   Vector3 from = Vector3::Zero(), to = Vector3::Zero();  ///< smallest and largest corner, m
 };
 
 /// The node at a place; it becomes a group.
-struct PartPointInFile {
+struct PartPoint {
   Located<std::string> name;
   Vector3 at = Vector3::Zero();  ///< m
 };
 
 /// Where a part's mesh comes from: a file or a padeye.
-struct PartMeshInFile {
+struct PartMesh {
   std::optional<Located<std::string>> file;
   std::optional<Located<PadeyePart>> padeye;
   /// Of the file's coordinates, m; absent: that which a CAD file declares, else m, and doubted.
@@ -42,17 +44,19 @@ struct PartMeshInFile {
   std::optional<double> element_size;  ///< m
   int refinements = 0;                 ///< halvings of all elements
   std::vector<PartPlate> plates;       ///< none: the mesh is one of solids
-  std::vector<PartFacesInFile> faces;
-  std::vector<PartPointInFile> points;
+  std::vector<PartFaces> faces;
+  std::vector<PartPoint> points;
 
   /// Where the file or the padeye stands.
   const Mark& mark() const { return file ? file->mark : padeye->mark; }
 };
 
 /// How bodies of a part that share no node are joined.
-struct PartJoinInFile {
+struct PartJoin {
   Located<double> within;  ///< largest gap that is joined, m
 };
+
+}  // namespace given
 
 /// A material of a part with the groups of solids that are of it.
 struct PartMaterial {
@@ -64,13 +68,17 @@ struct PartMaterial {
   std::vector<Located<std::string>> groups;  ///< none: all that no other material names
 };
 
+namespace given {
+
 /// Components of groups that are held.
-struct PartSupportInFile {
+struct PartSupport {
   Located<std::string> name;
   std::vector<Located<std::string>> groups;
   std::vector<std::size_t> fixed;          ///< axes
   Vector3 displacement = Vector3::Zero();  ///< m
 };
+
+}  // namespace given
 
 /// Rotation about a fixed axis.
 struct PartRotation {
@@ -86,8 +94,10 @@ struct PartBearing {
   Vector3 point = Vector3::Zero();  ///< on the axis, m
 };
 
+namespace given {
+
 /// One load: exactly one of its kinds is given.
-struct PartLoadInFile {
+struct PartLoad {
   Located<std::string> name;
   std::vector<Located<std::string>> groups;
   std::optional<double> pressure;   ///< Pa
@@ -100,12 +110,14 @@ struct PartLoadInFile {
 };
 
 /// A point, or a line with points along it, where displacement and stress are asked for.
-struct PartProbeInFile {
+struct PartProbe {
   Located<std::string> name;
   std::optional<Vector3> at;  ///< m
   std::optional<Vector3> from, to;
   int points = 11;
 };
+
+}  // namespace given
 
 /// What is looked at in a probe.
 enum class PartQuantity { xx, yy, zz, xy, yz, zx, von_mises, u_x, u_y, u_z };
@@ -137,13 +149,13 @@ struct CheckedStress {
 struct PartFile {
   std::string name;
   std::string title;
-  PartMeshInFile mesh;
+  given::PartMesh mesh;
   std::vector<PartMaterial> materials;
-  std::optional<PartJoinInFile> join;  ///< none: bodies stay apart
-  std::vector<PartSupportInFile> supports;
-  std::vector<PartLoadInFile> loads;
-  std::vector<PartProbeInFile> probes;
-  std::vector<HotSpotInFile> hot_spots;
+  std::optional<given::PartJoin> join;  ///< none: bodies stay apart
+  std::vector<given::PartSupport> supports;
+  std::vector<given::PartLoad> loads;
+  std::vector<given::PartProbe> probes;
+  std::vector<given::HotSpot> hot_spots;
   std::optional<int> modes;  ///< natural modes asked for
   /// Largest estimated error of the stress field in the energy norm, as a share of the norm.
   std::optional<double> accuracy;

@@ -7,11 +7,11 @@
 
 namespace blocklift::pipeline {
 
-Format<MatrixInCase> matrix_format(const MatrixDimensions& dimensions) {
+Format<given::FreedomMatrix> matrix_format(const MatrixDimensions& dimensions) {
   return array_of<std::array<Quantity, 6>, 6>(array_of<Quantity, 6>(quantity_of(dimensions.all())));
 }
 
-void check_matrix(const char* key, const std::optional<Located<MatrixInCase>>& matrix,
+void check_matrix(const char* key, const std::optional<Located<given::FreedomMatrix>>& matrix,
                   const MatrixDimensions& dimensions, Reading& reading) {
   if (!matrix) return;
   for (std::size_t row = 0; row < 6; ++row) {
@@ -31,9 +31,9 @@ void check_matrix(const char* key, const std::optional<Located<MatrixInCase>>& m
   }
 }
 
-void check_symmetric(const Located<MatrixInCase>& stiffness, const std::string& hint,
+void check_symmetric(const Located<given::FreedomMatrix>& stiffness, const std::string& hint,
                      Reading& reading) {
-  const MatrixInCase& rows = stiffness.value;
+  const given::FreedomMatrix& rows = stiffness.value;
   for (std::size_t row = 0; row < 6; ++row) {
     for (std::size_t column = 0; column < row; ++column) {
       const double below = rows[row][column].value, above = rows[column][row].value;
@@ -49,7 +49,7 @@ void check_symmetric(const Located<MatrixInCase>& stiffness, const std::string& 
   }
 }
 
-Eigen::Matrix<double, 6, 6> values_of(const MatrixInCase& matrix) {
+Eigen::Matrix<double, 6, 6> values_of(const given::FreedomMatrix& matrix) {
   Eigen::Matrix<double, 6, 6> values;
   for (std::size_t row = 0; row < 6; ++row) {
     for (std::size_t column = 0; column < 6; ++column) {

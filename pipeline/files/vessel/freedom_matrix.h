@@ -10,8 +10,12 @@
 
 namespace blocklift::pipeline {
 
+namespace given {
+
 /// Rows of a matrix of six freedoms as a file has them: surge, sway, heave, roll, pitch, yaw.
-using MatrixInCase = std::array<std::array<Quantity, 6>, 6>;
+using FreedomMatrix = std::array<std::array<Quantity, 6>, 6>;
+
+}  // namespace given
 
 /// What stands in a matrix where a displacement or a turn makes a force or a moment.
 struct MatrixDimensions {
@@ -28,18 +32,18 @@ inline constexpr MatrixDimensions stiffness_dimensions{Dimension::stiffness, Dim
 inline constexpr MatrixDimensions damping_dimensions{Dimension::damping, Dimension::impulse,
                                                      Dimension::rotational_damping};
 
-Format<MatrixInCase> matrix_format(const MatrixDimensions& dimensions);
+Format<given::FreedomMatrix> matrix_format(const MatrixDimensions& dimensions);
 
 /// Complains about the first entry of another dimension than is due at its place; 0 needs none.
-void check_matrix(const char* key, const std::optional<Located<MatrixInCase>>& matrix,
+void check_matrix(const char* key, const std::optional<Located<given::FreedomMatrix>>& matrix,
                   const MatrixDimensions& dimensions, Reading& reading);
 
 /// Complains about the first pair of entries of a stiffness that are not alike.
 /// @param hint what the user may do.
-void check_symmetric(const Located<MatrixInCase>& stiffness, const std::string& hint,
+void check_symmetric(const Located<given::FreedomMatrix>& stiffness, const std::string& hint,
                      Reading& reading);
 
 /// The values in the order of the file, SI.
-Eigen::Matrix<double, 6, 6> values_of(const MatrixInCase& matrix);
+Eigen::Matrix<double, 6, 6> values_of(const given::FreedomMatrix& matrix);
 
 }  // namespace blocklift::pipeline

@@ -118,7 +118,7 @@ TEST(LiftChecks, IdleHooksAreNotSlack) {
   ASSERT_EQ(lift_case.ropes[0].path.front().body_name(lift_case.cranes), idle);
   ASSERT_EQ(lift_case.ropes[1].path.front().body_name(lift_case.cranes), other);
   const ResolvedPoint hook = lift_case.ropes[1].path.front();
-  for (RopeInCase& rope : lift_case.ropes) rope.path.front() = hook;
+  for (given::Rope& rope : lift_case.ropes) rope.path.front() = hook;
   EXPECT_EQ(slack().demand, slings);  // nothing hangs on its hook
   tackle[3] = 0;
   EXPECT_EQ(slack().demand, 0);

@@ -19,7 +19,7 @@ struct LiftOfFrame {
   LiftRun run;
 
   const LiftSpreader& frame() const { return run.model.spreaders.front(); }
-  const SpreaderInCase& in_case() const { return *lift_case.find_spreader("B1"); }
+  const given::Spreader& in_case() const { return *lift_case.find_spreader("B1"); }
 };
 
 const LiftOfFrame& lift_of_frame() {
@@ -83,7 +83,7 @@ TEST(FrameSkew, BendsTheCornersInTheirPlane) {
 
 // The chain has it in place of the slings' factor, by the clause of the rules; a bar has that one.
 TEST(FrameSkew, StandsInTheChainOfTheFrame) {
-  StandardInCase standard;
+  given::Standard standard;
   standard.rules.name = "Rules";
   NamedFactor matched;
   matched.name = {"matched", {}};
@@ -111,7 +111,7 @@ TEST(FrameSkew, StandsInTheChainOfTheFrame) {
 
 /// The row of skew in the chain of a frame with slings' lengths to a tolerance.
 ChainStep skew_step(std::optional<double> by_rules, std::optional<double> computed) {
-  StandardInCase standard;
+  given::Standard standard;
   standard.rules.name = "Rules";
   NamedFactor matched;
   matched.name = {"matched", {}};
@@ -162,7 +162,7 @@ TEST(FrameSkew, TakesTheLessOfRigidCornersAndOfTolerances) {
 // c = h^2 / (k_w + k_below), and the shear in the frame's plane, a^2 W^2 (1 / k_1 + 1 / k_2) / 24,
 // with the sling's direction (a, b, h) and k = E I / l of the sides.
 TEST(FrameSkew, IsStiffnessTimesMismatch) {
-  const SpreaderInCase& frame = lift_of_frame().in_case();
+  const given::Spreader& frame = lift_of_frame().in_case();
   const double L = frame.length.value, W = *frame.width, height = 2, weight = 100e3;
   const structure::FrameMember side = frame.member(), across = frame.cross_member();
   const double E = bar_modulus, G = E / 2.6;

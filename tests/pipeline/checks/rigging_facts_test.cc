@@ -171,7 +171,7 @@ TEST(RiggingFacts, SkewBelowASpreaderIsThatOfWrongLengths) {
   for (unsigned set = 0; set < 16; ++set) {
     LiftCase wrong = lift_case;
     for (std::size_t i = 0; i < 4; ++i)
-      for (RopeInCase& rope : wrong.ropes)
+      for (given::Rope& rope : wrong.ropes)
         if (rope.name.value == names[i]) rope.length.value *= (set >> i & 1U) != 0 ? 1.01 : 0.99;
     const LiftRun run = run_below_spreader(std::move(wrong), 0);
     for (const std::string& name : names)

@@ -529,7 +529,7 @@ TEST(Derating, DividesTheShareOfTheChartAndIsNamedByTheCheck) {
 }
 
 /// The factor for a crane with a table of the sea, in a case with these waves.
-ChartFactor at_sea(std::optional<WavesInCase> waves) {
+ChartFactor at_sea(std::optional<given::Waves> waves) {
   CraneModel crane;
   crane.derating.emplace();
   crane.derating->source = "maker";
@@ -545,7 +545,7 @@ ChartFactor at_sea(std::optional<WavesInCase> waves) {
 
 TEST(Derating, CountsTheSignificantHeightOfTheSea) {
   EXPECT_EQ(at_sea({}).value, 1);
-  WavesInCase irregular;
+  given::Waves irregular;
   irregular.spectrum.emplace();
   irregular.spectrum->significant_height.emplace();
   irregular.spectrum->significant_height->value = 1.5;
@@ -553,8 +553,8 @@ TEST(Derating, CountsTheSignificantHeightOfTheSea) {
   irregular.spectrum->significant_height->value = 1.6;
   EXPECT_EQ(at_sea(irregular).value, 0);
   // 4 sqrt(a^2 / 2) of 0.3 m is 0.85 m.
-  WavesInCase regular;
-  RegularWaveInCase wave;
+  given::Waves regular;
+  given::RegularWave wave;
   wave.amplitude = 0.3;
   wave.frequency.emplace();
   wave.frequency->value = 0.8;

@@ -117,7 +117,7 @@ TEST(SpreaderMeasures, CompressionAtRestIsThatOfTheTriangle) {
   EXPECT_NEAR(lift.measure("B1: compression").at_rest[0], H, 1e-6 * H);
   const double M = H * 0.2 + bar * gravity * 4 / 8;
   EXPECT_NEAR(lift.measure("B1: bending moment").at_rest[0], M, 1e-5 * M);
-  const SpreaderInCase& own = *lift.lift_case.find_spreader("B1");
+  const given::Spreader& own = *lift.lift_case.find_spreader("B1");
   const structure::Column column = own.column();
   EXPECT_NEAR(lift.measure("B1: share of the resistance").at_rest[0],
               structure::column_utilisation(
@@ -181,7 +181,7 @@ TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
   const std::vector<Check> checks = check_measures(lift.lift_case, lift.run, lift.measures);
   ASSERT_EQ(checks.size(), 2U);
   EXPECT_EQ(checks[0].name, "spreader B1: compression against buckling load / 1.5");
-  const SpreaderInCase& own = *lift.lift_case.find_spreader("B1");
+  const given::Spreader& own = *lift.lift_case.find_spreader("B1");
   const structure::Column column = own.column();
   EXPECT_NEAR(checks[0].limit, structure::buckling_resistance(column) / 1.5, 1e-6);
   EXPECT_TRUE(checks[0].pass);
@@ -194,7 +194,7 @@ TEST(SpreaderMeasures, AreCheckedAgainstBuckling) {
 TEST(SpreaderMeasures, BorneLoadIsWhereTheColumnFails) {
   const BarLift& lift = plain_lift();
   const LiftSpreader& bar = lift.run.model.spreaders.front();
-  const SpreaderInCase& own = *lift.lift_case.find_spreader("B1");
+  const given::Spreader& own = *lift.lift_case.find_spreader("B1");
   const structure::Column column = own.column();
   const double hung = hung_load(bar, lift.run.static_history)[0];
   EXPECT_NEAR(hung, 10e3 * gravity, 1e-6 * hung);
@@ -245,7 +245,7 @@ TEST(SpreaderMeasures, SlingsAboveABarHaveAngles) {
 // towards the plate, those below; the eyes bend: each level pull times its height.
 TEST(SpreaderMeasures, FrameIsPressedByStatics) {
   const BarLift lift = lift_on_bar(test::frame_lift());
-  const SpreaderInCase& frame = *lift.lift_case.find_spreader("B1");
+  const given::Spreader& frame = *lift.lift_case.find_spreader("B1");
   const double W = 10e3 * gravity, own = frame.mass() * gravity;
   EXPECT_NEAR(frame.mass(), 7850 * 2 * (4 + 2) * frame.column().area, 1e-9 * frame.mass());
   const double along = (W + own) / 4 * 2 / 2, across_above = (W + own) / 4 * 1 / 2;
@@ -267,7 +267,7 @@ TEST(SpreaderMeasures, FrameIsPressedByStatics) {
 
 // A frame of four equal sides has about its middle what two pairs of rods have.
 TEST(SpreaderMeasures, FrameHasTheInertiaOfItsSides) {
-  SpreaderInCase frame;
+  given::Spreader frame;
   frame.length.value = 4;
   frame.width = 2;
   frame.section.value.pipe = std::array<double, 2>{0.1, 0.01};

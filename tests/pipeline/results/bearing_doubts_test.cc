@@ -36,13 +36,13 @@ TEST_F(DoubtsOfBearing, AreNoneOfASoundLift) { EXPECT_THAT(doubts(), IsEmpty());
 
 // 0.356 x 16 mm2 x 1770 MPa is 10.1 kN: four slings of 4 mm have half of the weight.
 TEST_F(DoubtsOfBearing, SlingsOfAnotherLift) {
-  for (RopeInCase& rope : lift_case_.ropes) rope.rope.breaking_load = 10.1e3;
+  for (given::Rope& rope : lift_case_.ropes) rope.rope.breaking_load = 10.1e3;
   EXPECT_THAT(doubts(), ElementsAre("The load weighs 78 kN, and its slings break under 40.4 kN "
                                     "together; usually they do under 5 times its weight."));
   // Twice the weight is doubted, more is not.
-  for (RopeInCase& rope : lift_case_.ropes) rope.rope.breaking_load = 39.2e3;
+  for (given::Rope& rope : lift_case_.ropes) rope.rope.breaking_load = 39.2e3;
   EXPECT_EQ(doubts().size(), 1U);
-  for (RopeInCase& rope : lift_case_.ropes) rope.rope.breaking_load = 39.3e3;
+  for (given::Rope& rope : lift_case_.ropes) rope.rope.breaking_load = 39.3e3;
   EXPECT_THAT(doubts(), IsEmpty());
 }
 

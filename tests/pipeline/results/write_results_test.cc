@@ -82,7 +82,7 @@ TEST(WriteResults, PutsEverythingIntoTheFolder) {
 class WithRules {
  public:
   explicit WithRules(Assessment& assessment) : assessment_(assessment), checks_(assessment.checks) {
-    StandardInCase& standard = assessment.lift_case.standard.emplace();
+    given::Standard& standard = assessment.lift_case.standard.emplace();
     Diagnostics diagnostics;
     ModelLibrary library = ModelLibrary::of_installation();
     for (const char* name : {"en-13001", "asme-bth-1-a"}) standard.rule_names.push_back({name, {}});
@@ -460,7 +460,7 @@ TEST_F(DoubtsOfALift, WindAndItsAreas) {
 }
 
 TEST_F(DoubtsOfALift, CornersOfAFrame) {
-  SpreaderInCase frame;
+  given::Spreader frame;
   frame.name.value = "F1";
   frame.length.value = 4;
   frame.width = 2;
@@ -471,7 +471,7 @@ TEST_F(DoubtsOfALift, CornersOfAFrame) {
     at_eye.part = "F1";
     at_eye.point = *frame.eye(eye);
     elsewhere.kind = ResolvedPoint::Kind::hook;
-    RopeInCase rope;
+    given::Rope rope;
     rope.path = above ? std::vector{elsewhere, at_eye} : std::vector{at_eye, elsewhere};
     lift_case_.ropes.push_back(rope);
   };

@@ -108,7 +108,7 @@ TEST(RigLiftTest, ChoosesMasterLinkAndSpreader) {
   EXPECT_EQ(rigged.stock.spreaders[rigged.spreaders[0].index].name(), "light");
   write_rigged_case(rigged, "rigged.yaml");
   const LiftCase again = read_lift_case("rigged.yaml");
-  const SpreaderInCase& bar = *again.find_spreader("B1");
+  const given::Spreader& bar = *again.find_spreader("B1");
   EXPECT_NEAR((*bar.section.value.pipe)[0], 0.1397, 1e-12);
   EXPECT_EQ(bar.curve, structure::BucklingCurve::a);
   EXPECT_EQ(bar.upper_eye, 0);
@@ -138,7 +138,7 @@ TEST(RigLiftTest, ChoosesFramesOfTheirSize) {
   EXPECT_EQ(rigged.stock.spreaders[rigged.spreaders[0].index].name(), "fits");
   write_rigged_case(rigged, "rigged.yaml");
   const LiftCase again = read_lift_case("rigged.yaml");
-  const SpreaderInCase& frame = *again.find_spreader("B1");
+  const given::Spreader& frame = *again.find_spreader("B1");
   EXPECT_NEAR(*frame.width, 2, 1e-12);
   EXPECT_NEAR((*frame.section.value.pipe)[0], 0.1397, 1e-12);
   ASSERT_TRUE(frame.cross_section);

@@ -137,7 +137,7 @@ TEST(SlingChoiceTest, PassesOverWhatTheRulesDoNotKnow) {
 // Round four diameters three quarters are left: 460 kN x 5 / 0.75 = 3,067 kN.
 TEST(SlingChoiceTest, CountsTheBendOfTheRope) {
   LiftCase lift_case = case_with_factor(5);
-  RopeInCase rope;
+  given::Rope rope;
   rope.name.value = "R1";
   rope.bend_diameter = Located<double>{0.4, {}};
   lift_case.ropes.push_back(rope);

@@ -97,7 +97,7 @@ TEST(StandardAssessment, AddsRiggingAndHookBlockToAHook) {
 }
 
 TEST(StandardAssessment, TakesTheHoistingFactorWhereTheRulesHaveNoOther) {
-  StandardInCase standard;
+  given::Standard standard;
   standard.rules = shipped_rules("en-13001");
   standard.hoisting_class = called("HC2");
   const StandardAssessment result = assess_standard(standard, two_slings());
@@ -108,7 +108,7 @@ TEST(StandardAssessment, TakesTheHoistingFactorWhereTheRulesHaveNoOther) {
 
 TEST(StandardAssessment, SaysWhatTheRulesDoNotCover) {
   LiftFacts facts = two_slings();
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   // 1.15 in motion is more than 1.05, and less than 1.05 x 1.25.
   EXPECT_THAT(assess_standard(standard, facts).notes,
               Contains(HasSubstr("only their skew factor, which stands for sling lengths, does: R1 "
@@ -122,7 +122,7 @@ TEST(StandardAssessment, SaysWhatTheRulesDoNotCover) {
 
 TEST(StandardAssessment, LowersTheLoadFactorForWavesAlone) {
   LiftFacts facts = two_slings();
-  const StandardInCase standard = by_nd_0027();
+  const given::Standard standard = by_nd_0027();
   const Chain ashore = chain_of(assess_standard(standard, facts), "sling R1");
   EXPECT_DOUBLE_EQ(*ashore.simulated_limit, *ashore.limit);
   facts.has_environment = true;
@@ -133,8 +133,8 @@ TEST(StandardAssessment, LowersTheLoadFactorForWavesAlone) {
 }
 
 TEST(StandardAssessment, HoldsShacklesAgainstStaticAndDynamicLoad) {
-  StandardInCase standard = by_nd_0027();
-  ShackleInCase shackle;
+  given::Standard standard = by_nd_0027();
+  given::Shackle shackle;
   shackle.name = called("L1");
   shackle.working_load = 650e3;
   shackle.breaking_load = 3900e3;
@@ -160,9 +160,9 @@ ComputedFactors with_skew(double skew) {
   return factors;
 }
 
-StandardInCase with_shackle_at_l1() {
-  StandardInCase standard = by_nd_0027();
-  ShackleInCase shackle;
+given::Standard with_shackle_at_l1() {
+  given::Standard standard = by_nd_0027();
+  given::Shackle shackle;
   shackle.name = called("L1");
   shackle.working_load = 1000e3;
   shackle.breaking_load = 5000e3;
@@ -191,7 +191,7 @@ TEST(StandardAssessment, SumsTheSlingsOfALugWithTheirOwnFactors) {
 
 // The order in which the case names them does not matter, nor does one sling that bears nothing.
 TEST(StandardAssessment, TakesAllSlingsOfALugAlike) {
-  const StandardInCase standard = with_shackle_at_l1();
+  const given::Standard standard = with_shackle_at_l1();
   LiftFacts facts = two_slings_at_a_lug(with_skew(1.1), with_skew(1.5));
   const double sum = chain_of(assess_standard(standard, facts), "shackle L1").simulated;
   std::swap(facts.pulls[0].slings[0], facts.pulls[0].slings[1]);
@@ -204,7 +204,7 @@ TEST(StandardAssessment, TakesAllSlingsOfALugAlike) {
 // as much is no help. The other bears 1.1 (centre) x 1.2 (skew) times as much: 792 - 100 kN, and
 // 1.1 times that by the weight.
 TEST(StandardAssessment, DoesNotCountOnASlingThatEasesTheLug) {
-  StandardInCase standard = with_shackle_at_l1();
+  given::Standard standard = with_shackle_at_l1();
   standard.skew.reset();
   LiftFacts facts = two_slings_at_a_lug(with_skew(1.2), with_skew(3));
   facts.pulls[0].slings[0].force = {0, 0, 600e3};
@@ -231,7 +231,7 @@ LiftFacts two_legs() {
 // (1,030 - 30) x 1.1 x 1.1 + 20 = 1,230 kN of 1,300 at rest; x 1.05 = 1,291.5 by the standard and
 // x 1.04 by the simulation of 1,300 x 1.05 in motion. Legs of 400 and 820 kN: 1,000 over 820.
 TEST(StandardAssessment, HoldsAMasterLinkAgainstAllItsLegs) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.master_links.push_back({called("C1.main"), 1300e3, 6500e3, 100});
   const StandardAssessment result = assess_standard(standard, two_legs());
   const Chain& at_rest = chain_of(result, "master link C1.main at rest");
@@ -249,7 +249,7 @@ TEST(StandardAssessment, HoldsAMasterLinkAgainstAllItsLegs) {
 
 // Rules that have accessories hold the dynamic load against the breaking load, too: 6,500 / 5.
 TEST(StandardAssessment, HoldsAccessoriesAgainstTheRulesOfTheirOwn) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.rules.accessory = ShackleRules{{1, "own 1"}, {5, "own 2"}};
   standard.master_links.push_back({called("C1.main"), 1300e3, 6500e3, 0});
   const Chain chain = chain_of(assess_standard(standard, two_legs()), "master link C1.main");
@@ -259,7 +259,7 @@ TEST(StandardAssessment, HoldsAccessoriesAgainstTheRulesOfTheirOwn) {
 
 // EN 818-4 by angle to the plumb and number of legs; none beyond 60 degrees.
 TEST(StandardAssessment, TellsTheLoadFactorOfLegsByAngleAndNumber) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.master_links.push_back({called("C1.main"), 1300e3, 6500e3, 0});
   const auto factor = [&](std::size_t legs, double angle) {
     LiftFacts facts = two_legs();
@@ -277,7 +277,7 @@ TEST(StandardAssessment, TellsTheLoadFactorOfLegsByAngleAndNumber) {
 // Twice the sling's 605 kN at rest of 1,300; twice 635.25 in motion of 1,300 x 1.05. Round a tread
 // of 300 mm a sling of 75 mm has D/d 4: 1 / (1 - 0.5 / 2) = 1.333 in place of the socket's 1.
 TEST(StandardAssessment, BendsASlingOverItsSheave) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.sheaves.push_back({called("R1"), 1300e3, 6500e3, 0.3});
   LiftFacts facts = two_slings();
   facts.slings[0].diameter = 0.075;
@@ -293,7 +293,7 @@ TEST(StandardAssessment, BendsASlingOverItsSheave) {
 // A chart that allows 1,287.5 kN where its share is largest at rest (1,030 kN x 0.8) and 1,190.2 in
 // motion takes the place of the hoist's 1,500; of the crane, with its reserve of a fifth, too.
 TEST(StandardAssessment, TakesTheLoadChartAtTheRadius) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.rules.add(shipped_rules("queensland-tandem"));
   LiftFacts facts = two_slings();
   facts.hooks[0].chart = ChartFacts{0.8, 0.9, 22.5, "x 0.9 for wind of 12 m/s (maker)"};
@@ -321,7 +321,7 @@ TEST(StandardAssessment, TakesTheLoadChartAtTheRadius) {
 
 // A box that could not be worked does not take the rules' factor away.
 TEST(StandardAssessment, TakesTheRulesFactorWhereTheBoxIsNotWorked) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.centre_box = Vector3(0.1, 0.1, 0.1);
   const Chain by_rules = chain_of(assess_standard(standard, two_slings()), "sling R1");
   EXPECT_NEAR(by_rules.standard, 635.25e3, 1e-6);
@@ -334,9 +334,9 @@ TEST(StandardAssessment, TakesTheRulesFactorWhereTheBoxIsNotWorked) {
 // A shackle that is pulled 3 degrees out of its plane at rest and 30 in motion bears all of its
 // working load there and 70 % here; one at a lug without a padeye is said not to be looked at.
 TEST(StandardAssessment, DeratesShacklesUnderSideLoads) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.rules.add(shipped_rules("shackle-side-load"));
-  ShackleInCase shackle;
+  given::Shackle shackle;
   shackle.name = called("L1");
   shackle.working_load = 650e3;
   shackle.breaking_load = 3900e3;
@@ -365,7 +365,7 @@ TEST(StandardAssessment, DeratesShacklesUnderSideLoads) {
 // F_u 58; C_r taken 1 there: P_t 175.2, P_b 144.1, P_v 148.0 kip.
 TEST(StandardAssessment, HoldsALugByTheFormulaeThatTheRulesName) {
   constexpr double inch = 0.0254, kip = 4448.2216, ksi = kip / (inch * inch);
-  StandardInCase standard;
+  given::Standard standard;
   standard.rules = shipped_rules("asme-bth-1-a");
   LiftFacts facts;
   LugFacts lug;
@@ -388,14 +388,14 @@ TEST(StandardAssessment, HoldsALugByTheFormulaeThatTheRulesName) {
   EXPECT_NEAR(plate.tension / plate.clearance_factor / kip, 175.2, 0.05);
   EXPECT_NEAR(plate.splitting / plate.clearance_factor / kip, 144.1, 0.05);
   EXPECT_NEAR(plate.shear / kip, 148.0, 0.05);
-  StandardInCase category_b = standard;
+  given::Standard category_b = standard;
   category_b.rules = shipped_rules("asme-bth-1-b");
   EXPECT_NEAR(chain_of(assess_standard(category_b, facts), "lug L1").standard_utilisation(),
               1.5 * chain.standard_utilisation(), 1e-9);
 }
 
 TEST(StandardAssessment, HoldsBackAShareOfSeveralCranes) {
-  StandardInCase standard;
+  given::Standard standard;
   standard.rules = shipped_rules("nd-0027");
   standard.rules.add(shipped_rules("queensland-tandem"));
   standard.weight_class = called("weighed");

@@ -43,7 +43,7 @@ TEST(StructureChains, SkewsTheStructure) {
 // 0027/ND, table 5-1: rows by gross weight, formulae by static hook load. 92 t of class A weigh
 // 96.6 t and their rigging 8 t: the row up to 100 t, 1.07 + 0.05 sqrt(100 / 104.6).
 TEST(StructureChains, AmplificationGoesByWeightAndHookLoad) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.weight_class = called("A");
   standard.setting = called("inshore");
   LiftFacts facts = two_slings();
@@ -84,8 +84,8 @@ LiftFacts four_slings_on_two_hooks() {
   return facts;
 }
 
-StandardInCase by_nd_0027_on_two_hooks() {
-  StandardInCase standard = by_nd_0027();
+given::Standard by_nd_0027_on_two_hooks() {
+  given::Standard standard = by_nd_0027();
   standard.skew = called("determinate");
   standard.tilt = called("same_vessel");
   return standard;
@@ -125,7 +125,7 @@ TEST(StructureChains, TellsThatHooksMayDifferInHeight) {
 // and grows by half, which does not count, about its own lug neither. A sling to a spreader does
 // not pull at the structure.
 TEST(StructureChains, TheStructureTakesTheBoxOfSlingsThatBear) {
-  StandardInCase standard = by_nd_0027_on_two_hooks();
+  given::Standard standard = by_nd_0027_on_two_hooks();
   standard.centre_box = Vector3(0.1, 0.1, 0.1);
   LiftFacts facts = four_slings_on_two_hooks();
   for (SlingFacts& sling : facts.slings) sling.computed.centre_box = 1.04;
@@ -152,7 +152,7 @@ TEST(StructureChains, TheStructureTakesTheBoxOfSlingsThatBear) {
 
 // Class rules: 1.70 of the field's allowable in squares of 50 mm near corners, 1.50 beside welds.
 TEST(StructureChains, AllowsMoreNearCorners) {
-  StandardInCase standard = by_nd_0027();
+  given::Standard standard = by_nd_0027();
   standard.rules.add(shipped_rules("iacs-csr"));
   LiftFacts facts = two_slings();
   facts.yield_factor = 1.5;

@@ -11,8 +11,8 @@ namespace blocklift::pipeline::test {
 
 inline Located<std::string> called(const std::string& name) { return {name, {}}; }
 
-inline StandardInCase by_nd_0027() {
-  StandardInCase standard;
+inline given::Standard by_nd_0027() {
+  given::Standard standard;
   standard.rules = shipped_rules("nd-0027");
   standard.weight_class = called("B");
   standard.setting = called("onshore");

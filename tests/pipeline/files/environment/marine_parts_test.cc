@@ -183,8 +183,8 @@ MarineParts parts_with_headings(int count, double vessel_heading) {
   for (int h = 0; h < count; ++h) {
     database->headings.push_back(h * 2 * std::numbers::pi / count);
   }
-  parts.sea = SeaInCase{};
-  parts.sea->waves = WavesInCase{};
+  parts.sea = given::Sea{};
+  parts.sea->waves = given::Waves{};
   parts.vessels.resize(1);
   parts.vessels[0].hydrodynamics = database;
   parts.vessels[0].database = Located<std::string>{"pontoon.h5", {}};
@@ -197,7 +197,7 @@ TEST(MarineParts, WavesBetweenHeadingsFarApartAreDoubted) {
   const double degree = std::numbers::pi / 180;
   const auto doubt = [&](int count, double heading, double vessel_heading = 0) {
     MarineParts parts = parts_with_headings(count, vessel_heading * degree);
-    RegularWaveInCase wave;
+    given::RegularWave wave;
     wave.heading = heading * degree;
     parts.sea->waves->regular = std::vector{wave};
     return doubt_about_headings(parts);
@@ -212,7 +212,7 @@ TEST(MarineParts, WavesBetweenHeadingsFarApartAreDoubted) {
   EXPECT_EQ(doubt(8, 30, 30), "");
   EXPECT_THAT(doubt(8, 45, 30), HasSubstr("of 0 and 45 degrees"));
   MarineParts spread = parts_with_headings(8, 0);
-  spread.sea->waves->spectrum = SpectrumInCase{};
+  spread.sea->waves->spectrum = given::Spectrum{};
   EXPECT_EQ(doubt_about_headings(spread), "");
   spread.sea->waves->spectrum->spreading = 4;
   EXPECT_THAT(doubt_about_headings(spread), HasSubstr("degrees apart"));

@@ -19,7 +19,7 @@ TEST(VesselDatabase, IsDoubtedByName) {
   database.added_mass = {added_mass};
   database.damping = {Eigen::MatrixXd::Zero(6, 6)};
   database.headings = {0, 45, 90};  // degrees
-  VesselInCase vessel;
+  given::Vessel vessel;
   vessel.database = Located<std::string>{"rm3.h5", {}};
   vessel.hydrodynamics = std::make_shared<const dynamics::HydrodynamicDatabase>(database);
   EXPECT_THAT(

@@ -99,14 +99,14 @@ std::string complaints_about_standard(const std::string& standard, SampleLift li
   return diagnostics.to_text();
 }
 
-TEST(StandardInCaseTest, IsReadWithItsRules) {
+TEST(GivenStandardTest, IsReadWithItsRules) {
   EXPECT_EQ(complaints_about_standard("{rules: en-13001, hoisting_class: HC2}"), "");
   EXPECT_EQ(complaints_about_standard("{rules: [en-13001, standards/asme-bth-1-a], "
                                       "hoisting_class: HC2}"),
             "");
 }
 
-TEST(StandardInCaseTest, NamesWhatIsMeant) {
+TEST(GivenStandardTest, NamesWhatIsMeant) {
   EXPECT_THAT(complaints_about_standard("{rules: nd-0028}"),
               HasSubstr("did you mean \"nd-0027\"?"));
   EXPECT_THAT(complaints_about_standard("{rules: en-13001, hoisting_class: HC5}"),
@@ -115,7 +115,7 @@ TEST(StandardInCaseTest, NamesWhatIsMeant) {
               HasSubstr("the rules ASME BTH-1 know no setting"));
 }
 
-TEST(StandardInCaseTest, AsksForWhatTheRulesNeed) {
+TEST(GivenStandardTest, AsksForWhatTheRulesNeed) {
   const std::string text = complaints_about_standard("{rules: nd-0027, weight_class: D}");
   EXPECT_THAT(text, HasSubstr("the rules 0027/ND have no weight class \"D\""));
   EXPECT_THAT(text, HasSubstr("the rules 0027/ND need a setting, and the case gives none"));
@@ -125,7 +125,7 @@ TEST(StandardInCaseTest, AsksForWhatTheRulesNeed) {
                               "for slings"));
 }
 
-TEST(StandardInCaseTest, AsksNothingOfAModelThatIsNotThere) {
+TEST(GivenStandardTest, AsksNothingOfAModelThatIsNotThere) {
   SampleLift lift;
   const std::size_t at = lift.lift_case.find("model: ropes/", lift.lift_case.find("R1:"));
   lift.lift_case.insert(at + std::string("model: ").size(), "no-");
@@ -134,7 +134,7 @@ TEST(StandardInCaseTest, AsksNothingOfAModelThatIsNotThere) {
   EXPECT_THAT(text, Not(HasSubstr("the model of rope R1 has no")));
 }
 
-TEST(StandardInCaseTest, LooksAtMasterLinksAndSheaves) {
+TEST(GivenStandardTest, LooksAtMasterLinksAndSheaves) {
   const std::string begin = "{rules: en-13001, hoisting_class: HC2, ";
   EXPECT_EQ(complaints_about_standard(
                 begin + "master_links: {C1.left: {working_load: 5 t, breaking_load: 30 t}}}"),
@@ -155,7 +155,7 @@ TEST(StandardInCaseTest, LooksAtMasterLinksAndSheaves) {
       HasSubstr("the model of rope R1 has no diameter, which the bend diameter is held against"));
 }
 
-TEST(StandardInCaseTest, LooksAtShacklesAndBends) {
+TEST(GivenStandardTest, LooksAtShacklesAndBends) {
   EXPECT_THAT(complaints_about_standard("{rules: en-13001, hoisting_class: HC2, shackles: {L1: "
                                         "{working_load: 5 t, breaking_load: 30 t}}}"),
               HasSubstr("the rules EN 13001-2 say nothing of shackles"));
@@ -168,7 +168,7 @@ TEST(StandardInCaseTest, LooksAtShacklesAndBends) {
 }
 
 // A load table has loads at lugs: rules on hooks, slings and motion would hold nothing.
-TEST(StandardInCaseTest, RefusesWhatALoadTableDoesNotHave) {
+TEST(GivenStandardTest, RefusesWhatALoadTableDoesNotHave) {
   SampleLift lift;
   lift.lift_case = test::sample_load_table_case;
   const std::string begin =
@@ -186,7 +186,7 @@ TEST(StandardInCaseTest, RefusesWhatALoadTableDoesNotHave) {
               HasSubstr("its factor grows with the hoisting speed"));
 }
 
-TEST(StandardInCaseTest, RefusesAShackleAtWhichNothingPulls) {
+TEST(GivenStandardTest, RefusesAShackleAtWhichNothingPulls) {
   SampleLift lift;
   lift.lift_case = test::with(lift.lift_case, "to: L2", "to: L1");
   EXPECT_THAT(complaints_about_standard("{rules: nd-0027, shackles: {L2: {working_load: 5 t, "
