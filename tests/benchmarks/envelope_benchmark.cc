@@ -13,7 +13,7 @@ constexpr int points = 200000, instants = 10000, units = 30;
 
 void envelope(benchmark::State& state, const Eigen::MatrixXd& factors, int threads) {
   // Responses of 1,000 points, again and again: 288 MB of them would not say more.
-  const Eigen::MatrixXd responses = testing::random_responses(6 * 1000, units, 1);
+  const Eigen::MatrixXd responses = test::random_responses(6 * 1000, units, 1);
   for (auto unused : state) {
     const LoadHistory history(factors, Eigen::VectorXd::Ones(units));
     benchmark::DoNotOptimize(find_stress_envelope(
@@ -27,12 +27,12 @@ void envelope(benchmark::State& state, const Eigen::MatrixXd& factors, int threa
 }
 
 void lift(benchmark::State& state) {
-  envelope(state, testing::lift_like_history(units, instants, 2), static_cast<int>(state.range(0)));
+  envelope(state, test::lift_like_history(units, instants, 2), static_cast<int>(state.range(0)));
 }
 BENCHMARK(lift)->Arg(1)->Arg(2)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
 
 void noise(benchmark::State& state) {
-  envelope(state, testing::noise_history(units, instants, 2), static_cast<int>(state.range(0)));
+  envelope(state, test::noise_history(units, instants, 2), static_cast<int>(state.range(0)));
 }
 BENCHMARK(noise)->Arg(1)->Arg(2)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
 

@@ -9,7 +9,7 @@ namespace blocklift::dynamics {
 namespace {
 
 void right_hand_side_of_two_goliaths(benchmark::State& state) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   LiftWorkspace w(lift);
   Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
   get_state(lift, lift.q_start(), lift.v_start(), y);
@@ -96,7 +96,7 @@ void report(benchmark::State& state, const LiftSystem& lift, const IntegrationSt
 }
 
 void block_hoisted_on_six_ropes(benchmark::State& state) {
-  const LiftSystem lift = samples::block_on_six_ropes();
+  const LiftSystem lift = examples::block_on_six_ropes();
   IntegrationStatistics cost;
   for (auto _ : state) {
     cost = integrate(lift, lift.q_start(), lift.v_start(), {.relative_tolerance = 1e-6}).statistics;
@@ -106,7 +106,7 @@ void block_hoisted_on_six_ropes(benchmark::State& state) {
 BENCHMARK(block_hoisted_on_six_ropes)->Unit(benchmark::kMillisecond);
 
 void integrate_turn_over(benchmark::State& state, const IntegrationSettings& settings) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   EquilibriumSolver solver(lift);
   Eigen::VectorXd q = lift.q_start();
   solver.solve(0.0, q);
@@ -128,7 +128,7 @@ void turn_over_in_time_for_its_tensions(benchmark::State& state) {
 BENCHMARK(turn_over_in_time_for_its_tensions)->Unit(benchmark::kMillisecond);
 
 void turn_over_static_sweep(benchmark::State& state) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   const Eigen::VectorXd times = sample_times(lift.operation().duration(), 1.0);
   for (auto _ : state) {
     const History sweep = static_sweep(lift, times, lift.q_start());

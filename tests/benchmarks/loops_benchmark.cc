@@ -64,15 +64,15 @@ void closed_chain_dynamics(benchmark::State& state) {
 BENCHMARK(closed_chain_dynamics)->Arg(10)->Arg(20)->Arg(50)->Unit(benchmark::kMicrosecond);
 
 void andrews_dynamics(benchmark::State& state) {
-  constrained_dynamics(state, samples::AndrewsSqueezer{LoopKind::revolute}.build(),
-                       samples::AndrewsSqueezer::q_start());
+  constrained_dynamics(state, test::AndrewsSqueezer{LoopKind::revolute}.build(),
+                       test::AndrewsSqueezer::q_start());
 }
 BENCHMARK(andrews_dynamics)->Unit(benchmark::kMicrosecond);
 
 void andrews_projection(benchmark::State& state) {
-  const Mechanism mechanism = samples::AndrewsSqueezer{LoopKind::revolute}.build();
+  const Mechanism mechanism = test::AndrewsSqueezer{LoopKind::revolute}.build();
   LoopProjector projector(mechanism);
-  const Eigen::VectorXd start = samples::AndrewsSqueezer::q_start();
+  const Eigen::VectorXd start = test::AndrewsSqueezer::q_start();
   Eigen::VectorXd q = start;
   Eigen::VectorXd v = Eigen::VectorXd::Zero(mechanism.nv());
   projector.look(q);
@@ -87,7 +87,7 @@ BENCHMARK(andrews_projection)->Unit(benchmark::kMicrosecond);
 
 // 0.03 s to 1e-8 rad: the counters tell the error and what it cost.
 void andrews_run(benchmark::State& state, LoopKind kind, double tolerance) {
-  const LiftSystem system = samples::andrews(kind);
+  const LiftSystem system = test::andrews(kind);
   IntegrationStatistics statistics;
   double error = 0.0;
   for (auto _ : state) {
@@ -95,7 +95,7 @@ void andrews_run(benchmark::State& state, LoopKind kind, double tolerance) {
         integrate(system, system.q_start(), system.v_start(),
                   {.relative_tolerance = tolerance, .sample_interval = 0.03, .works = false});
     statistics = run.statistics;
-    error = (run.q_end - samples::andrews_q_end()).lpNorm<Eigen::Infinity>();
+    error = (run.q_end - test::andrews_q_end()).lpNorm<Eigen::Infinity>();
   }
   state.counters["error_rad"] = error;
   state.counters["steps"] = static_cast<double>(statistics.steps);

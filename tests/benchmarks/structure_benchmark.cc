@@ -15,14 +15,14 @@ namespace {
 using namespace blocklift::structure;
 
 void generate_mesh(benchmark::State& state) {
-  const BlockDescription block = testing::hull_block();
+  const BlockDescription block = test::hull_block();
   for (auto unused : state) benchmark::DoNotOptimize(generate_shell_mesh(block));
 }
 BENCHMARK(generate_mesh)->Unit(benchmark::kMillisecond);
 
 void unit_responses(benchmark::State& state) {
   for (auto unused : state) {
-    const ElasticModel model = testing::make_elastic_model(testing::hull_block(), 3);
+    const ElasticModel model = test::make_elastic_model(test::hull_block(), 3);
     const UnitResponses responses(model);
     const SolutionTiming& timing = responses.timing();
     state.counters["unknowns"] = model.space().unknowns();
@@ -37,8 +37,8 @@ void unit_responses(benchmark::State& state) {
 BENCHMARK(unit_responses)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
 
 void evaluate_load_case(benchmark::State& state) {
-  BlockDescription block = testing::hull_block();
-  const ElasticModel model = testing::make_elastic_model(block, 2);
+  BlockDescription block = test::hull_block();
+  const ElasticModel model = test::make_elastic_model(block, 2);
   const UnitResponses responses(model);
   const StressRecovery recovery(responses);
   LoadCase load_case{"pull", std::vector<Vector3>(6, Vector3(0, 0, 1.4e6)), {}};
@@ -53,7 +53,7 @@ Eigen::MatrixXd any_motion(const ElasticModel& model) {
 
 void checked_stress(benchmark::State& state) {
   const ElasticModel model =
-      testing::make_elastic_model(testing::hull_block(), static_cast<int>(state.range(0)));
+      test::make_elastic_model(test::hull_block(), static_cast<int>(state.range(0)));
   const Eigen::MatrixXd motion = any_motion(model);
   std::size_t squares = 0;
   for (auto unused : state) squares = CheckedStress(model, motion).squares().size();
@@ -63,7 +63,7 @@ BENCHMARK(checked_stress)->ArgName("degree")->Arg(1)->Arg(3)->Unit(benchmark::kM
 
 void error_estimate(benchmark::State& state) {
   const ElasticModel model =
-      testing::make_elastic_model(testing::hull_block(), static_cast<int>(state.range(0)));
+      test::make_elastic_model(test::hull_block(), static_cast<int>(state.range(0)));
   const Eigen::MatrixXd motion = any_motion(model);
   for (auto unused : state) benchmark::DoNotOptimize(estimate_block_errors(model, motion));
 }

@@ -21,7 +21,7 @@ void* malloc(std::size_t size) {
 }
 #endif
 
-namespace blocklift::testing {
+namespace blocklift::test {
 
 bool counts_allocations() {
 #ifdef BLOCKLIFT_COUNTS_ALLOCATIONS
@@ -33,4 +33,4 @@ bool counts_allocations() {
 
 long allocations() { return count; }
 
-}  // namespace blocklift::testing
+}  // namespace blocklift::test

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace blocklift::testing {
+namespace blocklift::test {
 
 /// Can calls of the C allocator be counted in this build? (Sanitizers bring their own allocator.)
 bool counts_allocations();
@@ -8,4 +8,4 @@ bool counts_allocations();
 /// Calls of malloc in this executable so far, operator new and Eigen's included.
 long allocations();
 
-}  // namespace blocklift::testing
+}  // namespace blocklift::test

@@ -3,7 +3,7 @@
 #include "structure/mesh/plates/shell_generator.h"
 #include "structure/response/elastic_model.h"
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::test {
 
 /// The shells of a description, in elements of a degree.
 inline ElasticModel make_elastic_model(const BlockDescription& block, int degree) {
@@ -11,4 +11,4 @@ inline ElasticModel make_elastic_model(const BlockDescription& block, int degree
                       block.centre_of_mass_B);
 }
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::test

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::test {
 
 Material steel() { return {"AH36", 206e9, 0.3, 7850, 355e6}; }
 
@@ -102,4 +102,4 @@ BlockDescription small_block() {
   return block;
 }
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::test

@@ -2,7 +2,7 @@
 
 #include "structure/mesh/plates/block_description.h"
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::test {
 
 /// Shipbuilding steel AH36.
 Material steel();
@@ -19,4 +19,4 @@ BlockDescription small_block();
 /// through it.
 BlockDescription cross_of_plates();
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::test

@@ -6,7 +6,7 @@
 
 #include "structure/space/space.h"
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::test {
 
 /// Displacement (m) and rotation (rad) at a place, one over the other.
 using MotionField = std::function<Eigen::Matrix<double, 6, 1>(const Vector3& place)>;
@@ -30,4 +30,4 @@ inline Mesh moved(Mesh mesh, const Eigen::Isometry3d& X) {
   return mesh;
 }
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::test

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::test {
 
 Eigen::MatrixXd noise_history(int count, int instants, unsigned seed) {
   std::mt19937 random(seed);
@@ -41,4 +41,4 @@ Eigen::MatrixXd lift_like_history(int count, int instants, unsigned seed) {
   return factors;
 }
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::test

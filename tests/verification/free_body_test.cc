@@ -141,18 +141,18 @@ TEST(FreeBodies, ThreeBodiesWithRevoluteJointsAndACylindricalLoop) {
 }
 
 TEST(FreeBodies, TreeOfAllJointKinds) {
-  dynamics::testing::Random random(7);
+  dynamics::examples::Random random(7);
   MechanismBuilder builder;
   std::string parent = "world";
   for (const JointKind kind : {JointKind::revolute, JointKind::universal, JointKind::spherical,
                                JointKind::cylindrical, JointKind::planar, JointKind::prismatic,
                                JointKind::translational, JointKind::free, JointKind::fixed}) {
     const std::string name(dynamics::joint_kind_name(kind));
-    builder.add_body(dynamics::testing::random_body(random, kind, name, parent));
+    builder.add_body(dynamics::examples::random_body(random, kind, name, parent));
     parent = kind == JointKind::cylindrical ? "universal" : name;
   }
   const Mechanism mechanism = builder.build();
-  const Eigen::VectorXd q = dynamics::testing::random_configuration(random, mechanism);
+  const Eigen::VectorXd q = dynamics::examples::random_configuration(random, mechanism);
   expect_agreement(compare(mechanism, {}, q, random.values(mechanism.nv(), 0.5), 1), 1e-8);
 }
 

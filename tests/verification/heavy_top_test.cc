@@ -21,8 +21,8 @@ Mechanism heavy_top() {
   return builder.build();
 }
 
-testing::RungeKutta run(const Mechanism& mechanism, double duration, int steps) {
-  testing::RungeKutta top(mechanism, mechanism.zero_configuration(), Vector3(0, 150, -4.61538));
+test::RungeKutta run(const Mechanism& mechanism, double duration, int steps) {
+  test::RungeKutta top(mechanism, mechanism.zero_configuration(), Vector3(0, 150, -4.61538));
   top.advance(duration, steps);
   return top;
 }

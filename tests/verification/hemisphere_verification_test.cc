@@ -12,10 +12,10 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Hemisphere;
-using testing::make_hemisphere;
-using testing::task_10;
-using Division = testing::HemisphereDivision;
+using examples::Hemisphere;
+using examples::make_hemisphere;
+using examples::task_10;
+using Division = examples::HemisphereDivision;
 
 constexpr double pi = std::numbers::pi;
 

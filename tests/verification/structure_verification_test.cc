@@ -12,8 +12,8 @@ namespace {
 
 // The shipped size: balanced lift, reactions that vanish.
 TEST(HullBlock, LiftAtFullSize) {
-  const BlockDescription block = testing::hull_block();
-  const ElasticModel model = testing::make_elastic_model(block, 3);
+  const BlockDescription block = test::hull_block();
+  const ElasticModel model = test::make_elastic_model(block, 3);
   EXPECT_GT(model.space().unknowns(), 50000);
   const UnitResponses responses(model);
   LoadCase load_case{"lift", {}, {}};

@@ -7,7 +7,7 @@ namespace blocklift::dynamics {
 namespace {
 
 TEST(TurnOver, EnergyNewtonAndStaticLoads) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   const double duration = lift.operation().duration();
   const History statics = static_sweep(lift, sample_times(duration, 1.0), lift.q_start());
   EquilibriumSolver solver(lift);

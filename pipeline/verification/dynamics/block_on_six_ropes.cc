@@ -10,7 +10,7 @@ VerificationCase block_on_six_ropes() {
       .stage = "dynamics",
       .source = "Simbody at the accuracy 1e-12",
       .compute = [] {
-        const dynamics::LiftSystem lift = dynamics::samples::block_on_six_ropes();
+        const dynamics::LiftSystem lift = dynamics::examples::block_on_six_ropes();
         const auto end_at = [&](double tolerance) {
           return dynamics::integrate(lift, lift.q_start(), lift.v_start(),
                                      {.relative_tolerance = tolerance, .sample_interval = 1.0});

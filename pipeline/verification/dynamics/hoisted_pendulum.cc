@@ -15,12 +15,12 @@ VerificationCase hoisted_pendulum() {
           .stage = "dynamics",
           .source = "polar equations, integrated independently at 1e-13",
           .compute = [] {
-            dynamics::samples::SingleRopeLift model;
+            dynamics::examples::SingleRopeLift model;
             model.damping_time = 5e-3;
             model.payout = -8.0;
             model.duration = 10.0;
             const dynamics::LiftSystem lift = model.build();
-            const double r = model.length + model.mass * dynamics::samples::g / model.stiffness();
+            const double r = model.length + model.mass * dynamics::examples::g / model.stiffness();
             const dynamics::Vector3 start(r * std::sin(0.3), 0, -r * std::cos(0.3));
             const dynamics::IntegrationResult run = dynamics::integrate(
                 lift, start, lift.v_start(), {.relative_tolerance = 1e-11, .sample_interval = 1.0});

@@ -12,8 +12,8 @@ namespace blocklift::pipeline {
 namespace {
 
 using namespace dynamics;
-using samples::g;
-using samples::SingleRopeLift;
+using examples::g;
+using examples::SingleRopeLift;
 
 constexpr double pi = std::numbers::pi;
 
@@ -92,7 +92,7 @@ VerificationRow hoist_that_grips_at_once() {
   constexpr double speed = 0.05;
   SingleRopeLift model;
   model.payout = -0.05;
-  model.limits = samples::abrupt(speed);
+  model.limits = examples::abrupt(speed);
   const LiftSystem lift = model.build();
   const IntegrationResult run =
       integrate(lift, Vector3(0, 0, height_at_rest(model)), lift.v_start(),

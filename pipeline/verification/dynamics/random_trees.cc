@@ -22,10 +22,10 @@ class RandomTree {
  public:
   RandomTree(unsigned seed, bool with_drives)
       : random_(seed),
-        mechanism_(testing::random_tree(random_, 12, with_drives)),
-        q_(testing::random_configuration(random_, mechanism_)),
+        mechanism_(examples::random_tree(random_, 12, with_drives)),
+        q_(examples::random_configuration(random_, mechanism_)),
         v_(random_.values(mechanism_.nv(), 2)),
-        forces_(testing::random_forces(random_, mechanism_)),
+        forces_(examples::random_forces(random_, mechanism_)),
         kinematics_(mechanism_) {
     compute_kinematics(mechanism_, q_, v_, kinematics_);
   }
@@ -55,7 +55,7 @@ class RandomTree {
     return tau;
   }
 
-  testing::Random random_;
+  examples::Random random_;
   Mechanism mechanism_;
   Eigen::VectorXd q_, v_;
   std::vector<ForceVector> forces_;

@@ -20,7 +20,7 @@ namespace blocklift::pipeline {
 namespace {
 
 using namespace dynamics;
-using dynamics::testing::RectangularSection;
+using dynamics::examples::RectangularSection;
 using Complex = std::complex<double>;
 
 const Water open_water{1.0, 9.80665};
@@ -84,8 +84,8 @@ PairOfBarges compute_pair(double length) {
 
 /// By matched eigenfunctions, a metre of the barges.
 Complex section_force(std::size_t frequency, DegreeOfFreedom mode) {
-  return dynamics::testing::calc_section_force(pair_section, mode, pair_frequencies[frequency],
-                                               open_water.gravity, 40);
+  return dynamics::examples::calc_section_force(pair_section, mode, pair_frequencies[frequency],
+                                                open_water.gravity, 40);
 }
 
 // Water that rises and falls between two barges (Molin 2001, the piston mode): his source and sinks
@@ -98,8 +98,8 @@ double molin_frequency() {
 
 double resonance_of(const std::vector<Complex>& forces) {
   constexpr std::size_t first = 1, count = 9;
-  return dynamics::testing::find_resonance(std::span(pair_frequencies).subspan(first, count),
-                                           std::span(forces).subspan(first, count))
+  return dynamics::examples::find_resonance(std::span(pair_frequencies).subspan(first, count),
+                                            std::span(forces).subspan(first, count))
       .real();
 }
 

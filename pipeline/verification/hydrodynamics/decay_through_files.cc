@@ -36,7 +36,7 @@ HydrodynamicFile compute_shipped_sphere(ModelLibrary& library) {
     auto problem = read_hydrodynamic_problem(file, library, diagnostics);
     if (!problem) throw InputError(diagnostics);
     std::vector<double>& list = problem->frequencies;
-    for (const auto& row : dynamics::testing::hulme) {
+    for (const auto& row : dynamics::examples::hulme) {
       if (row.ka > 3.0) continue;
       const double w = frequency_of(row.ka);
       // In place of those beside it: a polynomial through close neighbours is no good.
@@ -59,7 +59,7 @@ std::size_t place_of(const HydrodynamicDatabase& database, double frequency) {
 
 void add_table(const HydrodynamicDatabase& database, std::vector<VerificationRow>& rows) {
   const double mass = 2.0 / 3.0 * std::numbers::pi * water_density * std::pow(sphere_radius, 3);
-  for (const auto& row : dynamics::testing::hulme) {
+  for (const auto& row : dynamics::examples::hulme) {
     if (row.ka > 3.0) continue;
     const double w = frequency_of(row.ka);
     const std::size_t k = place_of(database, w);

@@ -71,8 +71,8 @@ void add_column(std::vector<VerificationRow>& rows) {
 // What waves carry away is what damping takes: far field against near field. A free body takes
 // nothing out of the waves, and Haskind's relation ties its excitation to what it would radiate.
 void add_hemisphere(std::vector<VerificationRow>& rows) {
-  const testing::Hemisphere sphere =
-      testing::make_hemisphere(1.0, {24, 8, 0.08, 1.06, 30.0}, {1.0, 1.0});
+  const examples::Hemisphere sphere =
+      examples::make_hemisphere(1.0, {24, 8, 0.08, 1.06, 30.0}, {1.0, 1.0});
   DatabaseSettings settings;
   settings.frequencies = {0.7, 1.0, 1.4};
   settings.headings = {0.4};

@@ -14,9 +14,9 @@ namespace blocklift::pipeline {
 namespace {
 
 using namespace dynamics;
-using testing::Hemisphere;
-using testing::hulme;
-using testing::make_hemisphere;
+using examples::Hemisphere;
+using examples::hulme;
+using examples::make_hemisphere;
 
 using std::numbers::pi;
 
@@ -27,7 +27,7 @@ std::vector<VerificationRow> table_rows(const HydrodynamicDatabase& database,
   const double mass = 2.0 / 3.0 * pi;
   std::vector<VerificationRow> rows;
   for (std::size_t k = 0; k < hulme.size(); ++k) {
-    const testing::HemisphereRow& row = hulme[k];
+    const examples::HemisphereRow& row = hulme[k];
     const double w = database.frequencies[k];
     const auto add = [&](const char* what, double exact, double found, double scale,
                          const char* source) {
@@ -104,7 +104,7 @@ void add_hull_alone(const PanelModel& model, std::vector<VerificationRow>& rows)
   const std::string by = fmt::format("{} panels of the hull alone", 4 * model.body_mesh().size());
   const HullEquations equations(model, {});
   HydrodynamicDatabase database;
-  for (const testing::HemisphereRow& row : hulme) {
+  for (const examples::HemisphereRow& row : hulme) {
     const double w = std::sqrt(row.ka);
     const Eigen::MatrixXcd force = equations.calc_radiation(equations.solve(w), w);
     database.frequencies.push_back(w);
@@ -126,10 +126,10 @@ std::vector<VerificationRow> hemisphere_rows() {
   const auto by_unknowns = [](const HydrodynamicDatabase& database, int unknowns) {
     return table_rows(database, fmt::format("{} unknowns", unknowns));
   };
-  const auto compute = [](const testing::HemisphereDivision& division, int& unknowns) {
+  const auto compute = [](const examples::HemisphereDivision& division, int& unknowns) {
     const Hemisphere sphere = make_hemisphere(1.0, division, {1.0, 1.0});
     unknowns = sphere.unknowns;
-    return testing::compute_unit_database(sphere.model);
+    return examples::compute_unit_database(sphere.model);
   };
   int coarse_unknowns = 0, unknowns = 0, fine_unknowns = 0;
   const double coarse =
@@ -164,12 +164,12 @@ HydrodynamicDatabase decay_database(const Hemisphere& sphere) {
   return compute_database(sphere.model, settings);
 }
 
-Decay compute_decay(const testing::HemisphereDivision& division) {
+Decay compute_decay(const examples::HemisphereDivision& division) {
   const Hemisphere sphere = make_hemisphere(5.0, division, {1000.0, 9.81}, -2.0);
   DirectRadiation::Settings direct;
   direct.damping_strength = 0.35;
   DirectRadiation radiation(sphere.model, direct);
-  const LinearFloatation bodies = testing::task_10();
+  const LinearFloatation bodies = examples::task_10();
   return {find_extrema(march_directly(bodies, radiation, 0.05, 10.0), heave),
           find_extrema(march_with_database(bodies, decay_database(sphere), 0.05, 10.0), heave),
           sphere.unknowns};
@@ -200,7 +200,7 @@ std::vector<VerificationRow> decay_rows() {
   }
   const Hemisphere sphere = make_hemisphere(5.0, {24, 8, 0.09}, {1000.0, 9.81}, -2.0);
   const HydrodynamicDatabase database = decay_database(sphere);
-  const LinearFloatation bodies = testing::task_10();
+  const LinearFloatation bodies = examples::task_10();
   const auto height = [&](double step) {
     return march_with_database(bodies, database, step, 8.0).position.back()[heave];
   };

@@ -88,7 +88,7 @@ std::vector<VerificationRow> long_barge_rows() {
       const double w = barge_frequencies[k];
       const Complex middle =
           (force_on(whole, k, mode.freedom) - force_on(half, k, mode.freedom)) / short_length;
-      const Complex section = dynamics::testing::calc_section_force(
+      const Complex section = dynamics::examples::calc_section_force(
           {.breadth = barge_breadth, .draught = barge_draught, .depth = 80.0}, mode.freedom, w,
           barge_water.gravity);
       rows.push_back(bound(fmt::format("{}, B + i w A of the middle, {} rad/s, {} panels, relative "

@@ -33,7 +33,7 @@ Swing swing_of(const HydrodynamicDatabase& database) {
     masses.emplace_back(database.added_mass[k](heave, heave),
                         -database.damping[k](heave, heave) / frequencies.back());
   }
-  const std::complex<double> found = dynamics::testing::find_resonance(frequencies, masses);
+  const std::complex<double> found = dynamics::examples::find_resonance(frequencies, masses);
   return {found.real(), found.imag(), 0};
 }
 

@@ -28,11 +28,11 @@ double solid_angle(const PanelMesh& body, const Vector3& point) {
 
 // The 20 x 20 pieces of order 10 are exact to 1e-12 at distances of more than 0.3 of the panel.
 std::vector<VerificationRow> integral_rows() {
-  const Panel panel = testing::skew_quadrangle();
+  const Panel panel = examples::skew_quadrangle();
   std::vector<VerificationRow> rows;
   for (const double height : {0.6, -0.7, 7.0}) {
     const Vector3 point = panel.centroid + height * panel.normal + 0.3 * height * Vector3::UnitX();
-    const PanelPotentials exact = testing::by_quadrature(panel, point, 20);
+    const PanelPotentials exact = examples::by_quadrature(panel, point, 20);
     const PanelPotentials found = calc_panel_potentials(panel, point);
     rows.push_back(compare(fmt::format("source over a quadrangle, {} m above it", height), "m",
                            exact.source, found.source, 1e-12 * exact.source,
@@ -131,8 +131,8 @@ std::vector<VerificationRow> symmetry_rows() {
 // Diffraction by a system of its own against Haskind's relation from the radiation potentials, with
 // the same matrices and the same damping zone; steady waves want rings that widen slowly.
 std::vector<VerificationRow> haskind_rows() {
-  const testing::Hemisphere sphere =
-      testing::make_hemisphere(1.0, {24, 8, 0.08, 1.06, 30.0}, {1.0, 1.0});
+  const examples::Hemisphere sphere =
+      examples::make_hemisphere(1.0, {24, 8, 0.08, 1.06, 30.0}, {1.0, 1.0});
   DatabaseSettings settings;
   settings.frequencies = {0.7, 1.0, 1.4};
   settings.headings = {0.4};

@@ -5,7 +5,7 @@
 
 #include "dynamics/marine/panels/panel_shapes.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 Hemisphere make_hemisphere(double radius, const HemisphereDivision& division, const Water& water,
                            double low) {
@@ -43,4 +43,4 @@ LinearFloatation task_10() {
   return sphere;
 }
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

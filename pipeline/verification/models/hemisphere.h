@@ -6,7 +6,7 @@
 #include "dynamics/marine/radiation/floating_motion.h"
 #include "dynamics/marine/radiation/hydrodynamic_database.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 /// Division of a hemisphere and of the surface around it, in radii.
 struct HemisphereDivision {
@@ -48,4 +48,4 @@ HydrodynamicDatabase compute_unit_database(const PanelModel& model);
 /// up.
 LinearFloatation task_10();
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

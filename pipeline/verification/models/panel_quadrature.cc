@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 Panel skew_quadrangle() {
   const Vector3 u = Vector3(1, 2, 3).normalized();
@@ -40,4 +40,4 @@ PanelPotentials by_quadrature(const Panel& panel, const Vector3& point, int n) {
   return sum;
 }
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

@@ -1,6 +1,6 @@
 #include "pipeline/verification/models/random_mechanism.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 BodyDefinition random_body(Random& random, JointKind kind, const std::string& name,
                            const std::string& parent) {
@@ -66,4 +66,4 @@ std::vector<ForceVector> no_forces(const Mechanism& mechanism) {
                                   ForceVector::zero());
 }
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

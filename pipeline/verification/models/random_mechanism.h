@@ -5,7 +5,7 @@
 
 #include "dynamics/multibody/mechanism.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 /// Numbers that a seed fixes.
 class Random {
@@ -51,4 +51,4 @@ std::vector<ForceVector> random_forces(Random& random, const Mechanism& mechanis
 /// No external force on any body.
 std::vector<ForceVector> no_forces(const Mechanism& mechanism);
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

@@ -7,7 +7,7 @@
 
 #include "algebra/factors.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 namespace {
 
 using Complex = std::complex<double>;
@@ -218,4 +218,4 @@ Complex calc_section_force(const RectangularSection& section, DegreeOfFreedom mo
   return bottom + push_on_side(left, left_slopes) - push_on_side(right, right_slopes);
 }
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

@@ -5,7 +5,7 @@
 
 #include "dynamics/marine/panels/panel_model.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 /// Section of an endless box that floats in water of even depth; m.
 struct RectangularSection {
@@ -34,4 +34,4 @@ struct RectangularSection {
 std::complex<double> calc_section_force(const RectangularSection& section, DegreeOfFreedom mode,
                                         double frequency, double gravity, int terms = 60);
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

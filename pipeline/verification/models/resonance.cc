@@ -2,7 +2,7 @@
 
 #include <Eigen/QR>
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 std::complex<double> find_resonance(std::span<const double> frequencies,
                                     std::span<const std::complex<double>> masses) {
@@ -18,4 +18,4 @@ std::complex<double> find_resonance(std::span<const double> frequencies,
   return columns.colPivHouseholderQr().solve(values)[0];
 }
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

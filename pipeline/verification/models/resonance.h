@@ -3,7 +3,7 @@
 #include <complex>
 #include <span>
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::examples {
 
 /// The resonance w = frequency + i rate of water that swings as Re exp(i w t) by itself, from A +
 /// B/(i w) at some frequencies about it (at least six, ascending). There that is r/(w - p) and
@@ -12,4 +12,4 @@ namespace blocklift::dynamics::testing {
 std::complex<double> find_resonance(std::span<const double> frequencies,
                                     std::span<const std::complex<double>> masses);
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::examples

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace blocklift::dynamics::samples {
+namespace blocklift::dynamics::examples {
 
 Matrix3 box_inertia(double mass, double x, double y, double z) {
   return mass / 12.0 * Vector3(y * y + z * z, x * x + z * z, x * x + y * y).asDiagonal();
@@ -85,4 +85,4 @@ LiftSystem block_on_six_ropes() {
                      .v_start = v_start});
 }
 
-}  // namespace blocklift::dynamics::samples
+}  // namespace blocklift::dynamics::examples

@@ -7,7 +7,7 @@
 
 /// Loads on ropes with references in closed form or from other programs: of the verification suite,
 /// and shared by tests and benchmarks.
-namespace blocklift::dynamics::samples {
+namespace blocklift::dynamics::examples {
 
 inline constexpr double g = 9.81;  ///< m/s2
 
@@ -38,4 +38,4 @@ Matrix3 box_inertia(double mass, double x, double y, double z);
 /// for 120 s, with 2 s ramps. Its initial motion is in v_start.
 LiftSystem block_on_six_ropes();
 
-}  // namespace blocklift::dynamics::samples
+}  // namespace blocklift::dynamics::examples

@@ -34,7 +34,7 @@ struct BoxFigures {
 // and at the edge z = h of the web the load, one shear flow and one strain in both plates.
 BoxFigures folded_plates() {
   using B = BoxGirder;
-  const Material steel = testing::plain_steel();
+  const Material steel = examples::plain_steel();
   const double a = M_PI / B::length, nu = steel.poisson_ratio, e = steel.youngs_modulus;
   const double b = a * B::half_width, h = a * B::half_height;
   const double sh = std::sinh(h), ch = std::cosh(h);
@@ -61,17 +61,17 @@ BoxFigures folded_plates() {
 // Half the length and half the width.
 BoxFigures box_of_shells(int degree, int along) {
   using B = BoxGirder;
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), B::flange);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), B::flange);
   mesh.shell_sections.push_back({B::web, 0, 0});
   const double half = B::length / 2;
   for (const double z : {-B::half_height, B::half_height})
-    testing::add_sheet(
+    examples::add_sheet(
         mesh,
         [&](double x, double y) -> Vector3 {
           return {half * x, B::half_width * y, z};
         },
         along, along);
-  testing::add_sheet(
+  examples::add_sheet(
       mesh,
       [&](double x, double y) -> Vector3 {
         return {half * x, B::half_width, B::half_height * (2 * y - 1)};
@@ -79,13 +79,13 @@ BoxFigures box_of_shells(int degree, int along) {
       along, along, 1, 1);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {1, 2, 3}, fixed);
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return p.x() > half - 1e-9; }, {0, 4, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() < 1e-9; }, {1, 3, 5}, fixed);
-  const Eigen::VectorXd load = testing::edge_load(
+  const Eigen::VectorXd load = examples::edge_load(
       space,
       [](const Vector3& p) {
         return p.y() > B::half_width - 1e-9 && std::abs(p.z()) > B::half_height - 1e-9;
@@ -94,11 +94,11 @@ BoxFigures box_of_shells(int degree, int along) {
         return {0, 0, -B::load / 2 * std::sin(M_PI * p.x() / B::length)};
       });
   // Each edge of a corner is one of two cells: the flange's and the web's.
-  const Eigen::VectorXd motion = testing::solve(space, load / 2, fixed);
+  const Eigen::VectorXd motion = examples::solve(space, load / 2, fixed);
   const Vector3 corner(half, B::half_width, B::half_height), middle(half, 0, B::half_height);
-  return {-testing::displacement_at(space, motion, corner).z(),
-          testing::stress_at(space, motion, corner, 0)(0, 0),
-          testing::stress_at(space, motion, middle, 0)(0, 0)};
+  return {-examples::displacement_at(space, motion, corner).z(),
+          examples::stress_at(space, motion, corner, 0)(0, 0),
+          examples::stress_at(space, motion, middle, 0)(0, 0)};
 }
 
 // The plates' own bending, which folded plates leave out, is 1e-4 of the girder's.

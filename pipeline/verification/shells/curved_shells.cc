@@ -31,27 +31,27 @@ std::vector<VerificationRow> rows_of(const char* what, const char* unit, double 
 // A quarter of the roof: symmetry at x = 0 and y = 0, diaphragm at y = 25.
 double roof(int degree, int cells) {
   constexpr double radius = 25, half = 25, angle = 40 * M_PI / 180;
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [](double x, double y) {
         return Vector3(radius * std::sin(angle * x), half * y, radius * std::cos(angle * x));
       },
       cells, cells, 0.25, {"concrete", 4.32e8, 0, 0, 1}, degree);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 4, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() < 1e-9; }, {1, 3, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() > half - 1e-9; }, {0, 2}, fixed);
-  const Eigen::VectorXd motion = testing::solve(space,
-                                                testing::area_load(space,
-                                                                   [](const Vector3&) -> Vector3 {
-                                                                     return {0, 0, -90};
-                                                                   }),
-                                                fixed);
+  const Eigen::VectorXd motion = examples::solve(space,
+                                                 examples::area_load(space,
+                                                                     [](const Vector3&) -> Vector3 {
+                                                                       return {0, 0, -90};
+                                                                     }),
+                                                 fixed);
   const Vector3 edge(radius * std::sin(angle), 0, radius * std::cos(angle));
-  return -testing::displacement_at(space, motion, edge).z();
+  return -examples::displacement_at(space, motion, edge).z();
 }
 
 // The published 0.3024 is that of shallow shells' theory; finer meshes of all degrees tend to
@@ -79,25 +79,25 @@ VerificationCase scordelis_lo() {
 // An eighth of the cylinder, a quarter of the load.
 double cylinder(int degree, int cells) {
   constexpr double radius = 300, half = 300;
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [](double x, double y) {
         return Vector3(radius * std::sin(M_PI / 2 * x), half * y, radius * std::cos(M_PI / 2 * x));
       },
       cells, cells, 3, {"unit", 3e6, 0.3, 0, 1}, degree);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-6; }, {0, 4, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.z() < 1e-6; }, {2, 3, 4}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() < 1e-6; }, {1, 3, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() > half - 1e-6; }, {0, 2}, fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
-  const int node = testing::nearest_node(space, Vector3(0, 0, radius));
+  const int node = examples::nearest_node(space, Vector3(0, 0, radius));
   load[6 * node + 2] = -0.25;
-  return -testing::solve(space, load, fixed)[6 * node + 2];
+  return -examples::solve(space, load, fixed)[6 * node + 2];
 }
 
 // Shear deformation under the point load, which the published thin shell has not, adds 1 % and,
@@ -123,11 +123,11 @@ VerificationCase pinched_cylinder() {
 // outward along x and inward along y at the rim.
 double closed_hemisphere(int degree, int cells) {
   constexpr double radius = 10;
-  Mesh mesh = testing::empty_mesh({"unit", 68.25e9, 0.3, 0, 1}, 0.04);
+  Mesh mesh = examples::empty_mesh({"unit", 68.25e9, 0.3, 0, 1}, 0.04);
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 a = Vector3::Unit(axis), b = Vector3::Unit((axis + 1) % 3),
                   c = Vector3::Unit((axis + 2) % 3);
-    testing::add_sheet(
+    examples::add_sheet(
         mesh,
         [&](double x, double y) -> Vector3 {
           // Angles grow evenly along the octant's edges.
@@ -138,17 +138,17 @@ double closed_hemisphere(int degree, int cells) {
   }
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 4, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() < 1e-9; }, {1, 3, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.z() > radius - 1e-9; }, {2}, fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
-  const int out = testing::nearest_node(space, {radius, 0, 0});
+  const int out = examples::nearest_node(space, {radius, 0, 0});
   load[6 * out] = 2000;
-  load[6 * testing::nearest_node(space, {0, radius, 0}) + 1] = -2000;
-  return testing::solve(space, load, fixed)[6 * out];
+  load[6 * examples::nearest_node(space, {0, radius, 0}) + 1] = -2000;
+  return examples::solve(space, load, fixed)[6 * out];
 }
 
 VerificationCase nafems_le3() {
@@ -167,7 +167,7 @@ VerificationCase nafems_le3() {
 // With a hole of 18 degrees about the pole.
 double open_hemisphere(int degree, int cells) {
   constexpr double radius = 10;
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [&](double x, double y) -> Vector3 {
         const double longitude = M_PI / 2 * x, latitude = 72 * M_PI / 180 * y;
         return radius * Vector3(std::cos(latitude) * std::cos(longitude),
@@ -176,18 +176,18 @@ double open_hemisphere(int degree, int cells) {
       cells, cells, 0.04, {"unit", 6.825e7, 0.3, 0, 1}, degree);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 4, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() < 1e-9; }, {1, 3, 5}, fixed);
-  const int out = testing::nearest_node(space, {radius, 0, 0});
-  testing::hold(
+  const int out = examples::nearest_node(space, {radius, 0, 0});
+  examples::hold(
       space, [&](const Vector3& p) { return (p - space.nodes().col(out)).norm() < 1e-9; }, {2},
       fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
   load[6 * out] = 1;
-  load[6 * testing::nearest_node(space, {0, radius, 0}) + 1] = -1;
-  return testing::solve(space, load, fixed)[6 * out];
+  load[6 * examples::nearest_node(space, {0, radius, 0}) + 1] = -1;
+  return examples::solve(space, load, fixed)[6 * out];
 }
 
 VerificationCase hemisphere_with_hole() {
@@ -207,7 +207,7 @@ VerificationCase hemisphere_with_hole() {
 // other's.
 double hook(int degree, int cells, int order) {
   constexpr double width = 20;
-  Mesh mesh = testing::empty_mesh({"unit", 3300, 0.35, 0, 1}, 2);
+  Mesh mesh = examples::empty_mesh({"unit", 3300, 0.35, 0, 1}, 2);
   const Vector3 first_centre(14, 0, 0);
   const double turn = 60 * M_PI / 180;
   const Vector3 joint = first_centre + 14 * Vector3(-std::cos(turn), std::sin(turn), 0);
@@ -216,7 +216,7 @@ double hook(int degree, int cells, int order) {
     // From the joint on the second circle turns the other way.
     return second_centre + 46 * Vector3(std::cos(turn - angle), -std::sin(turn - angle), 0);
   };
-  testing::add_sheet(
+  examples::add_sheet(
       mesh,
       [&](double x, double y) -> Vector3 {
         const double a = turn * x;
@@ -224,7 +224,7 @@ double hook(int degree, int cells, int order) {
                width * y * Vector3::UnitZ();
       },
       cells, cells, order);
-  testing::add_sheet(
+  examples::add_sheet(
       mesh,
       [&](double x, double y) -> Vector3 {
         return tip_side(150 * M_PI / 180 * x) + width * y * Vector3::UnitZ();
@@ -233,15 +233,15 @@ double hook(int degree, int cells, int order) {
   const Space space(mesh, {degree, {}});
   const Vector3 tip = tip_side(150 * M_PI / 180);
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return Vector3(p.x(), p.y(), 0).norm() < 1e-6; },
       {0, 1, 2, 3, 4, 5}, fixed);
   const auto at_tip = [&](const Vector3& p) { return Vector3(p - tip).head<2>().norm() < 1e-6; };
-  const Eigen::VectorXd load = testing::edge_load(space, at_tip, [](const Vector3&) -> Vector3 {
+  const Eigen::VectorXd load = examples::edge_load(space, at_tip, [](const Vector3&) -> Vector3 {
     return {0, 0, 1 / width};
   });
   // Work over the load: the mean along the edge.
-  return testing::solve(space, load, fixed).dot(load);
+  return examples::solve(space, load, fixed).dot(load);
 }
 
 VerificationCase raaschs_hook() {
@@ -270,36 +270,36 @@ class ClosedCylinder {
  public:
   /// @param cells in a quarter of the wave (pi / 4 over beta) by which the edge's bending fades
   ClosedCylinder(int degree, int cells)
-      : mesh_(testing::empty_mesh(testing::plain_steel(), thickness)) {
+      : mesh_(examples::empty_mesh(examples::plain_steel(), thickness)) {
     const double length = 10 * wave, latitude = M_PI / 3;
-    testing::add_sheet(
+    examples::add_sheet(
         mesh_,
         [&](double x, double y) -> Vector3 {
           return {std::cos(M_PI / 2 * x), std::sin(M_PI / 2 * x), -length * y};
         },
         around, 10 * cells, degree);
-    testing::add_sheet(
+    examples::add_sheet(
         mesh_, [&](double x, double y) -> Vector3 { return on_sphere(M_PI / 2 * x, latitude * y); },
         around, 10 * cells, degree);
     space_ = std::make_unique<Space>(mesh_, Resolution{degree, {}});
     std::vector<FixedUnknown> fixed;
-    testing::hold(
+    examples::hold(
         *space_, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 4, 5}, fixed);
-    testing::hold(
+    examples::hold(
         *space_, [](const Vector3& p) { return p.y() < 1e-9; }, {1, 3, 5}, fixed);
-    testing::hold(
+    examples::hold(
         *space_, [&](const Vector3& p) { return p.z() < 1e-9 - length; }, {2, 3, 4}, fixed);
     const Eigen::VectorXd load =
-        testing::area_load(*space_,
-                           [](const Vector3& p) -> Vector3 {
-                             return Vector3(p.x(), p.y(), std::max(0.0, p.z())).normalized();
-                           }) +
-        testing::edge_load(
+        examples::area_load(*space_,
+                            [](const Vector3& p) -> Vector3 {
+                              return Vector3(p.x(), p.y(), std::max(0.0, p.z())).normalized();
+                            }) +
+        examples::edge_load(
             *space_, [&](const Vector3& p) { return p.z() > std::sin(latitude) - 1e-9; },
             [&](const Vector3& p) -> Vector3 {
               return on_sphere(std::atan2(p.y(), p.x()), latitude + M_PI / 2) / 2;
             });
-    motion_ = testing::solve(*space_, load, fixed);
+    motion_ = examples::solve(*space_, load, fixed);
   }
 
   /// Stress outside, over p R / t, so many quarters of the wave below the joint: along the axis,
@@ -309,7 +309,7 @@ class ClosedCylinder {
     // The outer face is that on which the stress along the axis is larger: bulged outwards.
     Eigen::Vector2d largest = Eigen::Vector2d::Zero();
     for (const double z : {-thickness / 2, thickness / 2}) {
-      const Eigen::Matrix3d s = testing::stress_at(*space_, motion_, place, z);
+      const Eigen::Matrix3d s = examples::stress_at(*space_, motion_, place, z);
       if (s(2, 2) > largest[0]) largest = {s(2, 2), s(1, 1)};
     }
     return thickness * largest;

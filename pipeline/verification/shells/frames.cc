@@ -26,7 +26,7 @@ BeamSection pipe() {  // 0.2 m by 8 mm, thin
 }
 
 Mesh frame(const std::vector<Vector3>& vertices, const std::vector<std::array<int, 2>>& beams) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   mesh.beam_sections = {pipe()};
   mesh.vertices = vertices;
   for (const std::array<int, 2>& ends : beams) {
@@ -49,14 +49,14 @@ Eigen::VectorXd solve(const Space& space, const std::vector<int>& clamped,
   std::vector<FixedUnknown> fixed;
   for (const int vertex : clamped) {
     const Vector3 place = space.mesh().vertices[vertex];
-    testing::hold(
+    examples::hold(
         space, [&](const Vector3& p) { return (p - place).norm() < 1e-9; }, {0, 1, 2, 3, 4, 5},
         fixed);
   }
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
   for (const Pull& pull : pulls)
     load.segment<3>(6 * space.node_of_vertex(pull.vertex)) += pull.force;
-  return testing::solve(space, load, fixed);
+  return examples::solve(space, load, fixed);
 }
 
 constexpr double rounding = 1e-7;
@@ -68,7 +68,7 @@ VerificationCase beams() {
           .compute = [] {
             std::vector<VerificationRow> rows;
             const BeamSection s = pipe();
-            const Material m = testing::plain_steel();
+            const Material m = examples::plain_steel();
             const auto deflection = [&](double force, double length) {
               return force * (std::pow(length, 3) / (3 * m.youngs_modulus * s.second_moment_2) +
                               length / (m.shear_modulus() * s.shear_area_2));
@@ -129,7 +129,7 @@ VerificationCase bolt_pattern() {
           .stage = "structure",
           .source = "the bolt pattern's rule; Lagrange's multipliers by hand",
           .compute = [] {
-            Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+            Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
             mesh.vertices = {
                 {0, 0, 0.5}, {-0.3, -0.2, 0}, {0.3, -0.2, 0}, {-0.3, 0.2, 0}, {0.3, 0.2, 0}};
             DistributingLink link;
@@ -149,7 +149,7 @@ VerificationCase bolt_pattern() {
             const Space space(mesh, {1, {}});
             Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
             load.segment<6>(6 * space.node_of_vertex(0)) << 1000, 0, -2000, 100, 50, 300;
-            const Eigen::VectorXd motion = testing::solve(space, load, {});
+            const Eigen::VectorXd motion = examples::solve(space, load, {});
             // Moments about the pattern's centre.
             const double m_x = 100, m_y = 50 + 0.5 * 1000, m_z = 300;
             const double i_x = 4 * 0.04, i_y = 4 * 0.09, i_z = i_x + i_y;
@@ -181,7 +181,7 @@ VerificationCase rigid_arm() {
             const Space space(mesh, {3, {}});
             const Eigen::VectorXd motion = solve(space, {0}, {{2, {0, 0, -1000}}});
             const BeamSection s = pipe();
-            const Material m = testing::plain_steel();
+            const Material m = examples::plain_steel();
             const double bent = m.youngs_modulus * s.second_moment_2;
             // At the beam's end P and P a, with an arm a = 1.
             const double end = 1000 * (27 / (3 * bent) + 3 / (m.shear_modulus() * s.shear_area_2) +
@@ -212,15 +212,15 @@ VerificationCase mass_on_a_beam() {
             mesh.masses = {mass};
             const Space space(mesh, {3, {}});
             std::vector<FixedUnknown> fixed;
-            testing::hold(
+            examples::hold(
                 space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
             // Bending in one plane.
-            testing::hold(
+            examples::hold(
                 space, [](const Vector3&) { return true; }, {0, 1, 3, 5}, fixed);
             const NaturalModes modes =
                 find_natural_modes(space, find_mass_properties(space, nullptr, nullptr), fixed, 2);
             const BeamSection s = pipe();
-            const Material m = testing::plain_steel();
+            const Material m = examples::plain_steel();
             const double bent = m.youngs_modulus * s.second_moment_2, length = 3;
             Eigen::Matrix2d flexibility, inertia;  // of (w, slope)
             flexibility << std::pow(length, 3) / (3 * bent) +

@@ -54,21 +54,21 @@ SparseLower stiffness_with_drilling(const Space& space, double factor) {
 
 Eigen::VectorXd solve_with_drilling(const Space& space, const Eigen::VectorXd& load,
                                     const std::vector<FixedUnknown>& fixed, double factor) {
-  if (factor == 1) return testing::solve(space, load, fixed);
+  if (factor == 1) return examples::solve(space, load, fixed);
   ConstrainedSystem system(stiffness_with_drilling(space, factor), fixed);
   system.factorise();
   return space.expand(system.solve(space.reduce(load)));
 }
 
 void clamp_root(const Space& space, std::vector<FixedUnknown>& fixed) {
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
 }
 
 // A flat of a section: from a to b in the plane across x, as long as the girder.
 void add_flat(Mesh& mesh, double length, const Vector3& a, const Vector3& b, int along, int across,
               int section = 0) {
-  testing::add_sheet(
+  examples::add_sheet(
       mesh,
       [&](double x, double y) -> Vector3 {
         return length * x * Vector3::UnitX() + a + y * (b - a);
@@ -91,25 +91,27 @@ BeamSection flat_bar(double height, double thickness) {
 struct Tee {
   static constexpr double length = 3, width = 0.3, t = 0.01, height = 0.2, web = 0.012;
   static double deflection(bool as_beam, int degree) {
-    Mesh mesh = testing::empty_mesh({"steel", 210e9, 0, 7850, 355e6}, t);
+    Mesh mesh = examples::empty_mesh({"steel", 210e9, 0, 7850, 355e6}, t);
     mesh.shell_sections.push_back({web, 0, 0});
     add_flat(mesh, length, {0, -width / 2, 0}, {0, width / 2, 0}, 6, 2);
     if (as_beam) {
       mesh.beam_sections = {flat_bar(height, web)};
-      testing::add_beams(mesh, {0, 0, 0}, {length, 0, 0}, 0, Vector3::UnitY(), {0, 0, -height / 2});
+      examples::add_beams(mesh, {0, 0, 0}, {length, 0, 0}, 0, Vector3::UnitY(),
+                          {0, 0, -height / 2});
     } else {
       add_flat(mesh, length, {0, 0, -height}, {0, 0, 0}, 6, 2, 1);
     }
     const Space space(mesh, {degree, {}});
     std::vector<FixedUnknown> fixed;
     clamp_root(space, fixed);
-    const Eigen::VectorXd load = testing::edge_load(
+    const Eigen::VectorXd load = examples::edge_load(
         space, [](const Vector3& p) { return p.x() > length - 1e-9 && std::abs(p.z()) < 1e-9; },
         [](const Vector3&) -> Vector3 {
           return {0, 0, -1000 / width};
         });
     // At the web: the flange bends across it under what acts on its end.
-    return -testing::displacement_at(space, testing::solve(space, load, fixed), {length, 0, 0}).z();
+    return -examples::displacement_at(space, examples::solve(space, load, fixed), {length, 0, 0})
+                .z();
   }
   // Bending about the common centroid, shear by the web alone.
   static double theory() {
@@ -147,8 +149,8 @@ VerificationCase tee_beam() {
 // pressure.
 double stiffened_plate(bool as_beam, int degree, int cells) {
   constexpr double side = 2, t = 0.01, height = 0.1;
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), t);
-  testing::add_sheet(
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), t);
+  examples::add_sheet(
       mesh,
       [](double x, double y) -> Vector3 {
         return {side * x, side * y - 1, 0};
@@ -156,7 +158,7 @@ double stiffened_plate(bool as_beam, int degree, int cells) {
       cells, cells);
   if (as_beam) {
     mesh.beam_sections = {flat_bar(height, t)};
-    testing::add_beams(mesh, {0, 0, 0}, {side, 0, 0}, 0, Vector3::UnitY(), {0, 0, -height / 2});
+    examples::add_beams(mesh, {0, 0, 0}, {side, 0, 0}, 0, Vector3::UnitY(), {0, 0, -height / 2});
   } else {
     add_flat(mesh, side, {0, 0, -height}, {0, 0, 0}, cells, 1);
   }
@@ -166,16 +168,16 @@ double stiffened_plate(bool as_beam, int degree, int cells) {
     return std::abs(p.z()) < 1e-9 &&
            (p.x() < 1e-9 || p.x() > side - 1e-9 || std::abs(p.y()) > 1 - 1e-9);
   };
-  testing::hold(space, rim, {2}, fixed);
+  examples::hold(space, rim, {2}, fixed);
   const auto place = [&](const Vector3& at) {
     return [at](const Vector3& p) { return (p - at).norm() < 1e-9; };
   };
-  testing::hold(space, place({0, 0, 0}), {0, 1}, fixed);
-  testing::hold(space, place({side, 0, 0}), {1}, fixed);
-  const Eigen::VectorXd load = testing::area_load(space, [](const Vector3& p) -> Vector3 {
+  examples::hold(space, place({0, 0, 0}), {0, 1}, fixed);
+  examples::hold(space, place({side, 0, 0}), {1}, fixed);
+  const Eigen::VectorXd load = examples::area_load(space, [](const Vector3& p) -> Vector3 {
     return {0, 0, p.z() > -1e-9 ? -1e4 : 0.0};
   });
-  return -testing::displacement_at(space, testing::solve(space, load, fixed), {1, 0, 0}).z();
+  return -examples::displacement_at(space, examples::solve(space, load, fixed), {1, 0, 0}).z();
 }
 
 VerificationCase eccentric_stiffener() {
@@ -235,7 +237,7 @@ double sag(const Stiffened& of, const Mesh& mesh, int degree) {
     clamp_root(space, fixed);
   } else {
     // Deflection through the plate's thickness leaves its edge free to turn.
-    testing::hold(
+    examples::hold(
         space,
         [&](const Vector3& p) {
           return p.z() > -of.t / 2 - 1e-9 && (p.x() < 1e-9 || p.x() > of.length - 1e-9 ||
@@ -243,37 +245,37 @@ double sag(const Stiffened& of, const Mesh& mesh, int degree) {
         },
         {2}, fixed);
     const auto near = [&](double x) {
-      const Vector3 at = space.nodes().col(testing::nearest_node(space, {x, of.web / 2, 0}));
+      const Vector3 at = space.nodes().col(examples::nearest_node(space, {x, of.web / 2, 0}));
       return [at](const Vector3& p) { return (p - at).norm() < 1e-9; };
     };
-    testing::hold(space, near(0), {0, 1}, fixed);
-    testing::hold(space, near(of.length), {1}, fixed);
+    examples::hold(space, near(0), {0, 1}, fixed);
+    examples::hold(space, near(of.length), {1}, fixed);
   }
   const Vector3 place(of.is_cantilever ? of.length : of.length / 2, 0, 0);
-  return -testing::displacement_at(
-              space, testing::solve(space, testing::weight_load(space, weight_gravity), fixed),
+  return -examples::displacement_at(
+              space, examples::solve(space, examples::weight_load(space, weight_gravity), fixed),
               place)
               .z();
 }
 
 double sag_of_solids(const Stiffened& of, int along, int across) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), of.t);
-  testing::add_hexahedra(mesh, planes(0, of.length, along),
-                         planes_about_web(of.half_width, of.web, across),
-                         planes_below_plate(of.height, of.t, 2), [&](const Vector3& middle) {
-                           return middle.z() > -of.t / 2 || std::abs(middle.y()) < of.web / 2;
-                         });
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), of.t);
+  examples::add_hexahedra(mesh, planes(0, of.length, along),
+                          planes_about_web(of.half_width, of.web, across),
+                          planes_below_plate(of.height, of.t, 2), [&](const Vector3& middle) {
+                            return middle.z() > -of.t / 2 || std::abs(middle.y()) < of.web / 2;
+                          });
   return sag(of, mesh, 2);
 }
 
 double sag_of_shells(const Stiffened& of, bool as_beam, int degree, int along, int across) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), of.t);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), of.t);
   mesh.shell_sections.push_back({of.web, 0, 0});
   add_flat(mesh, of.length, {0, -of.half_width, 0}, {0, of.half_width, 0}, along, across);
   if (as_beam) {
     mesh.beam_sections = {flat_bar(of.height, of.web)};
-    testing::add_beams(mesh, {0, 0, 0}, {of.length, 0, 0}, 0, Vector3::UnitY(),
-                       {0, 0, -of.height / 2});
+    examples::add_beams(mesh, {0, 0, 0}, {of.length, 0, 0}, 0, Vector3::UnitY(),
+                        {0, 0, -of.height / 2});
   } else {
     add_flat(mesh, of.length, {0, 0, -of.height}, {0, 0, 0}, along, 2, 1);
   }
@@ -317,9 +319,9 @@ VerificationCase against_solids() {
 // a reaction 4 D alpha^3 w. A half of it.
 double lagging_stiffener(int degree, int along) {
   constexpr double length = 3, t = 0.01, height = 0.3;
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), t);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), t);
   // Cells grow away from the stiffener.
-  testing::add_sheet(
+  examples::add_sheet(
       mesh,
       [](double x, double y) -> Vector3 {
         return {length * x, 2 * length * std::pow(y, 2.5), 0};
@@ -328,25 +330,25 @@ double lagging_stiffener(int degree, int along) {
   BeamSection half = flat_bar(height, 0.01);
   half.shear_area_2 = half.shear_area_3 = std::numeric_limits<double>::infinity();
   mesh.beam_sections = {half};
-  testing::add_beams(mesh, {0, 0, 0}, {length, 0, 0}, 0, Vector3::UnitY(), {0, 0, -height / 2});
+  examples::add_beams(mesh, {0, 0, 0}, {length, 0, 0}, 0, Vector3::UnitY(), {0, 0, -height / 2});
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9 || p.x() > length - 1e-9; }, {1, 2, 3, 5},
       fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() < 1e-9; }, {1, 3, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() > 2 * length - 1e-9; }, {1, 3, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return (p - Vector3(length / 2, 0, 0)).norm() < 1e-9; }, {0},
       fixed);
-  const Eigen::VectorXd load = testing::edge_load(
+  const Eigen::VectorXd load = examples::edge_load(
       space, [](const Vector3& p) { return p.y() < 1e-9; },
       [](const Vector3& p) -> Vector3 {
         return {0, 0, -1000 * std::sin(M_PI * p.x() / length)};
       });
-  return -testing::displacement_at(space, testing::solve(space, load, fixed), {length / 2, 0, 0})
+  return -examples::displacement_at(space, examples::solve(space, load, fixed), {length / 2, 0, 0})
               .z();
 }
 
@@ -381,7 +383,7 @@ VerificationCase shear_lag() {
 // --- Bredt: a square tube of 1 m and 10 mm, 4 m long, twisted by its own shear flow T / 2 A.
 double tube_twist(int degree, int along, double factor) {
   constexpr double side = 1, length = 4;
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   const std::array<Vector3, 5> corners{Vector3(0, -0.5, -0.5), Vector3(0, 0.5, -0.5),
                                        Vector3(0, 0.5, 0.5), Vector3(0, -0.5, 0.5),
                                        Vector3(0, -0.5, -0.5)};
@@ -389,7 +391,7 @@ double tube_twist(int degree, int along, double factor) {
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
   clamp_root(space, fixed);
-  const Eigen::VectorXd load = testing::edge_load(
+  const Eigen::VectorXd load = examples::edge_load(
       space, [](const Vector3& p) { return p.x() > length - 1e-9; },
       [](const Vector3& p) -> Vector3 {
         const Vector3 flow = std::abs(p.y()) > std::abs(p.z()) ? Vector3(0, 0, p.y() > 0 ? 1 : -1)
@@ -401,7 +403,7 @@ double tube_twist(int degree, int along, double factor) {
 }
 
 double bredt() {
-  const double g = testing::plain_steel().shear_modulus();
+  const double g = examples::plain_steel().shear_modulus();
   // 4 A^2 t / circumference, and the plates' own 4 a t^3 / 3.
   return 1e5 * 4 / (g * (0.01 + 4e-6 / 3));
 }
@@ -421,14 +423,14 @@ VerificationCase box_in_torsion() {
 // --- An I-beam bent about its weak axis: flanges of 0.2 x 0.01 in their planes, 3 m, clamped.
 double sideways(int degree, int along, double factor) {
   constexpr double length = 3, width = 0.2, height = 0.3;
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   for (const double z : {-height / 2, height / 2})
     add_flat(mesh, length, {0, -width / 2, z}, {0, width / 2, z}, along, 2);
   add_flat(mesh, length, {0, 0, -height / 2}, {0, 0, height / 2}, along, 2);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
   clamp_root(space, fixed);
-  const Eigen::VectorXd load = testing::edge_load(
+  const Eigen::VectorXd load = examples::edge_load(
       space,
       [](const Vector3& p) { return p.x() > length - 1e-9 && std::abs(p.z()) > height / 2 - 1e-9; },
       [](const Vector3&) -> Vector3 {
@@ -439,7 +441,7 @@ double sideways(int degree, int along, double factor) {
 
 double sideways_theory() {
   const double e = 210e9, second = 2 * 0.01 * std::pow(0.2, 3) / 12 + 0.3 * std::pow(0.01, 3) / 12;
-  const double shear = testing::plain_steel().shear_modulus() * 5.0 / 6 * 2 * 0.2 * 0.01;
+  const double shear = examples::plain_steel().shear_modulus() * 5.0 / 6 * 2 * 0.2 * 0.01;
   return 1000 * (27 / (3 * e * second) + 3 / shear);
 }
 

@@ -14,7 +14,7 @@ using namespace structure;
 // A quarter of the elliptic membrane; x runs outward, y from the x axis to the y axis.
 double elliptic_membrane(int degree, int cells) {
   constexpr double thickness = 0.1, pressure = 10e6;
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [](double x, double y) -> Vector3 {
         const double a = M_PI / 2 * y;
         return {(2 + 1.25 * x) * std::cos(a), (1 + 1.75 * x) * std::sin(a), 0};
@@ -22,22 +22,22 @@ double elliptic_membrane(int degree, int cells) {
       cells, 2 * cells, thickness, {"steel", 210e9, 0.3, 7800, 355e6}, degree);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.y() < 1e-9; }, {1, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3&) { return true; }, {2, 3, 4}, fixed);
   const auto level = [](const Vector3& p) {
     return std::pow(p.x() / 3.25, 2) + std::pow(p.y() / 2.75, 2);
   };
-  const Eigen::VectorXd load = testing::edge_load(
+  const Eigen::VectorXd load = examples::edge_load(
       space, [&](const Vector3& p) { return level(p) > 1 - 1e-6; },
       [&](const Vector3& p) -> Vector3 {
         const Vector3 out(p.x() / (3.25 * 3.25), p.y() / (2.75 * 2.75), 0);
         return thickness * pressure * out.normalized();
       });
-  return testing::stress_at(space, testing::solve(space, load, fixed), {2, 0, 0}, 0)(1, 1) / 1e6;
+  return examples::stress_at(space, examples::solve(space, load, fixed), {2, 0, 0}, 0)(1, 1) / 1e6;
 }
 
 // D lies in a corner of stretched cells: coarse meshes are within per cents there, and the finer
@@ -64,22 +64,22 @@ VerificationCase nafems_le1() {
 }
 
 double cook(int degree, int cells) {
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [](double x, double y) -> Vector3 {
         return {48 * x, 44 * x + (44 - 28 * x) * y, 0};
       },
       cells, cells, 1, {"unit", 1, 1.0 / 3, 0, 1});
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3&) { return true; }, {2, 3, 4}, fixed);
   const auto end = [](const Vector3& p) { return p.x() > 48 - 1e-9; };
-  const Eigen::VectorXd load = testing::edge_load(space, end, [](const Vector3&) -> Vector3 {
+  const Eigen::VectorXd load = examples::edge_load(space, end, [](const Vector3&) -> Vector3 {
     return {0, 1.0 / 16, 0};
   });
-  return testing::displacement_at(space, testing::solve(space, load, fixed), {48, 52, 0}).y();
+  return examples::displacement_at(space, examples::solve(space, load, fixed), {48, 52, 0}).y();
 }
 
 VerificationCase cooks_membrane() {

@@ -25,9 +25,9 @@ const Material& nafems_steel() {
   return steel;
 }
 
-const testing::Selects everywhere = [](const Vector3&) { return true; };
+const examples::Selects everywhere = [](const Vector3&) { return true; };
 
-testing::Selects at_place(const Vector3& place) {
+examples::Selects at_place(const Vector3& place) {
   return [place](const Vector3& p) { return (p - place).norm() < 1e-9; };
 }
 
@@ -65,8 +65,8 @@ BeamSection section_of(double area, double second_moment, double torsion, double
 void add_row(Mesh& mesh, const Vector3& from, const Vector3& step, int count) {
   for (int i = 0; i < count; ++i) {
     Beam beam;
-    beam.vertices = {testing::vertex_at(mesh, from + i * step),
-                     testing::vertex_at(mesh, from + (i + 1) * step)};
+    beam.vertices = {examples::vertex_at(mesh, from + i * step),
+                     examples::vertex_at(mesh, from + (i + 1) * step)};
     beam.axis_2 = Vector3(-step.y(), step.x(), 0);
     beam.label = static_cast<long>(mesh.beams.size()) + 1;
     mesh.beams.push_back(beam);
@@ -74,7 +74,7 @@ void add_row(Mesh& mesh, const Vector3& from, const Vector3& step, int count) {
 }
 
 Mesh beams_of(const BeamSection& section) {
-  Mesh mesh = testing::empty_mesh(nafems_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(nafems_steel(), 0.01);
   mesh.beam_sections = {section};
   return mesh;
 }
@@ -94,8 +94,8 @@ void double_cross(std::vector<VerificationRow>& rows) {
   }
   const Space space(mesh, {3, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(space, everywhere, {2, 3, 4}, fixed);
-  for (const Vector3& tip : tips) testing::hold(space, at_place(tip), {0, 1}, fixed);
+  examples::hold(space, everywhere, {2, 3, 4}, fixed);
+  for (const Vector3& tip : tips) examples::hold(space, at_place(tip), {0, 1}, fixed);
   hold_against({"FV2",
                 {11.336, 17.709, 17.709, 17.709, 17.709, 17.709, 17.709, 17.709, 45.345, 57.390},
                 0.015},
@@ -111,14 +111,14 @@ void masses_off_centre(std::vector<VerificationRow>& rows) {
   add_row(mesh, {0, 0, 0}, {2, 0, 0}, 5);
   for (const auto& [mass, y] : {std::pair(10000.0, 2.0), std::pair(1000.0, -2.0)}) {
     PointMass point;
-    point.vertex = testing::vertex_at(mesh, {10, 0, 0});
+    point.vertex = examples::vertex_at(mesh, {10, 0, 0});
     point.mass = mass;
     point.offset = {0, y, 0};
     mesh.masses.push_back(point);
   }
   const Space space(mesh, {3, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(space, at_place({0, 0, 0}), {0, 1, 2, 3, 4, 5}, fixed);
+  examples::hold(space, at_place({0, 0, 0}), {0, 1, 2, 3, 4, 5}, fixed);
   hold_against({"FV4", {1.723, 1.727, 7.413, 9.972, 18.155, 26.957}, 0.002}, "5 beams",
                modes_of(space, fixed, 6), rows);
 }
@@ -133,8 +133,8 @@ void deep_beam(std::vector<VerificationRow>& rows) {
   add_row(mesh, {0, 0, 0}, {2, 0, 0}, 5);
   const Space space(mesh, {3, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(space, at_place({0, 0, 0}), {0, 1, 2, 3}, fixed);
-  testing::hold(space, at_place({10, 0, 0}), {1, 2}, fixed);
+  examples::hold(space, at_place({0, 0, 0}), {0, 1, 2, 3}, fixed);
+  examples::hold(space, at_place({10, 0, 0}), {1, 2}, fixed);
   hold_against(
       {"FV5", {42.649, 42.649, 77.542, 125.00, 148.31, 148.31, 233.10, 284.55, 284.55}, 0.01},
       "5 beams", modes_of(space, fixed, 9), rows);
@@ -142,7 +142,7 @@ void deep_beam(std::vector<VerificationRow>& rows) {
 
 // A symmetric trapezium of 10 m, 5 m high at its clamped end and 1 m at the other, in its plane.
 void tapered_membrane(std::vector<VerificationRow>& rows) {
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [](double x, double y) -> Vector3 {
         return {10 * x, (y - 0.5) * (5 - 4 * x), 0};
       },
@@ -150,8 +150,8 @@ void tapered_membrane(std::vector<VerificationRow>& rows) {
   for (const int degree : {2, 3}) {
     const Space space(mesh, {degree, {}});
     std::vector<FixedUnknown> fixed;
-    testing::hold(space, everywhere, {2, 3, 4}, fixed);
-    testing::hold(
+    examples::hold(space, everywhere, {2, 3, 4}, fixed);
+    examples::hold(
         space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1, 5}, fixed);
     hold_against({"FV32", {44.623, 130.03, 162.70, 246.05, 379.90, 391.44}, 0.01},
                  fmt::format("8 x 4 cells of degree {}", degree), modes_of(space, fixed, 6), rows);
@@ -163,7 +163,7 @@ void tapered_membrane(std::vector<VerificationRow>& rows) {
 // 16 x 16 cells 0.3 to 1.3 % above.
 void clamped_rhombus(std::vector<VerificationRow>& rows) {
   const double s = 10 * std::sqrt(0.5);
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [s](double x, double y) -> Vector3 {
         return {10 * x + s * y, s * y, 0};
       },
@@ -171,8 +171,8 @@ void clamped_rhombus(std::vector<VerificationRow>& rows) {
   for (const int degree : {2, 3}) {
     const Space space(mesh, {degree, {}});
     std::vector<FixedUnknown> fixed;
-    testing::hold(space, everywhere, {0, 1, 5}, fixed);
-    testing::hold(
+    examples::hold(space, everywhere, {0, 1, 5}, fixed);
+    examples::hold(
         space,
         [s](const Vector3& p) {
           return p.y() < 1e-9 || p.y() > s - 1e-9 || p.x() - p.y() < 1e-9 ||
@@ -189,9 +189,9 @@ void clamped_rhombus(std::vector<VerificationRow>& rows) {
 // along either flange at its tip twist it by 1.2 MN m. The stress along it at an edge, 2.5 m from
 // the clamp, in the middle of the thickness.
 double stress_of_z_section(int degree, int cells) {
-  Mesh mesh = testing::empty_mesh({"steel", 210e9, 0.3, 7850, 355e6}, 0.1);
+  Mesh mesh = examples::empty_mesh({"steel", 210e9, 0.3, 7850, 355e6}, 0.1);
   const auto add = [&](const Vector3& from, const Vector3& across, int count) {
-    testing::add_sheet(
+    examples::add_sheet(
         mesh,
         [&](double x, double y) -> Vector3 {
           return from + 10 * x * Vector3::UnitX() + y * across;
@@ -203,14 +203,15 @@ double stress_of_z_section(int degree, int cells) {
   add({0, 0, 1}, {0, 1, 0}, cells);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
-  const Eigen::VectorXd load = testing::edge_load(
+  const Eigen::VectorXd load = examples::edge_load(
       space, [](const Vector3& p) { return p.x() > 10 - 1e-9 && std::abs(p.z()) > 1 - 1e-9; },
       [](const Vector3& p) -> Vector3 {
         return {0, std::copysign(0.6e6, p.z()), 0};
       });
-  return testing::stress_at(space, testing::solve(space, load, fixed), {2.5, 1, 1}, 0)(0, 0) / 1e6;
+  return examples::stress_at(space, examples::solve(space, load, fixed), {2.5, 1, 1}, 0)(0, 0) /
+         1e6;
 }
 
 // Flanges of four cells of degree 1 have -111.8, those of one to four of degree 2 or of one and two

@@ -37,8 +37,8 @@ double stress_off(const Space& space, const Eigen::VectorXd& motion, double heig
   double worst = 0;
   for (int cell = 0; cell < static_cast<int>(space.shells().size()); ++cell)
     for (const Eigen::Vector2d& xi : {Eigen::Vector2d(0.3, 0.6), Eigen::Vector2d(0.9, 0.1)}) {
-      const Eigen::Matrix3d middle = testing::shell_stress(space, cell, xi, 0, motion);
-      const Eigen::Matrix3d there = testing::shell_stress(space, cell, xi, height, motion);
+      const Eigen::Matrix3d middle = examples::shell_stress(space, cell, xi, 0, motion);
+      const Eigen::Matrix3d there = examples::shell_stress(space, cell, xi, height, motion);
       const Eigen::Matrix3d stress = height == 0 ? middle : Eigen::Matrix3d(there - middle);
       worst =
           std::max(worst, (Vector3(stress(0, 0), stress(1, 1), stress(0, 1)) - expected).norm());
@@ -82,15 +82,15 @@ VerificationCase patch_test() {
             const auto shapes = {"quadrangles", "quadrangles and triangles", "triangles"};
             int kind = 0;
             for (const char* shape : shapes) {
-              Mesh mesh = testing::macneal_patch(patch_thickness, {"patch", 1e6, 0.25, 0, 1});
-              if (kind > 0) testing::divide_into_triangles(mesh, kind == 2);
+              Mesh mesh = examples::macneal_patch(patch_thickness, {"patch", 1e6, 0.25, 0, 1});
+              if (kind > 0) examples::divide_into_triangles(mesh, kind == 2);
               ++kind;
               for (int degree = 1; degree <= 4; ++degree) {
                 const Space space(mesh, {degree, {}});
                 std::vector<FixedUnknown> fixed;
-                testing::hold_at(space, on_patch_rim, published_motion, {0, 1, 2, 3, 4, 5}, fixed);
+                examples::hold_at(space, on_patch_rim, published_motion, {0, 1, 2, 3, 4, 5}, fixed);
                 const Eigen::VectorXd motion =
-                    testing::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
+                    examples::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
                 const auto row = [&](const char* what, double off) {
                   rows.push_back(bound(fmt::format("{}, {} of degree {}", what, shape, degree), "1",
                                        off, patch_rounding));

@@ -23,30 +23,31 @@ double bending_stiffness(const Material& material, double thickness) {
 
 // Central deflection of a unit square under a unit pressure, times D: a quarter of it.
 double square_plate(bool clamped, int degree, int cells, double thickness) {
-  const Material material = testing::plain_steel();
-  const Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(x / 2, y / 2, 0); },
-                                        cells, cells, thickness, material);
+  const Material material = examples::plain_steel();
+  const Mesh mesh =
+      examples::sheet_mesh([](double x, double y) { return Vector3(x / 2, y / 2, 0); }, cells,
+                           cells, thickness, material);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
   const auto on = [](double v) { return v > 0.5 - 1e-9; };
   using Components = std::vector<int>;
   const Components along_y = clamped ? Components{0, 1, 2, 3, 4, 5} : Components{1, 2, 3, 5};
   const Components along_x = clamped ? Components{0, 1, 2, 3, 4, 5} : Components{0, 2, 4, 5};
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& x) { return on(x.x()); }, along_y, fixed);
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& x) { return on(x.y()); }, along_x, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& x) { return x.x() < 1e-9; }, {0, 4, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& x) { return x.y() < 1e-9; }, {1, 3, 5}, fixed);
-  const Eigen::VectorXd motion = testing::solve(space,
-                                                testing::area_load(space,
-                                                                   [](const Vector3&) -> Vector3 {
-                                                                     return {0, 0, 1};
-                                                                   }),
-                                                fixed);
-  return testing::displacement_at(space, motion, Vector3::Zero()).z() *
+  const Eigen::VectorXd motion = examples::solve(space,
+                                                 examples::area_load(space,
+                                                                     [](const Vector3&) -> Vector3 {
+                                                                       return {0, 0, 1};
+                                                                     }),
+                                                 fixed);
+  return examples::displacement_at(space, motion, Vector3::Zero()).z() *
          bending_stiffness(material, thickness);
 }
 
@@ -54,7 +55,7 @@ double square_plate(bool clamped, int degree, int cells, double thickness) {
 // t) with Kirchhoff's moment sum M_K = (M_x + M_y) / (1 + nu) at the centre: exact. Source: Wang,
 // Reddy, Lee (2000), Shear deformable beams and plates, section 7.2.
 double thick_supported_plate(double thickness) {
-  const Material material = testing::plain_steel();
+  const Material material = examples::plain_steel();
   return 0.00406235 + 0.0736713 * bending_stiffness(material, thickness) /
                           (5.0 / 6 * material.shear_modulus() * thickness);
 }
@@ -96,7 +97,7 @@ struct RitzFunctions {
 double clamped_plate_by_ritz(double thickness) {
   constexpr unsigned count = 16;
   const RitzFunctions f(count);
-  const double nu = testing::plain_steel().poisson_ratio;
+  const double nu = examples::plain_steel().poisson_ratio;
   // Everything over D, and lengths over half a side: w,x is 2 w,xi.
   const double shear = 5.0 / 6 * 6 * (1 - nu) / (thickness * thickness);  // 5/6 G t / D
   // Of functions along x and along y: row and column count x slowly, y fast.
@@ -180,7 +181,7 @@ struct Rhombus {
     centre = (Vector3::UnitX() + other) / 2;
     // Cells grow from the corners, where the moments are singular, to the middle.
     const auto grade = [](double x) { return x - std::sin(2 * M_PI * x) / (2 * M_PI) * 0.8; };
-    mesh = testing::sheet_mesh(
+    mesh = examples::sheet_mesh(
         [&](double x, double y) -> Vector3 {
           return grade(x) * Vector3::UnitX() + grade(y) * other;
         },
@@ -189,24 +190,24 @@ struct Rhombus {
     std::vector<FixedUnknown> fixed;
     const Vector3 normal = other.cross(Vector3::UnitZ());
     const double width = normal.x();
-    testing::hold(
+    examples::hold(
         *space,
         [&](const Vector3& p) {
           const double along = p.dot(normal);
           return p.y() < 1e-9 || p.y() > other.y() - 1e-9 || along < 1e-9 || along > width - 1e-9;
         },
         {2}, fixed);
-    testing::hold(
+    examples::hold(
         *space, [](const Vector3&) { return true; }, {0, 1, 5}, fixed);
-    motion = testing::solve(*space,
-                            testing::area_load(*space,
-                                               [](const Vector3&) -> Vector3 {
-                                                 return {0, 0, 1};
-                                               }),
-                            fixed);
+    motion = examples::solve(*space,
+                             examples::area_load(*space,
+                                                 [](const Vector3&) -> Vector3 {
+                                                   return {0, 0, 1};
+                                                 }),
+                             fixed);
   }
   Eigen::Vector3d principal(double z) const {
-    return algebra::symmetric_eigenvalues<3>(testing::stress_at(*space, motion, centre, z));
+    return algebra::symmetric_eigenvalues<3>(examples::stress_at(*space, motion, centre, z));
   }
 };
 
@@ -221,12 +222,12 @@ VerificationCase morleys_plate() {
           "0.0191 and 0.0108 q a^2",
       .compute = [] {
         std::vector<VerificationRow> rows;
-        const Material material = testing::plain_steel();
+        const Material material = examples::plain_steel();
         for (const auto& [degree, cells, tolerance] :
              {std::tuple{2, 16, 0.03}, {3, 8, 0.04}, {3, 16, 0.02}, {4, 8, 0.02}}) {
           const double t = 1e-3;
           const Rhombus plate(30, degree, cells, t, material);
-          const double w = testing::displacement_at(*plate.space, plate.motion, plate.centre).z() *
+          const double w = examples::displacement_at(*plate.space, plate.motion, plate.centre).z() *
                            bending_stiffness(material, t);
           const Eigen::Vector3d stress = plate.principal(-t / 2);
           const double moment = t * t / 6;
@@ -250,7 +251,7 @@ VerificationCase nafems_le6() {
             std::vector<VerificationRow> rows;
             for (const auto& [degree, cells, tolerance] :
                  {std::tuple{2, 16, 0.03}, {3, 8, 0.03}, {3, 16, 0.025}}) {
-              const Rhombus plate(30, degree, cells, 0.01, testing::plain_steel());
+              const Rhombus plate(30, degree, cells, 0.01, examples::plain_steel());
               rows.push_back(compare(
                   fmt::format("largest stress at the centre below, {} x {} cells of degree {}",
                               cells, cells, degree),

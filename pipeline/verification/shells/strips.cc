@@ -18,21 +18,21 @@ const char* const macneal_harder = "MacNeal and Harder (1985), Finite Elem. Anal
 
 // Mean displacement of a strip's end along a unit load spread over it; the other end is clamped.
 double end_deflection(const Mesh& mesh, int degree, const Vector3& root, const Vector3& normal,
-                      const testing::Selects& end, double width, const Vector3& direction) {
+                      const examples::Selects& end, double width, const Vector3& direction) {
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return std::abs((p - root).dot(normal)) < 1e-9; },
       {0, 1, 2, 3, 4, 5}, fixed);
   const Eigen::VectorXd load =
-      testing::edge_load(space, end, [&](const Vector3&) -> Vector3 { return direction / width; });
-  return testing::solve(space, load, fixed).dot(load);
+      examples::edge_load(space, end, [&](const Vector3&) -> Vector3 { return direction / width; });
+  return examples::solve(space, load, fixed).dot(load);
 }
 
 // Six elements of 6 x 0.2 x 0.1; their sides lean by 45 degrees, alternately (trapezoids) or all
 // alike.
 Mesh straight_strip(double lean, bool alternate) {
-  return testing::sheet_mesh(
+  return examples::sheet_mesh(
       [=](double x, double y) -> Vector3 {
         const double place = 6 * x;
         const auto shift = [&](int i) {
@@ -84,7 +84,7 @@ VerificationCase curved_beam() {
       .name = "macneal-curved-beam", .stage = "structure", .source = macneal_harder, .compute = [] {
         std::vector<VerificationRow> rows;
         for (const int degree : {2, 3, 4}) {
-          const Mesh mesh = testing::sheet_mesh(
+          const Mesh mesh = examples::sheet_mesh(
               [](double x, double y) -> Vector3 {
                 const double r = 4.12 + 0.2 * y, a = M_PI / 2 * x;
                 return {r * std::sin(a), r * std::cos(a), 0};
@@ -108,7 +108,7 @@ VerificationCase curved_beam() {
 
 // 12 x 1.1, twisted by 90 degrees from root to tip.
 Mesh twisted_strip(int cells, int across, int order, double thickness) {
-  return testing::sheet_mesh(
+  return examples::sheet_mesh(
       [](double x, double y) -> Vector3 {
         const double a = M_PI / 2 * x, s = 1.1 * (y - 0.5);
         return {12 * x, s * std::sin(a), s * std::cos(a)};
@@ -150,7 +150,7 @@ VerificationCase twisted_beam() {
                                fmt::format("{} x 2 cells", cells), thick, rows);
             for (const int degree : {2, 3}) {
               Mesh mesh = twisted_strip(24, 4, 1, 0.32);
-              testing::divide_into_triangles(mesh, true);
+              examples::divide_into_triangles(mesh, true);
               add_twisted_rows(mesh, degree, "24 x 4 x 2 flat triangles", thick, rows);
             }
             for (const int degree : {2, 3})

@@ -20,16 +20,16 @@ enum class Hold { nothing, one_side, rim };
 NaturalModes plate_modes(double thickness, double angle, Hold hold, int degree, int cells,
                          int count) {
   const Vector3 other(10 * std::cos(angle), 10 * std::sin(angle), 0);
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [&](double x, double y) -> Vector3 { return 10 * x * Vector3::UnitX() + y * other; }, cells,
       cells, thickness, {"steel", 200e9, 0.3, 8000, 355e6});
   const Space space(mesh, {degree, {}});
   const Vector3 normal = other.cross(Vector3::UnitZ()).normalized();
   std::vector<FixedUnknown> fixed;
   const auto on_left = [&](const Vector3& p) { return p.dot(normal) < 1e-9; };
-  if (hold == Hold::one_side) testing::hold(space, on_left, {0, 1, 2, 3, 4, 5}, fixed);
+  if (hold == Hold::one_side) examples::hold(space, on_left, {0, 1, 2, 3, 4, 5}, fixed);
   if (hold == Hold::rim) {
-    testing::hold(
+    examples::hold(
         space,
         [&](const Vector3& p) {
           return on_left(p) || p.dot(normal) > 10 * normal.x() - 1e-9 || p.y() < 1e-9 ||
@@ -38,7 +38,7 @@ NaturalModes plate_modes(double thickness, double angle, Hold hold, int degree, 
         {2, 3, 4}, fixed);
   }
   if (hold != Hold::nothing)
-    testing::hold(
+    examples::hold(
         space, [](const Vector3&) { return true; }, {0, 1, 5}, fixed);
   return find_natural_modes(space, find_mass_properties(space, nullptr, nullptr), fixed, count);
 }
@@ -97,10 +97,10 @@ VerificationCase nafems_plates() {
 // middles of bottom and top, as sheets or as beams beside the plates.
 NaturalModes box_modes(bool as_beams, int degree, int refinement) {
   constexpr double length = 2, breadth = 1, height = 0.8, bar = 0.1, t = 0.01;
-  Mesh mesh = testing::empty_mesh({"steel", 210e9, 0.3, 7850, 355e6}, t);
+  Mesh mesh = examples::empty_mesh({"steel", 210e9, 0.3, 7850, 355e6}, t);
   const auto sheet = [&](const Vector3& origin, const Vector3& along, const Vector3& across, int m,
                          int n) {
-    testing::add_sheet(
+    examples::add_sheet(
         mesh, [&](double x, double y) -> Vector3 { return origin + x * along + y * across; },
         m* refinement, n* refinement);
   };
@@ -122,7 +122,7 @@ NaturalModes box_modes(bool as_beams, int degree, int refinement) {
     section.torsion = bar * std::pow(t, 3) / 3;
     section.shear_area_2 = section.shear_area_3 = 5.0 / 6 * section.area;
     mesh.beam_sections = {section};
-    testing::add_beams(mesh, foot, foot + x, 0, Vector3::UnitY(), {0, 0, side * bar / 2});
+    examples::add_beams(mesh, foot, foot + x, 0, Vector3::UnitY(), {0, 0, side * bar / 2});
   }
   const Space space(mesh, {degree, {}});
   return find_natural_modes(space, find_mass_properties(space, nullptr, nullptr), {}, 12);

@@ -102,7 +102,7 @@ std::unique_ptr<TreeDynamics> make_tree(const TreeModel& model) {
 }
 
 SimulationRun simulate_block_on_six_ropes(double accuracy) {
-  static const LiftSystem lift = samples::block_on_six_ropes();
+  static const LiftSystem lift = examples::block_on_six_ropes();
   const double interval = BlockOnSixRopes::duration / BlockOnSixRopes::samples;
   const IntegrationResult run =
       integrate(lift, lift.q_start(), lift.v_start(),
@@ -118,7 +118,7 @@ SimulationRun simulate_block_on_six_ropes(double accuracy) {
 }
 
 LiftSystem squeezer() {
-  Mechanism mechanism = samples::AndrewsSqueezer{LoopKind::point_on_line}.build();
+  Mechanism mechanism = test::AndrewsSqueezer{LoopKind::point_on_line}.build();
   ForceElements elements;
   std::get<std::vector<PointSpring>>(elements).emplace_back(
       PointSpring::Definition{.name = "spring",
@@ -133,7 +133,7 @@ LiftSystem squeezer() {
   return LiftSystem({.mechanism = std::move(mechanism),
                      .elements = std::move(elements),
                      .operation = OperationBuilder().build(Andrews::duration),
-                     .q_start = samples::AndrewsSqueezer::q_start()});
+                     .q_start = test::AndrewsSqueezer::q_start()});
 }
 
 SimulationRun simulate_andrews(double accuracy) {

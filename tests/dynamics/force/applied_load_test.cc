@@ -14,8 +14,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-using testing::expect_balanced;
-using testing::OneBody;
+using test::expect_balanced;
+using test::OneBody;
 
 TEST(LoadTable, IsStraightBetweenPointsAndConstantBeyond) {
   const LoadTable table({1.0, 3.0, 4.0}, {{1, 0, 0}, {5, 2, 0}, {0, 0, 1}});
@@ -62,14 +62,14 @@ TEST(AppliedLoad, KeepsItsDirectionOrTurnsWithTheBody) {
 
 TEST(AppliedLoad, AccountsForItsPower) {
   OneBody body;
-  testing::Random random(5);
+  examples::Random random(5);
   for (const auto axes : {AppliedLoad::Axes::world, AppliedLoad::Axes::body}) {
     const AppliedLoad load({.name = "f",
                             .point = {1, random.vector(2)},
                             .axes = axes,
                             .force = LoadTable({0.0, 1.0}, {random.vector(3), random.vector(3)}),
                             .moment = LoadTable(random.vector(3))});
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.v = random.values(6, 1);
     body.time = 0.3;
     body.update();

@@ -16,8 +16,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-using testing::expect_balanced;
-using testing::OneBody;
+using test::expect_balanced;
+using test::OneBody;
 
 TEST(PointSpring, PullsAndPushesAndBalances) {
   OneBody body;
@@ -33,9 +33,9 @@ TEST(PointSpring, PullsAndPushesAndBalances) {
   body.q.head<3>() << 0, 0, 0.5;
   body.update();
   EXPECT_NEAR(spring.calc_tension(body.state()), -50.0, 1e-12);
-  testing::Random random(3);
+  examples::Random random(3);
   for (int i = 0; i < 10; ++i) {
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.v = random.values(6, 1);
     body.update();
     expect_balanced(body, spring);
@@ -114,7 +114,7 @@ TEST(JointFriction, HoldsWithAllItHasFromAFewCreepsOn) {
 // axis.
 TEST(TorsionalSpring, TurnsBackTheShorterWayAndBalances) {
   OneBody body;
-  testing::Random random(5);
+  examples::Random random(5);
   for (int i = 0; i < 10; ++i) {
     const Matrix3 R_free = random.pose(1).R;
     const TorsionalSpring spring({.name = "s",
@@ -130,7 +130,7 @@ TEST(TorsionalSpring, TurnsBackTheShorterWayAndBalances) {
     body.update();
     EXPECT_LT((spring.calc_moment(body.state()) + 100.0 * angle * axis).norm(), 1e-10);
     EXPECT_NEAR(spring.calc_energy(body.state()).stored_energy, 50.0 * angle * angle, 1e-10);
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.v = random.values(6, 1);
     body.update();
     expect_balanced(body, spring);
@@ -155,8 +155,8 @@ TEST(WindArea, FlatAreaFollowsItsNormal) {
                              .coefficient = 1.6,
                              .normal_B = Vector3(-2, 0, 0)});
   EXPECT_LT((area.calc_force(body.state()) - Vector3(160, 0, 0)).norm(), 1e-10);
-  testing::Random random(4);
-  body.q = testing::random_configuration(random, body.mechanism);
+  examples::Random random(4);
+  body.q = examples::random_configuration(random, body.mechanism);
   body.v = random.values(6, 1);
   body.update();
   expect_balanced(body, area);

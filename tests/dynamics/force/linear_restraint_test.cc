@@ -18,9 +18,9 @@ namespace {
 
 using Matrix6 = LinearRestraint::Matrix6;
 using Vector6 = LinearRestraint::Vector6;
+using examples::Random;
+using test::OneBody;
 using ::testing::HasSubstr;
-using testing::OneBody;
-using testing::Random;
 using ::testing::ThrowsMessage;
 
 Matrix6 full_matrix(Random& random) {
@@ -76,10 +76,10 @@ TEST(LinearRestraint, BalancesAtMotionsOfAnySize) {
     LinearRestraint::Definition definition = symmetric_restraint(random);
     if (i % 2 == 1) definition.stiffness(1, 4) += 20.0;
     const LinearRestraint restraint(definition);
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.v = random.values(6, 1);
     body.update();
-    testing::expect_balanced(body, restraint);
+    test::expect_balanced(body, restraint);
     const EnergyAccount account = restraint.calc_energy(body.state());
     EXPECT_GT(account.dissipated_power, 0.0);
     if (i % 2 == 0) {

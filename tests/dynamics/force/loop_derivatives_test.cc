@@ -9,7 +9,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 
 LoopDefinition random_loop(Random& random, LoopKind kind) {
   LoopDefinition loop;
@@ -39,12 +39,12 @@ TEST_P(LoopDerivatives, AreThoseOfDifferences) {
   Random random(11);
   MechanismBuilder builder;
   builder.set_gravity(Vector3::Zero());
-  builder.add_body(testing::random_body(random, JointKind::free, "a1", "world"));
-  builder.add_body(testing::random_body(random, JointKind::universal, "a2", "a1"));
-  builder.add_body(testing::random_body(random, JointKind::spherical, "b1", "world"));
+  builder.add_body(examples::random_body(random, JointKind::free, "a1", "world"));
+  builder.add_body(examples::random_body(random, JointKind::universal, "a2", "a1"));
+  builder.add_body(examples::random_body(random, JointKind::spherical, "b1", "world"));
   builder.add_loop(random_loop(random, GetParam()));
   const Mechanism mechanism = builder.build();
-  const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  const Eigen::VectorXd q = examples::random_configuration(random, mechanism);
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(mechanism.nv());
   const Eigen::VectorXd lambda = random.values(mechanism.loop_row_count(), 5);
 
@@ -75,7 +75,7 @@ TEST_P(LoopDerivatives, AreThoseOfDifferences) {
   ForceDerivatives derivatives(mechanism, 2);
   derivatives.start(kinematics, columns);
   add_loop_derivatives(mechanism, kinematics, state, lambda, derivatives);
-  std::vector<ForceVector> F_Bo_W = testing::no_forces(mechanism);
+  std::vector<ForceVector> F_Bo_W = examples::no_forces(mechanism);
   Eigen::VectorXd tau = rest;
   add_loop_forces(mechanism, kinematics, state, lambda, F_Bo_W, tau);
   InverseDynamicsDerivatives held(mechanism);

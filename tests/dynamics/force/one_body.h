@@ -7,7 +7,7 @@
 
 #include "dynamics/force/force_element.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::test {
 
 /// A free body above the world, and what elements do to it.
 struct OneBody {
@@ -59,4 +59,4 @@ void expect_balanced(OneBody& body, const Element& element, double tolerance = 1
   EXPECT_NEAR(power, balance, tolerance * (1.0 + std::abs(power)));
 }
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::test

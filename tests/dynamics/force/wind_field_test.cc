@@ -14,9 +14,9 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::expect_balanced;
+using test::expect_balanced;
+using test::OneBody;
 using ::testing::HasSubstr;
-using testing::OneBody;
 using ::testing::ThrowsMessage;
 
 // ISO 19901-1: at U10 = 20 m/s, C = 0.0573 sqrt(4) = 0.1146.

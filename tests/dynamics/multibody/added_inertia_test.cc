@@ -15,8 +15,8 @@
 namespace blocklift::dynamics {
 namespace {
 
+using examples::Random;
 using ::testing::HasSubstr;
-using testing::Random;
 using ::testing::ThrowsMessage;
 
 /// 6 x 6 inertia about R in the axes of H of a rigid body (mass, centre of mass from R, inertia
@@ -37,11 +37,11 @@ Eigen::MatrixXd coupled(Random& random, Eigen::Index bodies, double size) {
 
 struct State {
   State(Random& random, const Mechanism& m)
-      : q(testing::random_configuration(random, m)),
+      : q(examples::random_configuration(random, m)),
         v(random.values(m.nv(), 1)),
         tau(random.values(m.nv(), 5)),
         vdot(random.values(m.nv(), 1)),
-        forces(testing::random_forces(random, m)),
+        forces(examples::random_forces(random, m)),
         kinematics(m) {
     compute_kinematics(m, q, v, kinematics);
   }
@@ -64,11 +64,11 @@ TEST(AddedInertia, OfARigidBodyIsItsOwn) {
     for (auto* builder : {&light, &heavy}) {
       Random same(seed + 100);
       builder->set_gravity(Vector3::Zero());
-      builder->add_body(testing::random_body(same, JointKind::free, "barge", "world"));
-      BodyDefinition boom = testing::random_body(same, JointKind::revolute, "boom", "barge");
+      builder->add_body(examples::random_body(same, JointKind::free, "barge", "world"));
+      BodyDefinition boom = examples::random_body(same, JointKind::revolute, "boom", "barge");
       boom.driven = {seed % 2 == 0};
       builder->add_body(boom);
-      builder->add_body(testing::random_body(same, JointKind::spherical, "jib", "boom"));
+      builder->add_body(examples::random_body(same, JointKind::spherical, "jib", "boom"));
     }
     BodyDefinition water;
     water.name = "water";
@@ -101,7 +101,7 @@ TEST(AddedInertia, OfARigidBodyIsItsOwn) {
 TEST(AddedInertia, TiesBodiesAsADenseSolutionDoes) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Random random(seed);
-    const Mechanism m = testing::random_tree(random, 9, seed % 2 == 0);
+    const Mechanism m = examples::random_tree(random, 9, seed % 2 == 0);
     State at(random, m);
     const AddedInertia added({{7, random.pose(1)}, {4, random.pose(1)}, {9, random.pose(1)}},
                              coupled(random, 3, std::pow(10.0, seed % 4)));
@@ -139,14 +139,14 @@ TEST(AddedInertia, KeepsEnergy) {
   Random random(5);
   MechanismBuilder builder;
   builder.set_gravity(Vector3::Zero());
-  builder.add_body(testing::random_body(random, JointKind::free, "a", "world"));
-  builder.add_body(testing::random_body(random, JointKind::free, "b", "world"));
+  builder.add_body(examples::random_body(random, JointKind::free, "a", "world"));
+  builder.add_body(examples::random_body(random, JointKind::free, "b", "world"));
   const Mechanism m = builder.build();
   const AddedInertia added({{1, random.pose(1)}, {2, random.pose(1)}}, coupled(random, 2, 8));
   ConstrainedDynamicsWorkspace w(m, &added);
   Kinematics kinematics(m);
-  const std::vector<ForceVector> none = testing::no_forces(m);
-  const Eigen::VectorXd q_start = testing::random_configuration(random, m);
+  const std::vector<ForceVector> none = examples::no_forces(m);
+  const Eigen::VectorXd q_start = examples::random_configuration(random, m);
   const Eigen::VectorXd v_start = random.values(m.nv(), 1);
   Eigen::VectorXd u(added.size());
   const auto energy = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
@@ -179,16 +179,16 @@ TEST(AddedInertia, KeepsEnergy) {
 }
 
 TEST(AddedInertia, AllocatesNothing) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not counted in this build";
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not counted in this build";
   Random random(3);
-  const Mechanism m = testing::random_tree(random, 9, false);
+  const Mechanism m = examples::random_tree(random, 9, false);
   State at(random, m);
   const AddedInertia added({{4, random.pose(1)}, {9, random.pose(1)}}, coupled(random, 2, 1));
   ConstrainedDynamicsWorkspace w(m, &added);
-  const long before = blocklift::testing::allocations();
+  const long before = blocklift::test::allocations();
   compute_constrained_dynamics(m, at.kinematics, at.q, at.v, at.forces, nullptr, w, at.tau, at.vdot,
                                &added);
-  EXPECT_EQ(blocklift::testing::allocations(), before);
+  EXPECT_EQ(blocklift::test::allocations(), before);
 }
 
 TEST(AddedInertia, RefusesWhatIsNoInertia) {

@@ -17,16 +17,16 @@
 namespace blocklift::dynamics {
 namespace {
 
-using blocklift::testing::allocations;
-using blocklift::testing::counts_allocations;
+using blocklift::test::allocations;
+using blocklift::test::counts_allocations;
 
 TEST(Allocation, NoneInTheRecursiveAlgorithms) {
   if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  testing::Random random(31);
-  const Mechanism mechanism = testing::random_tree(random, 18, true);
-  const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  examples::Random random(31);
+  const Mechanism mechanism = examples::random_tree(random, 18, true);
+  const Eigen::VectorXd q = examples::random_configuration(random, mechanism);
   const Eigen::VectorXd v = random.values(mechanism.nv(), 1);
-  const std::vector<ForceVector> forces = testing::random_forces(random, mechanism);
+  const std::vector<ForceVector> forces = examples::random_forces(random, mechanism);
   Eigen::VectorXd tau = random.values(mechanism.nv(), 1);
   Eigen::VectorXd vdot = random.values(mechanism.nv(), 1);
   Eigen::VectorXd rates(mechanism.nq());
@@ -72,11 +72,10 @@ TEST(Allocation, NoneInTheRecursiveAlgorithms) {
 
 TEST(Allocation, NoneInTheDynamicsOfLoops) {
   if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  const Mechanism andrews = samples::AndrewsSqueezer{}.build();
-  const Mechanism bricard = samples::bricard_linkage();
+  const Mechanism andrews = test::AndrewsSqueezer{}.build();
+  const Mechanism bricard = test::bricard_linkage();
   for (const Mechanism* m : {&andrews, &bricard}) {
-    Eigen::VectorXd q =
-        m == &andrews ? samples::AndrewsSqueezer::q_start() : m->zero_configuration();
+    Eigen::VectorXd q = m == &andrews ? test::AndrewsSqueezer::q_start() : m->zero_configuration();
     Eigen::VectorXd v = Eigen::VectorXd::Ones(m->nv());
     Eigen::VectorXd tau = v;
     Eigen::VectorXd vdot = v;
@@ -84,7 +83,7 @@ TEST(Allocation, NoneInTheDynamicsOfLoops) {
     Kinematics kinematics(*m);
     ConstrainedDynamicsWorkspace w(*m);
     LoopProjector projector(*m);
-    std::vector<ForceVector> forces = testing::no_forces(*m);
+    std::vector<ForceVector> forces = examples::no_forces(*m);
     LoopRows rows = LoopRows::none(*m);
     const long before = allocations();
     for (int i = 0; i < 3; ++i) {

@@ -22,14 +22,14 @@ double largest_residual(const Mechanism& m, const Eigen::VectorXd& q) {
 }
 
 TEST(Assembly, ClosesFromRoughStarts) {
-  testing::Random random(17);
-  const Mechanism four_bar = samples::four_bar(1, 3, 2, 2.5);
-  const Mechanism andrews = samples::AndrewsSqueezer{}.build();
-  const Mechanism bricard = samples::bricard_linkage();
+  examples::Random random(17);
+  const Mechanism four_bar = test::four_bar(1, 3, 2, 2.5);
+  const Mechanism andrews = test::AndrewsSqueezer{}.build();
+  const Mechanism bricard = test::bricard_linkage();
   for (int i = 0; i < 20; ++i) {
     for (const Mechanism* m : {&four_bar, &andrews, &bricard}) {
       Eigen::VectorXd q = random.values(m->nq(), 2);
-      if (m == &andrews) q = samples::AndrewsSqueezer::q_start() + random.values(7, 0.3);
+      if (m == &andrews) q = test::AndrewsSqueezer::q_start() + random.values(7, 0.3);
       ASSERT_NO_THROW(assemble(*m, q)) << i;
       EXPECT_LT(largest_residual(*m, q), 1e-12);
     }
@@ -99,14 +99,14 @@ std::string assembly_error(const Mechanism& m, Eigen::VectorXd q) {
 // Bars of 1, 1 and 1 m do not reach over 3.5 m: half a metre is missing.
 TEST(Assembly, TellsWhatCannotClose) {
   const std::string message =
-      assembly_error(samples::four_bar(1, 1, 1, 3.5), Eigen::Vector3d(0.1, -0.3, 0.2));
+      assembly_error(test::four_bar(1, 1, 1, 3.5), Eigen::Vector3d(0.1, -0.3, 0.2));
   EXPECT_THAT(message, HasSubstr("the loops cannot be closed from this start"));
   EXPECT_THAT(message, HasSubstr("loop \"D\" by 0.5 m"));
 }
 
 TEST(Assembly, NamesTheLoopWithoutWhichTheOthersClose) {
   MechanismBuilder builder;
-  testing::Random random(2);
+  examples::Random random(2);
   for (const char* name : {"a", "b"}) {
     BodyDefinition body;
     body.name = name;
@@ -172,7 +172,7 @@ TEST(Assembly, DriveThatTheLoopsForbidIsNamed) {
 // ---- diagnosis ---------------------------------------------------------------------------------
 
 TEST(LoopDiagnosis, NamesBricardsRedundantEquation) {
-  const Mechanism m = samples::bricard_linkage();
+  const Mechanism m = test::bricard_linkage();
   Eigen::VectorXd q = m.zero_configuration();
   assemble(m, q);
   const LoopDiagnosis diagnosis = diagnose_loops(m, q);
@@ -187,8 +187,8 @@ TEST(LoopDiagnosis, NamesBricardsRedundantEquation) {
 }
 
 TEST(LoopDiagnosis, PlaneMechanismRepeatsItsTree) {
-  const Mechanism m = samples::AndrewsSqueezer{}.build();
-  const LoopDiagnosis diagnosis = diagnose_loops(m, samples::AndrewsSqueezer::q_start());
+  const Mechanism m = test::AndrewsSqueezer{}.build();
+  const LoopDiagnosis diagnosis = diagnose_loops(m, test::AndrewsSqueezer::q_start());
   EXPECT_EQ(diagnosis.rank, 6);
   EXPECT_EQ(diagnosis.degrees_of_freedom, 1);
   EXPECT_EQ(diagnosis.redundant.size(), 9U);
@@ -200,8 +200,8 @@ TEST(LoopDiagnosis, PlaneMechanismRepeatsItsTree) {
 // Two loops that say the same: the second is named, and it repeats the first, line by line.
 TEST(LoopDiagnosis, SecondOfTwoEqualLoopsIsNamed) {
   MechanismBuilder builder;
-  testing::Random random(4);
-  BodyDefinition body = testing::random_body(random, JointKind::free, "body", "world");
+  examples::Random random(4);
+  BodyDefinition body = examples::random_body(random, JointKind::free, "body", "world");
   builder.add_body(body);
   LoopDefinition loop;
   loop.name = "one";
@@ -220,7 +220,7 @@ TEST(LoopDiagnosis, SecondOfTwoEqualLoopsIsNamed) {
 }
 
 TEST(LoopDiagnosis, TogglePositionIsNamed) {
-  const Mechanism m = samples::four_bar(1, 1, 1, 1);
+  const Mechanism m = test::four_bar(1, 1, 1, 1);
   const LoopDiagnosis diagnosis = diagnose_loops(m, Eigen::Vector3d(0, M_PI, -M_PI));
   EXPECT_EQ(diagnosis.rank, 2);
   ASSERT_EQ(diagnosis.toggled.size(), 1U);
@@ -234,8 +234,8 @@ TEST(LoopDiagnosis, TogglePositionIsNamed) {
 // ---- projection --------------------------------------------------------------------------------
 
 TEST(LoopProjector, IsQuadraticAndKeepsVelocitiesAlongTheLoops) {
-  const Mechanism m = samples::bricard_linkage();
-  testing::Random random(8);
+  const Mechanism m = test::bricard_linkage();
+  examples::Random random(8);
   Eigen::VectorXd q = m.zero_configuration();
   Eigen::VectorXd v = random.values(5, 1);
   assemble(m, q, v);

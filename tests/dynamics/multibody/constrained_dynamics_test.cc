@@ -12,7 +12,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 
 /// A state with all that constrained dynamics finds there.
 struct Solution {
@@ -24,7 +24,7 @@ struct Solution {
     compute_constrained_dynamics(m, kinematics, q, v, forces, nullptr, w, tau, vdot);
   }
   Solution(const Mechanism& m, const Eigen::VectorXd& q, const Eigen::VectorXd& v)
-      : Solution(m, q, v, testing::no_forces(m), Eigen::VectorXd::Zero(m.nv()),
+      : Solution(m, q, v, examples::no_forces(m), Eigen::VectorXd::Zero(m.nv()),
                  Eigen::VectorXd::Zero(m.nv())) {}
 
   Kinematics kinematics;
@@ -36,11 +36,11 @@ struct Solution {
 // and a loop in place of the joint, either way round.
 struct CutJoint {
   CutJoint(JointKind kind, bool reversed, unsigned seed) : random(seed) {
-    BodyDefinition arm1 = testing::random_body(random, JointKind::universal, "arm1", "world");
-    BodyDefinition arm2 = testing::random_body(random, JointKind::revolute, "arm2", "arm1");
+    BodyDefinition arm1 = examples::random_body(random, JointKind::universal, "arm1", "world");
+    BodyDefinition arm2 = examples::random_body(random, JointKind::revolute, "arm2", "arm1");
     arm2.driven = {true};
-    BodyDefinition B = testing::random_body(random, kind, "B", "arm2");
-    const BodyDefinition tip = testing::random_body(random, JointKind::spherical, "tip", "B");
+    BodyDefinition B = examples::random_body(random, kind, "B", "arm2");
+    const BodyDefinition tip = examples::random_body(random, JointKind::spherical, "tip", "B");
     MechanismBuilder joined;
     MechanismBuilder cut;
     for (const BodyDefinition& body : {arm1, arm2, B, tip}) joined.add_body(body);
@@ -81,11 +81,11 @@ TEST_P(EveryJointKind, LoopMovesAsTheTreesJointDoes) {
     CutJoint pair(GetParam(), seed % 2 == 0, seed);
     const Mechanism& tree = *pair.tree;
     const Mechanism& looped = *pair.looped;
-    const Eigen::VectorXd q = testing::random_configuration(pair.random, tree);
+    const Eigen::VectorXd q = examples::random_configuration(pair.random, tree);
     const Eigen::VectorXd v = pair.random.values(tree.nv(), 2);
     Kinematics kinematics(tree);
     compute_kinematics(tree, q, v, kinematics);
-    const std::vector<ForceVector> forces = testing::random_forces(pair.random, tree);
+    const std::vector<ForceVector> forces = examples::random_forces(pair.random, tree);
     ForwardDynamicsWorkspace forward(tree);
     Eigen::VectorXd tau = pair.random.values(tree.nv(), 1);
     Eigen::VectorXd vdot = pair.random.values(tree.nv(), 1);
@@ -150,22 +150,22 @@ INSTANTIATE_TEST_SUITE_P(All, EveryJointKind,
 class Andrews : public ::testing::TestWithParam<LoopKind> {};
 
 TEST_P(Andrews, AccelerationsAtTheStart) {
-  const Mechanism m = samples::AndrewsSqueezer{GetParam()}.build();
-  Eigen::VectorXd q = samples::AndrewsSqueezer::q_start();
+  const Mechanism m = test::AndrewsSqueezer{GetParam()}.build();
+  Eigen::VectorXd q = test::AndrewsSqueezer::q_start();
   assemble(m, q);
-  EXPECT_LT((q - samples::AndrewsSqueezer::q_start()).norm(), 1e-14);
+  EXPECT_LT((q - test::AndrewsSqueezer::q_start()).norm(), 1e-14);
   const Eigen::VectorXd v = Eigen::VectorXd::Zero(7);
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(7);
-  tau[0] = samples::AndrewsSqueezer::moment;
+  tau[0] = test::AndrewsSqueezer::moment;
   Kinematics kinematics(m);
   compute_kinematics(m, q, v, kinematics);
-  std::vector<ForceVector> forces = testing::no_forces(m);
+  std::vector<ForceVector> forces = examples::no_forces(m);
   const BodyIndex K3 = m.body_index("K3");
-  const Vector3 p_WD = point_position(kinematics, K3, samples::AndrewsSqueezer::p_K3D);
-  const Vector3 line = samples::AndrewsSqueezer::p_WC - p_WD;
-  const double tension = samples::AndrewsSqueezer::spring_stiffness *
-                         (line.norm() - samples::AndrewsSqueezer::spring_free_length);
-  add_point_force(kinematics, K3, samples::AndrewsSqueezer::p_K3D, tension * line.normalized(),
+  const Vector3 p_WD = point_position(kinematics, K3, test::AndrewsSqueezer::p_K3D);
+  const Vector3 line = test::AndrewsSqueezer::p_WC - p_WD;
+  const double tension = test::AndrewsSqueezer::spring_stiffness *
+                         (line.norm() - test::AndrewsSqueezer::spring_free_length);
+  add_point_force(kinematics, K3, test::AndrewsSqueezer::p_K3D, tension * line.normalized(),
                   forces);
   const Solution found(m, q, v, forces, tau, Eigen::VectorXd::Zero(7));
   EXPECT_EQ(found.w.rank, 6);
@@ -227,7 +227,7 @@ TEST(Gear, TwoWheels) {
   gear.ratio = -0.5;
   builder.add_loop(gear);
   const Mechanism m = builder.build();
-  const Solution found(m, Eigen::Vector2d(0.3, 0.1), Eigen::Vector2d(1, -2), testing::no_forces(m),
+  const Solution found(m, Eigen::Vector2d(0.3, 0.1), Eigen::Vector2d(1, -2), examples::no_forces(m),
                        Eigen::Vector2d(7, 0), Eigen::Vector2d(0, 0));
   const double rate = 7 / (2.0 + 0.3 / 0.25);
   EXPECT_NEAR(found.vdot[0], rate, 1e-13);
@@ -289,7 +289,7 @@ TEST(PointOnLine, IsABeadOnAWire) {
 // One equation of Bricard's loop repeats the others: accelerations are unique, and the multipliers
 // are the least of all that balance them.
 TEST(Redundancy, BricardHasLeastMultipliers) {
-  const Mechanism m = samples::bricard_linkage();
+  const Mechanism m = test::bricard_linkage();
   Eigen::VectorXd q = m.zero_configuration();
   Eigen::VectorXd v = Eigen::VectorXd::Zero(5);
   v[0] = 1;
@@ -301,7 +301,7 @@ TEST(Redundancy, BricardHasLeastMultipliers) {
   // M vdot + h = G^T lambda by inverse dynamics.
   InverseDynamicsWorkspace inverse(m);
   Eigen::VectorXd needed(5);
-  compute_inverse_dynamics(m, found.kinematics, v, found.vdot, testing::no_forces(m), inverse,
+  compute_inverse_dynamics(m, found.kinematics, v, found.vdot, examples::no_forces(m), inverse,
                            needed);
   EXPECT_LT((needed - G.transpose() * found.w.lambda).norm(), 1e-11);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
@@ -318,7 +318,7 @@ TEST(Redundancy, BricardHasLeastMultipliers) {
 
 // Folded flat a parallelogram's Jacobian loses a row: accelerations stay finite.
 TEST(Redundancy, TogglePositionIsFinite) {
-  const Mechanism m = samples::four_bar(1, 1, 1, 1);
+  const Mechanism m = test::four_bar(1, 1, 1, 1);
   Eigen::Vector3d q(0, M_PI, -M_PI);  // crank out, coupler back, rocker out
   ASSERT_NO_THROW(assemble(m, q));
   const Solution found(m, q, Eigen::Vector3d::Zero());

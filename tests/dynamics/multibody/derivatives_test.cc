@@ -14,17 +14,17 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 
 struct RandomState {
   explicit RandomState(unsigned seed, bool with_drives = false)
       : random(seed),
-        mechanism(testing::random_tree(random, 12, with_drives)),
-        q(testing::random_configuration(random, mechanism)),
+        mechanism(examples::random_tree(random, 12, with_drives)),
+        q(examples::random_configuration(random, mechanism)),
         v(random.values(mechanism.nv(), 2)),
         vdot(random.values(mechanism.nv(), 3)),
         tau(random.values(mechanism.nv(), 5)),
-        forces(testing::random_forces(random, mechanism)),
+        forces(examples::random_forces(random, mechanism)),
         kinematics(mechanism) {
     compute_kinematics(mechanism, q, v, kinematics);
   }
@@ -128,7 +128,7 @@ TEST_P(Derivatives, ArmsOfPointForcesTurnWithTheBody) {
     pulls.push_back(s.random.vector(20));
   }
   const auto forces_at = [&](const Kinematics& kinematics) {
-    std::vector<ForceVector> forces = testing::no_forces(s.mechanism);
+    std::vector<ForceVector> forces = examples::no_forces(s.mechanism);
     for (std::size_t b = 0; b < n; ++b) {
       add_point_force(kinematics, static_cast<int>(b), points[b], pulls[b], forces);
     }

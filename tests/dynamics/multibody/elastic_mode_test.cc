@@ -175,16 +175,16 @@ TEST(ElasticMode, IsNamedWhereItsForceIsNotFinite) {
 }
 
 TEST(ElasticMode, TakesNoMemory) {
-  if (!blocklift::testing::counts_allocations())
+  if (!blocklift::test::counts_allocations())
     GTEST_SKIP() << "allocations cannot be counted in this build";
   Moving m;
   ForwardDynamicsWorkspace workspace(m.mechanism);
   InverseDynamicsWorkspace inverse(m.mechanism);
-  const long before = blocklift::testing::allocations();
+  const long before = blocklift::test::allocations();
   compute_forward_dynamics(m.mechanism, m.kinematics, m.v, m.forces, workspace, m.tau, m.vdot);
   compute_inverse_dynamics(m.mechanism, m.kinematics, m.v, m.vdot, m.forces, inverse, m.tau);
   m.mechanism.integrate(m.q, m.v, 0.1, m.q);
-  EXPECT_EQ(blocklift::testing::allocations(), before);
+  EXPECT_EQ(blocklift::test::allocations(), before);
 }
 
 template <class Change>

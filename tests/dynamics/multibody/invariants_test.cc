@@ -8,18 +8,18 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
-using testing::RungeKutta;
+using examples::Random;
+using test::RungeKutta;
 
 // A free body that carries one body on each kind of joint, and bodies on those.
 Mechanism floating_tree(Random& random, const Vector3& gravity) {
   MechanismBuilder builder;
   builder.set_gravity(gravity);
-  builder.add_body(testing::random_body(random, JointKind::free, "hull", "world"));
+  builder.add_body(examples::random_body(random, JointKind::free, "hull", "world"));
   for (const std::string_view name : joint_kind_names()) {
     const std::string body(name);
-    builder.add_body(testing::random_body(random, *joint_kind(name), body, "hull"));
-    builder.add_body(testing::random_body(random, JointKind::revolute, body + "-arm", body));
+    builder.add_body(examples::random_body(random, *joint_kind(name), body, "hull"));
+    builder.add_body(examples::random_body(random, JointKind::revolute, body + "-arm", body));
   }
   return builder.build();
 }
@@ -27,7 +27,7 @@ Mechanism floating_tree(Random& random, const Vector3& gravity) {
 TEST(FreeSystem, ConservesMomentumAndEnergy) {
   Random random(11);
   const Mechanism mechanism = floating_tree(random, Vector3::Zero());
-  RungeKutta run(mechanism, testing::random_configuration(random, mechanism),
+  RungeKutta run(mechanism, examples::random_configuration(random, mechanism),
                  random.values(mechanism.nv(), 0.5));
   const ForceVector momentum = calc_momentum(mechanism, run.kinematics());
   const double energy = calc_kinetic_energy(mechanism, run.kinematics());
@@ -43,7 +43,7 @@ TEST(FreeSystem, CentreOfMassFallsLikeAPoint) {
   Random random(12);
   const Vector3 gravity(0, 0, -9.81);
   const Mechanism mechanism = floating_tree(random, gravity);
-  RungeKutta run(mechanism, testing::random_configuration(random, mechanism),
+  RungeKutta run(mechanism, examples::random_configuration(random, mechanism),
                  random.values(mechanism.nv(), 0.5));
   const RigidBodyInertia start = calc_mass_properties(mechanism, run.kinematics());
   const Vector3 velocity = calc_momentum(mechanism, run.kinematics()).force / start.mass;
@@ -59,11 +59,11 @@ TEST(ConservativeSystem, KeepsItsEnergy) {
   for (int i = 0; i < 5; ++i) {
     const std::string name = "link" + std::to_string(i);
     const JointKind kind = i == 2 ? JointKind::spherical : JointKind::revolute;
-    builder.add_body(testing::random_body(random, kind, name, parent));
+    builder.add_body(examples::random_body(random, kind, name, parent));
     parent = name;
   }
   const Mechanism mechanism = builder.build();
-  RungeKutta run(mechanism, testing::random_configuration(random, mechanism),
+  RungeKutta run(mechanism, examples::random_configuration(random, mechanism),
                  random.values(mechanism.nv(), 1));
   const auto energy = [&] {
     const Kinematics k = run.kinematics();
@@ -101,14 +101,14 @@ TEST(FreeBody, SpinsForAHundredRevolutions) {
 TEST(Quaternion, OfAnyLengthGivesTheSameMotion) {
   Random random(14);
   const Mechanism mechanism = floating_tree(random, Vector3(0, 0, -9.81));
-  Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  Eigen::VectorXd q = examples::random_configuration(random, mechanism);
   const Eigen::VectorXd v = random.values(mechanism.nv(), 1);
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(mechanism.nv());
   Eigen::VectorXd unit(mechanism.nv());
   Eigen::VectorXd scaled(mechanism.nv());
   Kinematics kinematics(mechanism);
   ForwardDynamicsWorkspace workspace(mechanism);
-  const auto forces = testing::no_forces(mechanism);
+  const auto forces = examples::no_forces(mechanism);
   compute_kinematics(mechanism, q, v, kinematics);
   compute_forward_dynamics(mechanism, kinematics, v, forces, workspace, tau, unit);
   q.segment<4>(3) *= 1.5;
@@ -120,9 +120,9 @@ TEST(Quaternion, OfAnyLengthGivesTheSameMotion) {
 // A mechanism in which a body is fixed to another equals the one in which both are one body.
 TEST(FixedBody, IsPartOfItsCarrier) {
   Random random(15);
-  const BodyDefinition boom = testing::random_body(random, JointKind::universal, "boom", "world");
-  const BodyDefinition head = testing::random_body(random, JointKind::fixed, "head", "boom");
-  const BodyDefinition hook = testing::random_body(random, JointKind::spherical, "hook", "head");
+  const BodyDefinition boom = examples::random_body(random, JointKind::universal, "boom", "world");
+  const BodyDefinition head = examples::random_body(random, JointKind::fixed, "head", "boom");
+  const BodyDefinition hook = examples::random_body(random, JointKind::spherical, "hook", "head");
   MechanismBuilder two;
   two.add_body(boom);
   two.add_body(head);
@@ -152,7 +152,7 @@ TEST(FixedBody, IsPartOfItsCarrier) {
     accelerations[i].resize(mechanism.nv());
     Kinematics kinematics(mechanism);
     ForwardDynamicsWorkspace workspace(mechanism);
-    auto forces = testing::no_forces(mechanism);
+    auto forces = examples::no_forces(mechanism);
     compute_kinematics(mechanism, q, v, kinematics);
     // A force at the head's origin, on whichever body the head is.
     const bool apart = mechanism.has_body("head");

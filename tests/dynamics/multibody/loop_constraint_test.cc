@@ -13,16 +13,16 @@
 namespace blocklift::dynamics {
 namespace {
 
+using examples::Random;
 using ::testing::HasSubstr;
-using testing::Random;
 
 MechanismBuilder three_bodies() {
   Random random(3);
   MechanismBuilder builder;
-  builder.add_body(testing::random_body(random, JointKind::revolute, "crank", "world"));
-  builder.add_body(testing::random_body(random, JointKind::cylindrical, "rod", "crank"));
-  builder.add_body(testing::random_body(random, JointKind::fixed, "plate", "rod"));
-  builder.add_body(testing::random_body(random, JointKind::free, "block", "world"));
+  builder.add_body(examples::random_body(random, JointKind::revolute, "crank", "world"));
+  builder.add_body(examples::random_body(random, JointKind::cylindrical, "rod", "crank"));
+  builder.add_body(examples::random_body(random, JointKind::fixed, "plate", "rod"));
+  builder.add_body(examples::random_body(random, JointKind::free, "block", "world"));
   return builder;
 }
 
@@ -145,10 +145,10 @@ TEST(LoopDefinition, NamesMustDifferAndRowsHaveNames) {
 struct LoopOfKind {
   LoopOfKind(LoopKind kind, unsigned seed)
       : random(seed),
-        mechanism(samples::random_mechanism_with_loop(random, kind)),
+        mechanism(test::random_mechanism_with_loop(random, kind)),
         q(mechanism.nq()),
         v(random.values(mechanism.nv(), 1)) {
-    q = testing::random_configuration(random, mechanism);
+    q = examples::random_configuration(random, mechanism);
   }
 
   LoopState state_at(const Eigen::VectorXd& where, const Eigen::VectorXd& velocity) const {
@@ -221,7 +221,7 @@ TEST_P(EveryLoopKind, ForcesAreTheTransposedJacobian) {
   compute_kinematics(m, sample.q, sample.v, kinematics);
   const LoopState state = sample.state_at(sample.q, sample.v);
   const Eigen::VectorXd lambda = sample.random.values(m.loop_row_count(), 1);
-  std::vector<ForceVector> F_Bo_W = testing::no_forces(m);
+  std::vector<ForceVector> F_Bo_W = examples::no_forces(m);
   Eigen::VectorXd tau = Eigen::VectorXd::Zero(m.nv());
   add_loop_forces(m, kinematics, state, lambda, F_Bo_W, tau);
   double power = tau.dot(sample.v);
@@ -269,7 +269,7 @@ TEST(LoopConstraint, OpenLengthsAreTakenFromTheStart) {
   const Mechanism open = builder.build();
   EXPECT_TRUE(std::isnan(open.loops()[0].length));
   Random random(5);
-  const Eigen::VectorXd q = testing::random_configuration(random, open);
+  const Eigen::VectorXd q = examples::random_configuration(random, open);
   const Mechanism mechanism = open.with_loops_as_at(q);
   Kinematics kinematics(mechanism);
   const Eigen::VectorXd v = Eigen::VectorXd::Zero(mechanism.nv());

@@ -175,8 +175,8 @@ TEST(ForwardDynamics, NamesTheBodyThatNothingResists) {
   const auto message = [&](double q) -> std::string {
     compute_kinematics(mechanism, Eigen::VectorXd::Constant(1, q), tau, kinematics);
     try {
-      compute_forward_dynamics(mechanism, kinematics, tau, testing::no_forces(mechanism), workspace,
-                               tau, vdot);
+      compute_forward_dynamics(mechanism, kinematics, tau, examples::no_forces(mechanism),
+                               workspace, tau, vdot);
     } catch (const SimulationError& error) {
       return error.what();
     }

@@ -13,8 +13,8 @@
 namespace blocklift::dynamics {
 namespace {
 
+using examples::Random;
 using ::testing::HasSubstr;
-using testing::Random;
 
 template <class Action>
 std::string message_of(Action action) {

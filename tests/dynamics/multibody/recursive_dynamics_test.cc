@@ -11,16 +11,16 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 
 // A random tree in a random state.
 struct MovingTree {
   explicit MovingTree(unsigned seed, bool with_drives = false)
       : random(seed),
-        mechanism(testing::random_tree(random, 12, with_drives)),
-        q(testing::random_configuration(random, mechanism)),
+        mechanism(examples::random_tree(random, 12, with_drives)),
+        q(examples::random_configuration(random, mechanism)),
         v(random.values(mechanism.nv(), 2)),
-        forces(testing::random_forces(random, mechanism)),
+        forces(examples::random_forces(random, mechanism)),
         kinematics(mechanism) {
     compute_kinematics(mechanism, q, v, kinematics);
   }
@@ -254,7 +254,7 @@ TEST(HybridDynamics, TrolleyDrivenUnderAPendulum) {
   ForwardDynamicsWorkspace workspace(mechanism);
   Eigen::VectorXd tau = Eigen::Vector2d(not_a_number, 0);
   Eigen::VectorXd vdot = Eigen::Vector2d(0.7, not_a_number);
-  compute_forward_dynamics(mechanism, kinematics, v, testing::no_forces(mechanism), workspace, tau,
+  compute_forward_dynamics(mechanism, kinematics, v, examples::no_forces(mechanism), workspace, tau,
                            vdot);
   // Load at x + l sin(phi):  l phi'' = -g sin(phi) - x'' cos(phi).
   const double angular = -(9.81 * std::sin(0.3) + 0.7 * std::cos(0.3)) / 5;

@@ -2,7 +2,7 @@
 
 #include "dynamics/multibody/forward_dynamics.h"
 
-namespace blocklift::dynamics::testing {
+namespace blocklift::dynamics::test {
 
 /// Classical Runge-Kutta integration of a mechanism without drives and external forces, with a
 /// fixed step: for tests only, so that the kernel is seen without the library's own integrator.
@@ -62,4 +62,4 @@ class RungeKutta {
   Eigen::MatrixXd q_rate_, v_rate_;
 };
 
-}  // namespace blocklift::dynamics::testing
+}  // namespace blocklift::dynamics::test

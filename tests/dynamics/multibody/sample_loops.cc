@@ -1,6 +1,6 @@
 #include "tests/dynamics/multibody/sample_loops.h"
 
-namespace blocklift::dynamics::samples {
+namespace blocklift::dynamics::test {
 namespace {
 
 constexpr double gravity = 9.81;  // m/s2
@@ -111,14 +111,14 @@ Mechanism four_bar(double crank, double coupler, double rocker, double base, boo
   return builder.build();
 }
 
-Mechanism random_mechanism_with_loop(testing::Random& random, LoopKind kind) {
+Mechanism random_mechanism_with_loop(examples::Random& random, LoopKind kind) {
   MechanismBuilder builder;
-  builder.add_body(testing::random_body(random, JointKind::spherical, "a1", "world"));
-  builder.add_body(testing::random_body(random, JointKind::cylindrical, "a2", "a1"));
-  builder.add_body(testing::random_body(random, JointKind::planar, "b1", "world"));
-  builder.add_body(testing::random_body(random, JointKind::universal, "b2", "b1"));
-  builder.add_body(testing::random_body(random, JointKind::fixed, "b3", "b2"));
-  builder.add_body(testing::random_body(random, JointKind::free, "c", "a1"));
+  builder.add_body(examples::random_body(random, JointKind::spherical, "a1", "world"));
+  builder.add_body(examples::random_body(random, JointKind::cylindrical, "a2", "a1"));
+  builder.add_body(examples::random_body(random, JointKind::planar, "b1", "world"));
+  builder.add_body(examples::random_body(random, JointKind::universal, "b2", "b1"));
+  builder.add_body(examples::random_body(random, JointKind::fixed, "b3", "b2"));
+  builder.add_body(examples::random_body(random, JointKind::free, "c", "a1"));
   LoopDefinition loop;
   loop.name = "loop";
   loop.kind = kind;
@@ -151,4 +151,4 @@ Mechanism random_mechanism_with_loop(testing::Random& random, LoopKind kind) {
   return builder.build();
 }
 
-}  // namespace blocklift::dynamics::samples
+}  // namespace blocklift::dynamics::test

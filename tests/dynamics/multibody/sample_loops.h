@@ -3,7 +3,7 @@
 #include "pipeline/verification/models/random_mechanism.h"
 
 /// Mechanisms with loops that several tests and benchmarks share.
-namespace blocklift::dynamics::samples {
+namespace blocklift::dynamics::test {
 
 /// Andrews' squeezer (Schiehlen 1990; Test Set for IVP Solvers, "andrews"): seven bodies in the
 /// plane z = 0 without gravity, three loops through the point at which bodies 2, 3, 4 and 6 meet.
@@ -39,6 +39,6 @@ Mechanism four_bar(double crank, double coupler, double rocker, double base,
                    bool driven_crank = false, double side = 0.01);
 
 /// Two branches of random bodies with a loop of the kind between them at random places.
-Mechanism random_mechanism_with_loop(testing::Random& random, LoopKind kind);
+Mechanism random_mechanism_with_loop(examples::Random& random, LoopKind kind);
 
-}  // namespace blocklift::dynamics::samples
+}  // namespace blocklift::dynamics::test

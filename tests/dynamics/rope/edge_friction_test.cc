@@ -435,7 +435,7 @@ TEST(EdgeFriction, VanishesWithTheCoefficient) {
 }
 
 TEST(EdgeFriction, AllocatesNothing) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not counted in this build";
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not counted in this build";
   for (const double radius : {0.0, 0.3}) {
     const ObliqueCradle cradle{.radius = radius};
     const LiftSystem lift = cradle.build(1.0);
@@ -449,14 +449,14 @@ TEST(EdgeFriction, AllocatesNothing) {
     calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
     for (const BendMotion motion : {BendMotion::sticks, BendMotion::to_last}) {
       w.splits[0].set_motion(0, motion);
-      const long before = blocklift::testing::allocations();
+      const long before = blocklift::test::allocations();
       double sum = 0.0;
       for (int i = 0; i < 10; ++i) {
         calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
         w.splits[0].carry(lift.ropes()[0], w.kinematics, w.path);
         sum += w.splits[0].indicator(0) + calc_energy_rates(lift, 0.0, w).dissipated_power;
       }
-      EXPECT_EQ(blocklift::testing::allocations(), before);
+      EXPECT_EQ(blocklift::test::allocations(), before);
       EXPECT_TRUE(std::isfinite(sum));
     }
   }

@@ -548,13 +548,13 @@ TEST(ElasticBody, TheRightHandSideDoesNotAllocate) {
   get_state(system, system.q_start(), Eigen::VectorXd::Zero(system.mechanism().nv()), y);
   const Contacts contacts(3, 1);
   calc_jacobian(system, 0, y, &contacts, w, workspace, jacobian);
-  if (!blocklift::testing::counts_allocations())
+  if (!blocklift::test::counts_allocations())
     GTEST_SKIP() << "sanitizers bring their own allocator";
-  const long before = blocklift::testing::allocations();
+  const long before = blocklift::test::allocations();
   calc_right_hand_side(system, 0, y, &contacts, w, rates);
   calc_right_hand_side(system, 0, y, nullptr, w, rates);
   calc_jacobian(system, 0, y, &contacts, w, workspace, jacobian);
-  EXPECT_EQ(blocklift::testing::allocations(), before);
+  EXPECT_EQ(blocklift::test::allocations(), before);
 }
 
 TEST(ElasticBody, WhatCannotBeIsRefused) {

@@ -15,7 +15,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using samples::g;
+using examples::g;
 
 Mechanism one_load(double mass = 10e3) {
   MechanismBuilder builder;
@@ -225,10 +225,10 @@ TEST(HangingRope, EvaluatesWithoutAllocating) {
   Eigen::VectorXd y(6), ydot(6);
   y << 0.5, 0.2, -18.3, 0, 0, 0;
   calc_right_hand_side(system, 0, y, nullptr, w, ydot);
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not counted in this build";
-  const long before = blocklift::testing::allocations();
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not counted in this build";
+  const long before = blocklift::test::allocations();
   calc_right_hand_side(system, 0, y, nullptr, w, ydot);
-  EXPECT_EQ(blocklift::testing::allocations(), before);
+  EXPECT_EQ(blocklift::test::allocations(), before);
 }
 
 TEST(HangingRope, RejectsSheavesAndNegativeWeight) {

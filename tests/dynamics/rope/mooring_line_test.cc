@@ -11,9 +11,9 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::expect_balanced;
+using test::expect_balanced;
+using test::OneBody;
 using ::testing::HasSubstr;
-using testing::OneBody;
 using ::testing::ThrowsMessage;
 
 // Irvine (1981), sec. 2.3: an elastic catenary between level supports under its own weight. With

@@ -298,7 +298,7 @@ TEST(RopeSplit, GoesOnFromAnInstant) {
 }
 
 TEST(RopeSplit, AllocatesNothing) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not counted in this build";
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not counted in this build";
   TwoWeights model{.first_mass = 5e3, .last_mass = 20e3, .friction = 0.05};
   const LiftSystem lift = model.build();
   LiftWorkspace w(lift);
@@ -311,13 +311,13 @@ TEST(RopeSplit, AllocatesNothing) {
   calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
   for (const BendMotion motion : {BendMotion::sticks, BendMotion::to_last}) {
     w.splits[0].set_motion(0, motion);
-    const long before = blocklift::testing::allocations();
+    const long before = blocklift::test::allocations();
     double sum = 0.0;
     for (int i = 0; i < 10; ++i) {
       calc_right_hand_side(lift, 0.0, y, &contacts, w, ydot);
       sum += w.splits[0].indicator(0) + calc_energy_rates(lift, 0.0, w).dissipated_power;
     }
-    EXPECT_EQ(blocklift::testing::allocations(), before);
+    EXPECT_EQ(blocklift::test::allocations(), before);
     EXPECT_TRUE(std::isfinite(sum));
   }
 }

@@ -148,10 +148,10 @@ TEST(Rope, TwinFallsTurnBackWhatTurns) {
 // Random mechanisms, paths and motions: power of the point forces = -T dL/dt, and dL/dt is the
 // derivative of L.
 TEST(Rope, SpendsThePowerOfItsPointForces) {
-  testing::Random random(5);
+  examples::Random random(5);
   for (int trial = 0; trial < 50; ++trial) {
-    const Mechanism mechanism = testing::random_tree(random, 6, true);
-    const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+    const Mechanism mechanism = examples::random_tree(random, 6, true);
+    const Eigen::VectorXd q = examples::random_configuration(random, mechanism);
     const Eigen::VectorXd v = random.values(mechanism.nv(), 1);
     RopeDefinition definition = simple_rope();
     definition.points.clear();

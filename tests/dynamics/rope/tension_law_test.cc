@@ -85,8 +85,8 @@ TEST(TensionLaw, RefusesWhatIsNone) {
 }
 
 /// 60 t on 20 m of that sling below a crane that gives way.
-samples::SingleRopeLift lift_on_fibre() {
-  samples::SingleRopeLift lift;
+examples::SingleRopeLift lift_on_fibre() {
+  examples::SingleRopeLift lift;
   lift.mass = 60e3;
   lift.crane_stiffness = 20e6;
   lift.tension_points = fibre;
@@ -96,9 +96,9 @@ samples::SingleRopeLift lift_on_fibre() {
 // A load at rest: the elongation is that of the law at its weight, and it bounces with the tangent
 // there.
 TEST(TensionLaw, ALoadBouncesWithTheTangent) {
-  samples::SingleRopeLift lift = lift_on_fibre();
+  examples::SingleRopeLift lift = lift_on_fibre();
   const TensionLaw law(fibre);
-  const double weight = lift.mass * samples::g;
+  const double weight = lift.mass * examples::g;
   const double strain = law.find_strain(weight);
   const double k = 1 / (lift.length / law.slope(strain) + 1 / lift.crane_stiffness);
   const double omega = std::sqrt(k / lift.mass);
@@ -119,7 +119,7 @@ TEST(TensionLaw, ALoadBouncesWithTheTangent) {
 // energy is accounted for, and the more exactly the finer the tolerance.
 TEST(TensionLaw, EnergyOfABouncingLoadAddsUp) {
   for (const double damping_time : {0.0, 0.01}) {
-    samples::SingleRopeLift lift = lift_on_fibre();
+    examples::SingleRopeLift lift = lift_on_fibre();
     lift.damping_time = damping_time;
     lift.payout = -1.5;
     lift.duration = 6.0;
@@ -137,7 +137,7 @@ TEST(TensionLaw, EnergyOfABouncingLoadAddsUp) {
 
 // In motion, where the damping changes with the stiffness, too: the Jacobian is the derivative.
 TEST(TensionLaw, JacobianIsTheDerivative) {
-  samples::SingleRopeLift lift = lift_on_fibre();
+  examples::SingleRopeLift lift = lift_on_fibre();
   lift.damping_time = 0.05;
   const LiftSystem system = lift.build();
   LiftWorkspace w(system);
@@ -154,7 +154,7 @@ TEST(TensionLaw, JacobianIsTheDerivative) {
 
 // The same motion as with one stiffness where the curve is a line.
 TEST(TensionLaw, MovesAsTheLinearRope) {
-  samples::SingleRopeLift lift;
+  examples::SingleRopeLift lift;
   lift.crane_stiffness = 5e6;
   lift.damping_time = 0.01;
   lift.payout = -1.0;
@@ -176,7 +176,7 @@ TEST(TensionLaw, MovesAsTheLinearRope) {
 // follows from the curve at that tension.
 TEST(TensionLaw, ATwoLegSlingSagsByHand) {
   MechanismBuilder builder;
-  builder.set_gravity({0, 0, -samples::g});
+  builder.set_gravity({0, 0, -examples::g});
   const BodyIndex load = builder.add_body(
       {.name = "load", .joint = {.kind = JointKind::translational}, .mass = 100e3});
   const Mechanism mechanism = builder.build();
@@ -196,7 +196,7 @@ TEST(TensionLaw, ATwoLegSlingSagsByHand) {
   Eigen::VectorXd q = system.q_start();
   solver.solve(0.0, q);
   const double length = std::hypot(5.0, q[2]);
-  const double tension = 100e3 * samples::g / 2 / (-q[2] / length);
+  const double tension = 100e3 * examples::g / 2 / (-q[2] / length);
   EXPECT_NEAR(length, 10.0 * (1 + law.find_strain(tension)), 1e-9);
   EXPECT_GT(length, 10.1);
 }

@@ -25,7 +25,7 @@ void expect_equal(const EnergyRates& a, const EnergyRates& b) {
 
 // Where no joint is driven accelerations are left out, and nothing is missed by it.
 TEST(EnergyLedger, FindsThePowersWithoutTheAccelerationsToo) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   LiftWorkspace w(lift), full(lift);
   Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
   get_state(lift, lift.q_start(), lift.v_start(), y);
@@ -50,7 +50,7 @@ struct BoxAdrift {
     builder.add_body({.name = "box",
                       .joint = {.kind = JointKind::free},
                       .mass = mass,
-                      .I_BBcm_B = samples::box_inertia(mass, 12, 6, 3)});
+                      .I_BBcm_B = examples::box_inertia(mass, 12, 6, 3)});
     const auto sea = std::make_shared<const Sea>(
         Sea{WaveField({.density = 1025, .gravity = 9.81}, {{0.3, 1.2, 0.4, 0}}), {}});
     ForceElements elements;
@@ -114,7 +114,7 @@ TEST(EnergyLedger, ClosesTheBetterTheSmallerTheTolerance) {
 // stretched and loses what it stores. The account knows where, and closes to the tolerance.
 TEST(EnergyLedger, ClosesWhereTheWinchRunsWhileItsRopeIsSlack) {
   for (const double damping_time : {0.0, 0.005}) {
-    samples::SingleRopeLift model;
+    examples::SingleRopeLift model;
     model.mass = 20e3;
     model.duration = 6.0;
     model.damping_time = damping_time;
@@ -134,18 +134,18 @@ TEST(EnergyLedger, ClosesWhereTheWinchRunsWhileItsRopeIsSlack) {
 }
 
 TEST(EnergyLedger, ShortWayAllocatesNothing) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "allocations cannot be counted";
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "allocations cannot be counted";
   const LiftSystem system = BoxAdrift::build(1.0);
   LiftWorkspace w(system);
   Eigen::VectorXd y(system.state_size());
   get_state(system, system.q_start(), system.v_start(), y);
   const Contacts contacts;
-  const long before = blocklift::testing::allocations();
+  const long before = blocklift::test::allocations();
   double sum = 0.0;
   for (const HullForces hulls : {HullForces::evaluated, HullForces::kept}) {
     sum += calc_energy_rates(system, 1.0, y, &contacts, hulls, w).outside_power;
   }
-  EXPECT_EQ(blocklift::testing::allocations(), before);
+  EXPECT_EQ(blocklift::test::allocations(), before);
   EXPECT_TRUE(std::isfinite(sum));
 }
 

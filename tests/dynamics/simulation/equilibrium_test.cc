@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-using samples::g;
+using examples::g;
 
 /// A beam (free body) of 10 t on vertical ropes of given places and unstretched lengths, all of
 /// k = 1 MN/m, held at the height 10 m.
@@ -268,7 +268,7 @@ TEST(Equilibrium, BeamIsLiftedOffItsCradle) {
 }
 
 TEST(Equilibrium, SweepOfTheTwoGoliathsCarriesTheWeight) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   const History sweep =
       static_sweep(lift, sample_times(lift.operation().duration(), 10.0), lift.q_start());
   const WindArea& side = std::get<std::vector<WindArea>>(lift.elements()).back();
@@ -290,7 +290,7 @@ TEST(Equilibrium, SweepOfTheTwoGoliathsCarriesTheWeight) {
 // A sweep goes on with the stiffness of earlier instants: where it arrives is what a solver that
 // knows nothing of them finds for each instant by itself, from some way off.
 TEST(Equilibrium, SweepIsWhatEachInstantGivesAlone) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   const Eigen::VectorXd beside = Eigen::VectorXd::Constant(lift.mechanism().nv(), 0.01);
   int compared = 0;
   const auto compare = [&](Eigen::Index sample, double t, LiftWorkspace& w) {

@@ -14,7 +14,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 
 BodyPoint random_point(Random& random, const Mechanism& mechanism) {
   return {random.integer(0, mechanism.body_count() - 1), random.vector(1.5)};
@@ -139,12 +139,12 @@ ForceElements random_elements(Random& random, const Mechanism& mechanism) {
 }
 
 LiftSystem random_system(Random& random) {
-  Mechanism mechanism = testing::random_tree(random, 11, true);
+  Mechanism mechanism = examples::random_tree(random, 11, true);
   std::vector<Rope> ropes = random_ropes(random, mechanism);
   std::vector<SupportPad> pads = random_pads(random, mechanism);
   ForceElements elements = random_elements(random, mechanism);
   OperationBuilder operation;
-  const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  const Eigen::VectorXd q = examples::random_configuration(random, mechanism);
   const Operation built = operation.build(1.0);
   return LiftSystem({.mechanism = std::move(mechanism),
                      .ropes = std::move(ropes),
@@ -157,7 +157,7 @@ LiftSystem random_system(Random& random) {
 
 LiftSystem alone(Mechanism mechanism, Random& random) {
   OperationBuilder operation;
-  const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  const Eigen::VectorXd q = examples::random_configuration(random, mechanism);
   const Operation built = operation.build(1.0);
   return LiftSystem({.mechanism = std::move(mechanism),
                      .ropes = {},
@@ -237,7 +237,7 @@ TEST(NewtonMatrixOfLoops, SolvesWithTheJacobianOfTheConstrainedMotion) {
     MechanismBuilder builder;
     builder.set_gravity(random.vector(10));
     const auto add = [&](JointKind kind, const char* name, const char* parent) {
-      BodyDefinition body = testing::random_body(random, kind, name, parent);
+      BodyDefinition body = examples::random_body(random, kind, name, parent);
       body.damping.assign(velocity_count(kind), 0.4);
       builder.add_body(body);
     };
@@ -287,7 +287,7 @@ TEST(NewtonMatrixOfLoops, SolvesWithTheJacobianOfTheConstrainedMotion) {
 }
 
 TEST(JacobianOfALift, IsThatOfDifferencesWhileItSwings) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   LiftWorkspace w(lift);
   Random random(3);
   Eigen::VectorXd y(lift.state_size());
@@ -358,7 +358,7 @@ TEST(JacobianOfALift, IsThatOfDifferencesOverEdges) {
 
 // Slack ropes and pads in the air have no part in it.
 TEST(JacobianOfALift, LeavesOutWhatDoesNotAct) {
-  samples::SingleRopeLift lift;
+  examples::SingleRopeLift lift;
   const LiftSystem system = lift.build();
   LiftWorkspace w(system);
   Eigen::VectorXd y(6);

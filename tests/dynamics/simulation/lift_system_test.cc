@@ -12,15 +12,15 @@
 namespace blocklift::dynamics {
 namespace {
 
-using blocklift::testing::allocations;
-using blocklift::testing::counts_allocations;
+using blocklift::test::allocations;
+using blocklift::test::counts_allocations;
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 TEST(LiftSystem, RightHandSideOfTheTwoGoliathsAllocatesNothing) {
   if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   LiftWorkspace w(lift);
   Eigen::VectorXd y(lift.state_size()), ydot(lift.state_size());
   Eigen::VectorXd indicators(lift.contact_count());
@@ -43,7 +43,7 @@ TEST(LiftSystem, RightHandSideOfTheTwoGoliathsAllocatesNothing) {
 // Steps cost no memory: ten times as many allocate no more.
 TEST(LiftSystem, IntegrationAllocatesNothingPerStep) {
   if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  const LiftSystem lift = samples::SingleRopeLift{.duration = 20.0}.build();
+  const LiftSystem lift = examples::SingleRopeLift{.duration = 20.0}.build();
   const auto count = [&](double tolerance) {
     const long before = allocations();
     const IntegrationResult run =
@@ -63,7 +63,7 @@ TEST(LiftSystem, IntegrationAllocatesNothingPerStep) {
 // breakpoints of its winches.
 TEST(LiftSystem, NothingIsAllocatedBetweenTheFirstSampleAndTheLast) {
   if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  const LiftSystem lift = samples::block_on_six_ropes();
+  const LiftSystem lift = examples::block_on_six_ropes();
   long at_first = 0, at_last = 0;
   const auto observe = [&](Eigen::Index sample, double, const LiftWorkspace&) {
     (sample <= 1 ? at_first : at_last) = allocations();
@@ -76,7 +76,7 @@ TEST(LiftSystem, NothingIsAllocatedBetweenTheFirstSampleAndTheLast) {
 }
 
 TEST(LiftSystem, JudgesAContactAtItsChangeByWhereItGoes) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   LiftWorkspace w(lift);
   const auto taut = [&](double z, double speed) {
     Eigen::VectorXd y(6);
@@ -151,7 +151,7 @@ TEST(LiftSystem, WholeJointFollowsADirection) {
 }
 
 TEST(LiftSystem, RefusesWhatDoesNotFit) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   EXPECT_THAT([&] { lift.rope_index("sling"); },
               ThrowsMessage<ModelError>(HasSubstr("the ropes are rope")));
   EXPECT_THAT(

@@ -14,7 +14,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using samples::g;
+using examples::g;
 using ::testing::ElementsAre;
 
 LiftSystem at_rest(Mechanism mechanism, std::vector<Rope> ropes, const Eigen::VectorXd& q) {
@@ -151,7 +151,7 @@ TEST(Linearisation, DoublePendulum) {
 // Bounce on a rope 2 pi sqrt(m/k), its damping ratio as prescribed, and the pendulum of its
 // stretched length to both sides, told apart although their periods are the same.
 TEST(Linearisation, LoadOnOneRope) {
-  samples::SingleRopeLift lift;
+  examples::SingleRopeLift lift;
   const double omega = std::sqrt(lift.stiffness() / lift.mass);
   lift.damping_time = 2.0 * 0.03 / omega;  // 3 % of critical
   const LiftSystem system = lift.build();
@@ -276,7 +276,7 @@ TEST(Linearisation, UnstableAndOverdamped) {
 // Block on six ropes: an undamped eigen-solution with mass matrix and a stiffness by central
 // differences of the forces, which share nothing with the derivatives.
 TEST(Linearisation, BlockOnSixRopesAgainstDifferences) {
-  const LiftSystem lift = samples::block_on_six_ropes();
+  const LiftSystem lift = examples::block_on_six_ropes();
   EquilibriumSolver solver(lift);
   Eigen::VectorXd q = lift.q_start();
   solver.solve(0.0, q);
@@ -319,7 +319,7 @@ TEST(Linearisation, BlockOnSixRopesAgainstDifferences) {
 
 // What the time integration does by itself: period and decay of the bounce of a load let go.
 TEST(Linearisation, FreeDecayOfATimeIntegration) {
-  samples::SingleRopeLift lift;
+  examples::SingleRopeLift lift;
   const double omega = std::sqrt(lift.stiffness() / lift.mass);
   lift.damping_time = 2.0 * 0.02 / omega;
   lift.duration = 6.0;
@@ -390,7 +390,7 @@ TEST(Linearisation, PlatformOnTwoRods) {
 
 // Along an operation: the pendulum of the turn-over shortens as the block goes up.
 TEST(Linearisation, FollowsAnOperation) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   const std::vector<Linearisation> sweep = linearise_sweep(lift, {0.0, 260.0}, lift.q_start(), 5.0);
   ASSERT_EQ(sweep.size(), 2u);
   for (const Linearisation& l : sweep) {

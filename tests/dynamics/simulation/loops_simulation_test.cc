@@ -35,12 +35,12 @@ double energy_error(const History& history) {
 }
 
 double andrews_error(LoopKind kind, double tolerance) {
-  const LiftSystem system = samples::andrews(kind);
+  const LiftSystem system = test::andrews(kind);
   const IntegrationResult run =
       integrate(system, system.q_start(), system.v_start(),
                 {.relative_tolerance = tolerance, .sample_interval = 5e-3, .works = false});
   EXPECT_LT(largest_residual(run.history), 1e-12);
-  return (run.q_end - samples::andrews_q_end()).lpNorm<Eigen::Infinity>();
+  return (run.q_end - test::andrews_q_end()).lpNorm<Eigen::Infinity>();
 }
 
 // The error grows some thousandfold over the motion's 2.5 turns; it follows the tolerance.
@@ -59,7 +59,7 @@ TEST(LoopSimulation, AndrewsSqueezersForces) {
   wanted << 199.1753333731910, -29.75531228015052, 23.06654119098399, 31.45271365475927,
       22.64249232082739, 11.61740700019673;
   for (const LoopKind kind : {LoopKind::revolute, LoopKind::point_on_line}) {
-    const LiftSystem system = samples::andrews(kind);
+    const LiftSystem system = test::andrews(kind);
     const History history =
         integrate(system, system.q_start(), system.v_start(), {.relative_tolerance = 1e-12})
             .history;
@@ -75,8 +75,8 @@ TEST(LoopSimulation, AndrewsSqueezersForces) {
 
 // IFToMM A04: values of tests/verification/references, good to 9 digits.
 TEST(LoopSimulation, BricardsLinkage) {
-  const LiftSystem system = samples::mechanism_alone(
-      samples::bricard_linkage(), Eigen::VectorXd::Zero(5), Eigen::VectorXd::Zero(5), 10.0);
+  const LiftSystem system = test::mechanism_alone(test::bricard_linkage(), Eigen::VectorXd::Zero(5),
+                                                  Eigen::VectorXd::Zero(5), 10.0);
   const IntegrationResult run = integrate(system, system.q_start(), system.v_start(),
                                           {.relative_tolerance = 1e-10, .sample_interval = 0.5});
   EXPECT_LT(largest_residual(run.history), 1e-12);
@@ -97,7 +97,7 @@ TEST(LoopSimulation, FourBarPassesItsTogglePosition) {
   q << M_PI / 2, -M_PI / 2, -M_PI / 2;
   v << -1, 1, -1;
   const LiftSystem system =
-      samples::mechanism_alone(samples::four_bar(1, 1, 1, 1, false, 0.0), q, v, 10.0);
+      test::mechanism_alone(test::four_bar(1, 1, 1, 1, false, 0.0), q, v, 10.0);
   const IntegrationResult run = integrate(system, q, v, {.relative_tolerance = 1e-10});
   EXPECT_LT(energy_error(run.history), 1e-7);
   EXPECT_LT(largest_residual(run.history), 1e-11);
@@ -108,7 +108,7 @@ TEST(LoopSimulation, FourBarPassesItsTogglePosition) {
 
 // A driven crank moves a four-bar: energy is what the drive has done.
 TEST(LoopSimulation, DriveAndItsWork) {
-  Mechanism mechanism = samples::four_bar(1, 3, 2, 2.5, true);
+  Mechanism mechanism = test::four_bar(1, 3, 2, 2.5, true);
   OperationBuilder operation;
   operation.add_joint_drive(mechanism, "motor", 1, 0.3);
   operation.add_move("motor", RestToRestMove(0.1, 5.0, {3.0, 6.0, 40.0}));
@@ -125,25 +125,25 @@ TEST(LoopSimulation, DriveAndItsWork) {
 
 TEST(LoopSimulation, StartIsAssembledOrRefused) {
   const Eigen::Vector3d rough(0.3, 0.5, -1.5);
-  const LiftSystem system = samples::mechanism_alone(samples::four_bar(1, 3, 2, 2.5), rough,
-                                                     Eigen::Vector3d(1, 0, 0), 0.01);
+  const LiftSystem system =
+      test::mechanism_alone(test::four_bar(1, 3, 2, 2.5), rough, Eigen::Vector3d(1, 0, 0), 0.01);
   const IntegrationResult run = integrate(system, rough, system.v_start());
   EXPECT_LT(run.history.loops[0].residual[0], 1e-12);
-  const LiftSystem open = samples::mechanism_alone(samples::four_bar(1, 1, 1, 3.5), rough,
-                                                   Eigen::Vector3d::Zero(), 0.01);
+  const LiftSystem open =
+      test::mechanism_alone(test::four_bar(1, 1, 1, 3.5), rough, Eigen::Vector3d::Zero(), 0.01);
   EXPECT_THAT([&] { integrate(open, rough, open.v_start()); },
               ::testing::ThrowsMessage<SimulationError>(HasSubstr("loop \"D\" by 0.5 m")));
 }
 
 TEST(LoopSimulation, StepsAllocateNothing) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not in this build";
-  const LiftSystem system = samples::andrews(LoopKind::revolute);
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not in this build";
+  const LiftSystem system = test::andrews(LoopKind::revolute);
   const auto count = [&](double tolerance) {
-    const long before = blocklift::testing::allocations();
+    const long before = blocklift::test::allocations();
     const IntegrationResult run =
         integrate(system, system.q_start(), system.v_start(),
                   {.relative_tolerance = tolerance, .sample_interval = 0.03});
-    return std::pair(blocklift::testing::allocations() - before, run.statistics.steps);
+    return std::pair(blocklift::test::allocations() - before, run.statistics.steps);
   };
   const auto coarse = count(1e-5);
   const auto fine = count(1e-10);
@@ -152,12 +152,12 @@ TEST(LoopSimulation, StepsAllocateNothing) {
 }
 
 TEST(LoopSimulation, NothingIsAllocatedBetweenTheFirstSampleAndTheLast) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not in this build";
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not in this build";
   for (const LoopKind kind : {LoopKind::revolute, LoopKind::point_on_line}) {
-    const LiftSystem system = samples::andrews(kind);
+    const LiftSystem system = test::andrews(kind);
     long at_first = 0, at_last = 0;
     const auto observe = [&](Eigen::Index sample, double, const LiftWorkspace&) {
-      (sample <= 1 ? at_first : at_last) = blocklift::testing::allocations();
+      (sample <= 1 ? at_first : at_last) = blocklift::test::allocations();
     };
     const IntegrationResult run =
         integrate(system, system.q_start(), system.v_start(),
@@ -186,9 +186,8 @@ double potential_beside(const Mechanism& m, Eigen::VectorXd q, double turn) {
 }
 
 TEST(LoopEquilibrium, FourBarHangsAtItsLowest) {
-  const LiftSystem system =
-      samples::mechanism_alone(samples::four_bar(1, 3, 2, 2.5), Eigen::Vector3d(0.3, 0.5, -1.5),
-                               Eigen::Vector3d::Zero(), 1.0);
+  const LiftSystem system = test::mechanism_alone(
+      test::four_bar(1, 3, 2, 2.5), Eigen::Vector3d(0.3, 0.5, -1.5), Eigen::Vector3d::Zero(), 1.0);
   EquilibriumSolver solver(system);
   Eigen::VectorXd q = system.q_start();
   solver.solve(0.0, q);
@@ -218,7 +217,7 @@ TEST(LoopEquilibrium, FourBarHangsAtItsLowest) {
 }
 
 TEST(LoopEquilibrium, HeldCrankTakesTheMomentOfTheWeights) {
-  Mechanism mechanism = samples::four_bar(1, 3, 2, 2.5, true);
+  Mechanism mechanism = test::four_bar(1, 3, 2, 2.5, true);
   OperationBuilder operation;
   operation.add_joint_drive(mechanism, "motor", 1, 0.3);
   operation.add_move("motor", RestToRestMove(0.0, 2.0, {1.0, 1.0, 10.0}));
@@ -233,7 +232,7 @@ TEST(LoopEquilibrium, HeldCrankTakesTheMomentOfTheWeights) {
   EquilibriumSolver solver(system);
   Eigen::VectorXd q = system.q_start();
   solver.solve(0.0, q);
-  const Mechanism free = samples::four_bar(1, 3, 2, 2.5);
+  const Mechanism free = test::four_bar(1, 3, 2, 2.5);
   const double moment = (potential_beside(free, q, 1e-5) - potential_beside(free, q, -1e-5)) / 2e-5;
   EXPECT_NEAR(sweep.drives[0].force[0], moment, 1e-7);
 }

@@ -38,7 +38,7 @@ void expect_same_motion(const History& part, const History& whole) {
 
 // Two cranes hoist and travel: from the beginning of the operation to the end of its second stage.
 TEST(Recording, LeavesTheRestOfATurnOverAsItIs) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   Eigen::VectorXd q = lift.q_start();
   EquilibriumSolver(lift).solve(0.0, q);
   IntegrationSettings settings;
@@ -83,7 +83,7 @@ TEST(Recording, LeavesTheRestOfATurnOverAsItIs) {
 }
 
 TEST(Recording, LeavesEquilibriaAsTheyAre) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   const Eigen::VectorXd times = sample_times(20.0, 5.0);
   const History whole = static_sweep(lift, times, lift.q_start());
   const History least =
@@ -94,7 +94,7 @@ TEST(Recording, LeavesEquilibriaAsTheyAre) {
 
 // Samples lie on the loops, whether their multipliers are found or not.
 TEST(Recording, LeavesTheMotionOfLoopsAsItIs) {
-  const LiftSystem system = samples::andrews(LoopKind::revolute);
+  const LiftSystem system = test::andrews(LoopKind::revolute);
   IntegrationSettings settings{.sample_interval = 1e-3, .works = false};
   const IntegrationResult whole = run(system, system.q_start(), settings);
   settings.recording = motion_alone;
@@ -105,7 +105,7 @@ TEST(Recording, LeavesTheMotionOfLoopsAsItIs) {
 }
 
 TEST(Recording, HasNoWorksWithoutEnergies) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   IntegrationSettings settings;
   settings.recording.energy = false;
   EXPECT_THROW(run(lift, lift.q_start(), settings), ModelError);

@@ -71,11 +71,11 @@ class LoopedAtRest {
 };
 
 LiftSystem random_system(unsigned seed, LoopKind kind) {
-  testing::Random random(seed);
-  Mechanism mechanism = samples::random_mechanism_with_loop(random, kind);
-  const Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+  examples::Random random(seed);
+  Mechanism mechanism = test::random_mechanism_with_loop(random, kind);
+  const Eigen::VectorXd q = examples::random_configuration(random, mechanism);
   const auto nv = mechanism.nv();
-  return samples::mechanism_alone(std::move(mechanism), q, Eigen::VectorXd::Zero(nv), 1.0);
+  return test::mechanism_alone(std::move(mechanism), q, Eigen::VectorXd::Zero(nv), 1.0);
 }
 
 class ReducedCoordinatesOf : public ::testing::TestWithParam<LoopKind> {};
@@ -89,7 +89,7 @@ TEST_P(ReducedCoordinatesOf, HaveExactDerivativesAwayFromTheReference) {
     const Mechanism& mechanism = lift.system().mechanism();
     const Eigen::Index n = lift.coordinates().size();
     ASSERT_GT(n, 0);
-    testing::Random random(seed + 10);
+    examples::Random random(seed + 10);
     const Eigen::VectorXd z = random.values(static_cast<int>(n), 0.1);
     const Eigen::MatrixXd stiffness = lift.stiffness(z);
     const Eigen::VectorXd q = lift.configuration(z);
@@ -116,9 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ReducedCoordinatesOf,
 
 // At the reference itself the multipliers are the least and the same forces remain.
 TEST(ReducedCoordinates, BalanceRedundantLoopsAlikeByBothWays) {
-  LoopedAtRest lift(samples::mechanism_alone(samples::four_bar(1, 3, 2, 2.5),
-                                             Eigen::Vector3d(0.3, 0.5, -1.5),
-                                             Eigen::Vector3d::Zero(), 1.0));
+  LoopedAtRest lift(test::mechanism_alone(
+      test::four_bar(1, 3, 2, 2.5), Eigen::Vector3d(0.3, 0.5, -1.5), Eigen::Vector3d::Zero(), 1.0));
   ASSERT_EQ(lift.coordinates().size(), 1);
   lift.configuration(Eigen::VectorXd::Zero(1));
   const Eigen::Vector3d force(1, -2, 0.5);
@@ -132,9 +131,9 @@ TEST(ReducedCoordinates, BalanceRedundantLoopsAlikeByBothWays) {
 
 // Short bars over a long base: turned further than they reach, refused by the loop's name.
 TEST(ReducedCoordinates, SayWhichLoopCannotBeClosedFarOff) {
-  LoopedAtRest lift(samples::mechanism_alone(samples::four_bar(1, 1, 1, 2.5),
-                                             Eigen::Vector3d(0.7, -0.7, -0.7),
-                                             Eigen::Vector3d::Zero(), 1.0));
+  LoopedAtRest lift(test::mechanism_alone(test::four_bar(1, 1, 1, 2.5),
+                                          Eigen::Vector3d(0.7, -0.7, -0.7), Eigen::Vector3d::Zero(),
+                                          1.0));
   try {
     lift.configuration(Eigen::VectorXd::Constant(1, 3.0));
     FAIL() << "closed";

@@ -92,7 +92,7 @@ TEST(LinkWithoutMass, HangsAndSwings) {
 
 // The six-rope lift from a quaternion five times as long, and of the other sign.
 TEST(Quaternion, LengthAtTheStartDoesNotMatter) {
-  const LiftSystem lift = samples::block_on_six_ropes();
+  const LiftSystem lift = examples::block_on_six_ropes();
   const IntegrationSettings settings{.relative_tolerance = 1e-5, .sample_interval = 10.0};
   Eigen::VectorXd q = lift.q_start();
   const Eigen::VectorXd reference = integrate(lift, q, lift.v_start(), settings).q_end;

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace blocklift::dynamics::samples {
+namespace blocklift::dynamics::test {
 
 namespace {
 
@@ -163,4 +163,4 @@ LiftSystem two_goliaths() {
                      .v_start = {}});
 }
 
-}  // namespace blocklift::dynamics::samples
+}  // namespace blocklift::dynamics::test

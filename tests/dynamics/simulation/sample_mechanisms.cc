@@ -1,6 +1,6 @@
 #include "tests/dynamics/simulation/sample_mechanisms.h"
 
-namespace blocklift::dynamics::samples {
+namespace blocklift::dynamics::test {
 
 LiftSystem andrews(LoopKind kind) {
   Mechanism mechanism = AndrewsSqueezer{kind}.build();
@@ -44,4 +44,4 @@ LiftSystem mechanism_alone(Mechanism mechanism, const Eigen::VectorXd& q, const 
                      .v_start = v});
 }
 
-}  // namespace blocklift::dynamics::samples
+}  // namespace blocklift::dynamics::test

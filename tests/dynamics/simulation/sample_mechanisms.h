@@ -4,7 +4,7 @@
 #include "tests/dynamics/multibody/sample_loops.h"
 
 /// Systems with loops that several tests and benchmarks share.
-namespace blocklift::dynamics::samples {
+namespace blocklift::dynamics::test {
 
 /// Andrews' squeezer with its spring and drive moment over 0.03 s, from rest.
 LiftSystem andrews(LoopKind kind);
@@ -16,4 +16,4 @@ Eigen::VectorXd andrews_q_end();
 LiftSystem mechanism_alone(Mechanism mechanism, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                            double duration);
 
-}  // namespace blocklift::dynamics::samples
+}  // namespace blocklift::dynamics::test

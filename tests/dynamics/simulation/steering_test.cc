@@ -89,7 +89,7 @@ struct LeaderAndFollower {
 
   Mechanism make() {
     MechanismBuilder builder;
-    builder.set_gravity({0, 0, -samples::g});
+    builder.set_gravity({0, 0, -examples::g});
     first = builder.add_body(
         {.name = "first", .joint = {.kind = JointKind::translational}, .mass = 10e3});
     second = builder.add_body(
@@ -168,7 +168,7 @@ TEST(Steering, LagsByTheSpeedTimesTheCorrectionTime) {
     EXPECT_LT((energy - energy[0] - (e.drive_work + e.winch_work - e.dissipated).array())
                   .abs()
                   .maxCoeff(),
-              1e-6 * 10e3 * samples::g);
+              1e-6 * 10e3 * examples::g);
   }
 }
 
@@ -217,10 +217,10 @@ TEST(Steering, IsStopped) {
 
 /// A pendulum on a rope from a trolley that is steered.
 struct Pendulum {
-  static constexpr double length = 10.0, stretch = 10e3 * samples::g * length / 400e6;  // m
-  static constexpr double correction = 8.0;                                             // s
+  static constexpr double length = 10.0, stretch = 10e3 * examples::g * length / 400e6;  // m
+  static constexpr double correction = 8.0;                                              // s
   static double period() {
-    return 2 * std::numbers::pi * std::sqrt((length + stretch) / samples::g);
+    return 2 * std::numbers::pi * std::sqrt((length + stretch) / examples::g);
   }
 
   BodyIndex trolley = -1, load = -1;
@@ -230,7 +230,7 @@ struct Pendulum {
 
   Mechanism make() {
     MechanismBuilder builder;
-    builder.set_gravity({0, 0, -samples::g});
+    builder.set_gravity({0, 0, -examples::g});
     BodyDefinition definition;
     definition.name = "trolley";
     definition.mass = 1.0;
@@ -470,7 +470,7 @@ TEST(Steering, HoldsATensionAndAShare) {
 }
 
 TEST(Steering, AllocatesNothingInTheRightHandSide) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not in this build";
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not in this build";
   LeaderAndFollower parts;
   parts.operation.add_steering("second", parts.keep_level(10.0));
   const LiftSystem lift = parts.build(60.0);
@@ -480,9 +480,9 @@ TEST(Steering, AllocatesNothingInTheRightHandSide) {
   get_state(lift, lift.q_start(), lift.v_start(), y);
   const Contacts contacts(2, 1);
   calc_right_hand_side(lift, 0.3, y, &contacts, w, ydot);
-  const long before = blocklift::testing::allocations();
+  const long before = blocklift::test::allocations();
   calc_right_hand_side(lift, 0.4, y, &contacts, w, ydot);
-  EXPECT_EQ(blocklift::testing::allocations(), before);
+  EXPECT_EQ(blocklift::test::allocations(), before);
 }
 
 TEST(Steering, RefusesWhatCannotBe) {

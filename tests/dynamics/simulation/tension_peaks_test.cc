@@ -14,7 +14,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using samples::g;
+using examples::g;
 
 template <class Function>
 std::pair<double, double> largest_of(const Function& f) {
@@ -40,7 +40,7 @@ TEST(TensionPeaks, LargestOfAPolynomialOfThirdDegree) {
 // A load that is let go by `amplitude` above its rest bears m g - k amplitude cos(omega t). It is
 // sampled where the cosine is 1, -0.005 and 0.948: at 0, 1 and 1.8 s.
 TEST(TensionPeaks, AreThoseOfAnOscillation) {
-  samples::SingleRopeLift model;
+  examples::SingleRopeLift model;
   model.duration = 1.8;
   const LiftSystem lift = model.build();
   constexpr double amplitude = 0.01;
@@ -74,7 +74,7 @@ TEST(TensionPeaks, AreThoseOfAnOscillation) {
 // Of a turn-over that is sampled every half second: what samples every 5 ms find and a little more,
 // by the same motion bit for bit, whatever is recorded of it.
 TEST(TensionPeaks, AreThoseThatFineSamplesFind) {
-  const LiftSystem lift = samples::two_goliaths();
+  const LiftSystem lift = test::two_goliaths();
   Eigen::VectorXd q = lift.q_start();
   EquilibriumSolver(lift).solve(0.0, q);
   IntegrationSettings settings{.sample_interval = 0.5};
@@ -103,7 +103,7 @@ TEST(TensionPeaks, AreThoseThatFineSamplesFind) {
 // A tension that rises in ten steps up to an instant at which the rope parts, and a history of one
 // sample and its peak.
 struct RisingTension {
-  LiftSystem lift = samples::SingleRopeLift().build();
+  LiftSystem lift = examples::SingleRopeLift().build();
   History history{lift, 2, false};
 
   explicit RisingTension(bool ends_at_corner) {
@@ -137,7 +137,7 @@ TEST(TensionPeaks, AreAtCornersToo) {
 }
 
 TEST(TensionPeaks, AreNotOfARunThatWaits) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   IntegrationSettings settings;
   settings.awaited = AwaitedCondition{.kind = AwaitedCondition::Kind::slack, .rope = 0};
   EXPECT_THROW(integrate_with_peaks(lift, lift.q_start(), lift.v_start(), settings), ModelError);

@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-using samples::g;
+using examples::g;
 
 Eigen::VectorXd at_height(double z) { return Vector3(0, 0, z); }
 
@@ -29,7 +29,7 @@ double largest_imbalance(const EnergyHistory& e) {
 
 // A load on a rope oscillates about its rest with the period 2 pi sqrt(m L / EA).
 TEST(TimeIntegration, HangingLoadOscillatesWithItsPeriod) {
-  const samples::SingleRopeLift model;
+  const examples::SingleRopeLift model;
   const LiftSystem lift = model.build();
   const double omega = std::sqrt(model.axial_stiffness / (model.length * model.mass));
   const double rest = -model.length - model.mass * g / model.stiffness();
@@ -46,7 +46,7 @@ TEST(TimeIntegration, HangingLoadOscillatesWithItsPeriod) {
 
 // T = m g (1 - cos(omega t)): the peak is twice the weight, and the rope just stays taut.
 TEST(TimeIntegration, LoadLetGoAtUnstretchedLengthPeaksAtTwiceItsWeight) {
-  const samples::SingleRopeLift model;
+  const examples::SingleRopeLift model;
   const LiftSystem lift = model.build();
   const double omega = std::sqrt(model.stiffness() / model.mass);
   const double weight = model.mass * g;
@@ -60,10 +60,10 @@ TEST(TimeIntegration, LoadLetGoAtUnstretchedLengthPeaksAtTwiceItsWeight) {
 // A hoist at the speed v that grips at once: T / (m g) = 1 + v sqrt(k / (m g^2)) at its peak.
 TEST(TimeIntegration, HoistThatGripsAtOnce) {
   constexpr double speed = 0.05;
-  samples::SingleRopeLift model;
+  examples::SingleRopeLift model;
   model.payout = -0.05;
   model.payout_start = 0.5;
-  model.limits = samples::abrupt(speed);
+  model.limits = examples::abrupt(speed);
   const LiftSystem lift = model.build();
   const double rest = -model.length - model.mass * g / model.stiffness();
   const IntegrationResult run = integrate(lift, at_height(rest), lift.v_start(),
@@ -79,7 +79,7 @@ TEST(TimeIntegration, HoistThatGripsAtOnce) {
 
 // A run that goes on from an instant of another goes on as the other did.
 TEST(TimeIntegration, GoesOnFromAnInstantOfAnotherRun) {
-  samples::SingleRopeLift model;
+  examples::SingleRopeLift model;
   model.damping_time = 5e-3;
   model.payout = -4.0;
   model.duration = 10.0;
@@ -112,7 +112,7 @@ TEST(TimeIntegration, GoesOnFromAnInstantOfAnotherRun) {
 // Thrown upwards the load flies free, falls into its rope and is thrown up again: times of the
 // changes in closed form, tan(phi / 2) = -u omega / g for the end of the taut arc phi.
 TEST(TimeIntegration, RopeGoesSlackAndTautAtItsInstants) {
-  const samples::SingleRopeLift model;
+  const examples::SingleRopeLift model;
   const LiftSystem lift = model.build();
   constexpr double u = 1.0;
   const IntegrationResult run =
@@ -134,7 +134,7 @@ TEST(TimeIntegration, RopeGoesSlackAndTautAtItsInstants) {
 // for what never comes computes it each time: changes come at the same instants, and the motion is
 // the same.
 TEST(TimeIntegration, ForeseenContactsAreThoseOfTheState) {
-  const samples::SingleRopeLift model;
+  const examples::SingleRopeLift model;
   const LiftSystem lift = model.build();
   for (const double tolerance : {1e-4, 1e-6, 1e-9}) {
     IntegrationSettings settings{.relative_tolerance = tolerance};
@@ -159,7 +159,7 @@ TEST(TimeIntegration, ForeseenContactsAreThoseOfTheState) {
 //   r'' = r theta'^2 + g cos theta - T/m,   theta'' = -(2 r' theta' + g sin theta) / r
 // integrated here by classical Runge-Kutta.
 TEST(TimeIntegration, SwingingLoadHoistedAgainstMinimalCoordinates) {
-  samples::SingleRopeLift model;
+  examples::SingleRopeLift model;
   model.damping_time = 5e-3;
   model.payout = -8.0;
   model.duration = 10.0;
@@ -242,7 +242,7 @@ TEST(TimeIntegration, ARopeThatPartsLeavesItsLoadToTheOther) {
 
 // The error follows the tolerance, and so does the balance of energy (here with slack slings).
 TEST(TimeIntegration, ErrorFollowsTheTolerance) {
-  samples::SingleRopeLift model;
+  examples::SingleRopeLift model;
   model.duration = 5.0;
   const LiftSystem lift = model.build();
   const Vector3 start(3, 0, -19.9);
@@ -261,7 +261,7 @@ TEST(TimeIntegration, ErrorFollowsTheTolerance) {
 }
 
 TEST(TimeIntegration, QuaternionsStayUnitAndSamplesAreConsistent) {
-  const LiftSystem lift = samples::block_on_six_ropes();
+  const LiftSystem lift = examples::block_on_six_ropes();
   const IntegrationResult run = integrate(lift, lift.q_start(), lift.v_start(),
                                           {.relative_tolerance = 1e-6, .sample_interval = 0.5});
   const History& history = run.history;
@@ -277,7 +277,7 @@ TEST(TimeIntegration, QuaternionsStayUnitAndSamplesAreConsistent) {
 }
 
 TEST(TimeIntegration, ReportsProgressToTheEnd) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   double fraction = 0.0;
   integrate(lift, lift.q_start(), lift.v_start(), {.progress = [&](double done, double) {
               EXPECT_GE(done, fraction);
@@ -287,7 +287,7 @@ TEST(TimeIntegration, ReportsProgressToTheEnd) {
 }
 
 TEST(TimeIntegration, FailureSaysWhenWhoAndWhatToTry) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   EXPECT_THAT(
       [&] { integrate(lift, lift.q_start(), lift.v_start(), {.largest_step_count = 5}); },
       ThrowsMessage<SimulationError>(AllOf(HasSubstr("failed at t = "), HasSubstr("slack ropes"),
@@ -297,7 +297,7 @@ TEST(TimeIntegration, FailureSaysWhenWhoAndWhatToTry) {
 // A run that comes to its end within the steps that are allowed is not stopped for its pace; one
 // that needs twice as many is.
 TEST(TimeIntegration, StepsThatDoNotSufficeEndTheRun) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   const auto run = [&](long steps) {
     return integrate(lift, lift.q_start(), lift.v_start(),
                      {.relative_tolerance = 1e-10, .largest_step_count = steps})
@@ -310,7 +310,7 @@ TEST(TimeIntegration, StepsThatDoNotSufficeEndTheRun) {
 }
 
 TEST(TimeIntegration, RefusesSettingsWithoutSense) {
-  const LiftSystem lift = samples::SingleRopeLift().build();
+  const LiftSystem lift = examples::SingleRopeLift().build();
   EXPECT_THROW(integrate(lift, lift.q_start(), lift.v_start(), {.relative_tolerance = 0.0}),
                ModelError);
   EXPECT_THROW(integrate(lift, lift.q_start(), lift.v_start(), {.sample_interval = -1.0}),

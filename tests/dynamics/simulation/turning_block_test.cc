@@ -15,7 +15,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using samples::g;
+using examples::g;
 
 /// A block that slides without turning, what turns on it, and a hook on a bearing below.
 struct TurningBlock {
@@ -200,8 +200,8 @@ TEST(TurningBlock, HookTurnsOnItsBearingBeyondTheFriction) {
 }
 
 TEST(TurningBlock, RightHandSideAllocatesNothing) {
-  using blocklift::testing::allocations;
-  if (!blocklift::testing::counts_allocations())
+  using blocklift::test::allocations;
+  if (!blocklift::test::counts_allocations())
     GTEST_SKIP() << "allocations cannot be counted in this build";
   TurningBlock block;
   block.friction = 300;

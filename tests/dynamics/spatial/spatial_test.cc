@@ -10,10 +10,10 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 
 RigidBodyInertia random_inertia(Random& random) {
-  const BodyDefinition body = testing::random_body(random, JointKind::free, "b", "world");
+  const BodyDefinition body = examples::random_body(random, JointKind::free, "b", "world");
   return {body.mass, body.p_BoBcm_B, Symmetric3::of(body.I_BBcm_B)};
 }
 

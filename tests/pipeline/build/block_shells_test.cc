@@ -23,7 +23,7 @@ structure::Mesh shells_of(const std::string& name, double largest_element) {
 TEST(BlockShells, HullOf860Tonnes) {
   const structure::Mesh mesh = shells_of("hull-860t", 2);
   structure::check_mesh(mesh);
-  structure::testing::expect_conforming(mesh);
+  structure::test::expect_conforming(mesh);
   const std::vector<int> part = structure::connected_parts(mesh);
   EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);
   EXPECT_EQ(mesh.lifting_points.size(), 6U);
@@ -37,14 +37,14 @@ TEST(BlockShells, HullOf860Tonnes) {
   const double pads = 2 * 2 * (4 * (0.050 - 0.014) + 2 * (0.050 - 0.016));
   const double lugs = (4 * 0.85 * 1.2 + 2 * 1.0 * 0.9) * 0.100;
   const double volume = decks + sides + frames + girders + stringer + pads + lugs;
-  const auto steel = structure::testing::measure(mesh);
+  const auto steel = structure::test::measure(mesh);
   EXPECT_NEAR(steel.mass, 7850 * volume, 1e-6 * steel.mass);
 
   // As solids of full thickness the plates weigh 645.6 t (rounded to 0.1 t). What crossings count
   // twice is the difference, but for the ends of the joints, where three plates meet, and the lugs'
   // feet, which stand on mid-planes here: six times up to 0.85 x 0.011 x 0.1 m of steel and what is
   // inside of thick pads.
-  const double overlap = 7850 * structure::testing::joint_overlap(mesh);
+  const double overlap = 7850 * structure::test::joint_overlap(mesh);
   EXPECT_NEAR(steel.mass - overlap, 645.6e3, 0.3e3);
   EXPECT_GT(overlap, 2e3);
 
@@ -56,7 +56,7 @@ TEST(BlockShells, HullOf860Tonnes) {
   EXPECT_LT(mesh.shells.size(), 3000U);
 
   const double weight = 9.81 * steel.mass;
-  const auto reactions = structure::samples::weigh(mesh, 2, {{{0, 0, 0}, {32, 0, 0}, {0, 20, 0}}});
+  const auto reactions = structure::test::weigh(mesh, 2, {{{0, 0, 0}, {32, 0, 0}, {0, 20, 0}}});
   EXPECT_NEAR(reactions[1], weight * steel.centre.x() / 32, 1e-5 * weight);
   EXPECT_NEAR(reactions[2], weight * steel.centre.y() / 20, 1e-5 * weight);
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], weight, 1e-5 * weight);
@@ -65,7 +65,7 @@ TEST(BlockShells, HullOf860Tonnes) {
 TEST(BlockShells, ShipOf3800Tonnes) {
   const structure::Mesh mesh = shells_of("ship-3800t", 3);
   structure::check_mesh(mesh);
-  structure::testing::expect_conforming(mesh);
+  structure::test::expect_conforming(mesh);
   EXPECT_EQ(mesh.lifting_points.size(), 8U);
   const std::vector<int> part = structure::connected_parts(mesh);
   EXPECT_EQ(*std::max_element(part.begin(), part.end()), 0);

@@ -51,7 +51,7 @@ TEST(CaseRegression, FiguresAreHeld) {
   std::cout << outcome.out;
   // 3: it ran, and the lift fails a check; then the figures below say which.
   ASSERT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
-  EXPECT_THAT(outcome.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(outcome.err, ::testing::MatchesRegex(test::only_progress));
   for (const char* file : {"results.h5", "report.html", "block-static.vtu", "block-dynamic.vtu"})
     EXPECT_TRUE(fs::exists(results_folder / file)) << file;
   const nlohmann::ordered_json summary = read_summary(results_folder / "summary.json");

@@ -53,7 +53,7 @@ class AssessCommand : public ::testing::Test {
 TEST_F(AssessCommand, WritesResultsAndSaysWhereTheReportIs) {
   const Outcome outcome = run_blocklift("assess lift");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(outcome.err, ::testing::MatchesRegex(test::only_progress));
   EXPECT_THAT(outcome.out, HasSubstr("verdict: pass\n"));
   EXPECT_THAT(outcome.out, HasSubstr("natural periods at the start: load: pendulum along "));
   EXPECT_THAT(outcome.out, HasSubstr(" Jacobians\n"));

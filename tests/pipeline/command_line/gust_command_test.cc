@@ -113,8 +113,8 @@ TEST(SlackBasketCommand, SaysThatNothingHoldsTheLoad) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(warnings_in("out"),
               ::testing::Contains(
-                  testing::AllOf(StartsWith("Nothing holds the load in the equilibrium of 0 s"),
-                                 HasSubstr("Slack there: R2."))));
+                  ::testing::AllOf(StartsWith("Nothing holds the load in the equilibrium of 0 s"),
+                                   HasSubstr("Slack there: R2."))));
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST_F(HydroCommand, ComputesOnceAndConverts) {
                                HasSubstr("natural period, s"), HasSubstr("response, m/m"),
                                HasSubstr("database: db.h5")));
   EXPECT_THAT(test::text_of_file("db.html"), AllOf(HasSubstr("<svg"), HasSubstr("retardation")));
-  EXPECT_THAT(first.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(first.err, ::testing::MatchesRegex(test::only_progress));
   const Outcome second = run("pontoon -o db.h5");
   EXPECT_EQ(second.exit_code, 0) << second.err;
   EXPECT_THAT(second.out, AllOf(HasSubstr("already computed: db.h5"), Not(HasSubstr("of memory"))));

@@ -42,7 +42,7 @@ class MeshCommand : public ::testing::Test {
 TEST_F(MeshCommand, LiftsADeckAndNamesWhatItLeavesOut) {
   const Outcome outcome = run("assess mesh-lift -o out");
   EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 3) << outcome.err;
-  EXPECT_THAT(outcome.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(outcome.err, ::testing::MatchesRegex(test::only_progress));
   EXPECT_THAT(outcome.out, HasSubstr("deck box.bdf: 199 nodes, 185 shells, 32 beams, 1 masses"));
   EXPECT_THAT(outcome.out, HasSubstr("FORCE: 0 of 1 used; left out: loads and supports"));
   EXPECT_TRUE(fs::exists("out/report.html"));
@@ -84,8 +84,8 @@ TEST_F(MeshCommand, FilesWithoutElementsAreRefused) {
                   std::string("kind: block\nmesh: {file: ") + file + ", yield_stress: 235 MPa}\n");
     const Outcome outcome = run("validate nothing.yaml");
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.err, testing::AnyOf(HasSubstr("nodes.bdf has no plates, bars or solids"),
-                                            HasSubstr("neither plates nor bars")));
+    EXPECT_THAT(outcome.err, ::testing::AnyOf(HasSubstr("nodes.bdf has no plates, bars or solids"),
+                                              HasSubstr("neither plates nor bars")));
   }
 }
 

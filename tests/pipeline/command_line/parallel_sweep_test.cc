@@ -63,9 +63,9 @@ TEST_F(ParallelSweep, GivesTheSameOnAnyNumberOfProcesses) {
   run_alone();
   const Outcome two = sweep_on_processes(2, "sweep study.yaml -o two --log two.log");
   ASSERT_EQ(two.exit_code, 0) << two.err;
-  EXPECT_THAT(two.out, testing::StartsWith("spread\n"));
+  EXPECT_THAT(two.out, ::testing::StartsWith("spread\n"));
   EXPECT_EQ(two.out.find("60 members, 0 failed"), two.out.rfind("60 members, 0 failed"));
-  EXPECT_THAT(two.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(two.err, ::testing::MatchesRegex(test::only_progress));
   ASSERT_EQ(sweep_on_processes(3, "sweep study.yaml -o three -q --workers 2").exit_code, 0);
   expect_figures_of_alone("two");
   expect_figures_of_alone("three");

@@ -76,7 +76,7 @@ TEST_F(SlurmSweep, SubmitsPartsAndAJobThatJoinsThem) {
 TEST_F(SlurmSweep, OnlyWritesWhereItIsToldToOrThereIsNoSlurm) {
   const Outcome written = run("sweep study.yaml -o out --slurm=write");
   ASSERT_EQ(written.exit_code, 0) << written.err;
-  EXPECT_THAT(written.out, testing::ContainsRegex("submits 7[ \n]+parts"));
+  EXPECT_THAT(written.out, ::testing::ContainsRegex("submits 7[ \n]+parts"));
   EXPECT_FALSE(fs::exists("bin/calls"));
   EXPECT_FALSE(fs::exists("it's here/out/members"));
   EXPECT_TRUE(fs::exists("it's here/out/slurm/submit.sh"));

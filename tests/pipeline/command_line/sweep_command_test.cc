@@ -59,7 +59,7 @@ class SweepCommand : public ::testing::Test {
 TEST_F(SweepCommand, LoadsAtRestSpreadAsTheWeight) {
   const Outcome outcome = run("sweep study.yaml -o out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(outcome.err, ::testing::MatchesRegex(test::only_progress));
   EXPECT_THAT(outcome.out, HasSubstr("24 members, 0 failed\n"));
   const auto tension = figure("out", "ropes.R1.max_static_tension_N");
   const double share = tension["deviation"].get<double>() / tension["mean"].get<double>();
@@ -239,8 +239,8 @@ TEST_F(SweepCommand, SaysOneThingOfOneImpossibleValue) {
     const Outcome outcome = run("sweep study.yaml -o out");
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err,
-                testing::ContainsRegex("study.yaml:[46]:[0-9]+: error: a member of the "
-                                       "study is impossible: w = -[0-9]+ kg\n    "));
+                ::testing::ContainsRegex("study.yaml:[46]:[0-9]+: error: a member of the "
+                                         "study is impossible: w = -[0-9]+ kg\n    "));
     EXPECT_THAT(outcome.err, HasSubstr("must be greater than 0"));
     EXPECT_THAT(outcome.err, HasSubstr("\n1 error\n"));
     EXPECT_FALSE(fs::exists("out"));
@@ -284,7 +284,8 @@ TEST_F(SweepCommand, FailsWhereTooManyMembersDo) {
   EXPECT_EQ(half.exit_code, 1);
   EXPECT_THAT(half.out, HasSubstr("6 members, 3 failed\n"));
   EXPECT_THAT(half.out, HasSubstr("warning: 3 of 6 members failed"));
-  EXPECT_THAT(half.out, testing::ContainsRegex("warning: member [0-5] failed: stage \"set down\""));
+  EXPECT_THAT(half.out,
+              ::testing::ContainsRegex("warning: member [0-5] failed: stage \"set down\""));
   for (const char* file :
        {"study.csv", "study.h5", "study.json", "study.html", "worst/report.html"})
     EXPECT_TRUE(fs::is_regular_file(fs::path("half") / file)) << file;
@@ -352,7 +353,7 @@ TEST_F(SweepCommand, FindsLimitsOnAGrid) {
   write_study(seas + limits);
   const Outcome outcome = run("sweep study.yaml -o out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, testing::ContainsRegex("\n1 +3\\.00\n2 +3\\.00\n"));
+  EXPECT_THAT(outcome.out, ::testing::ContainsRegex("\n1 +3\\.00\n2 +3\\.00\n"));
   EXPECT_THAT(outcome.out, HasSubstr("scatter table: 50.0 % is workable with alpha 1; 20.0 % has"));
   EXPECT_THAT(outcome.out, HasSubstr("the last window reaches the end of the forecast, 9 h"));
   const auto json = nlohmann::json::parse(text_of_file("out/study.json"));
@@ -471,7 +472,7 @@ TEST_F(SweepCommand, FindsTheStiffnessThatFitsAMeasurement) {
   std::ifstream table("softer/results.csv");
   std::string line, record = "time,tension\n";
   std::getline(table, line);
-  ASSERT_THAT(line, testing::StartsWith("time [s],C1.left.tension [N],C1.right.tension [N],R1."));
+  ASSERT_THAT(line, ::testing::StartsWith("time [s],C1.left.tension [N],C1.right.tension [N],R1."));
   while (std::getline(table, line)) {
     std::size_t begin = 0;
     for (int column = 0; column < 3; ++column) begin = line.find(',', begin) + 1;
@@ -489,7 +490,7 @@ TEST_F(SweepCommand, FindsTheStiffnessThatFitsAMeasurement) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto summary = nlohmann::json::parse(text_of_file("out/best/summary.json"));
   EXPECT_LT(summary["comparison"]["series"][0]["mean_difference_percent"].get<double>(), 0.01);
-  EXPECT_THAT(outcome.out, testing::ContainsRegex("k +1\\.[78][0-9]*e\\+07"));
+  EXPECT_THAT(outcome.out, ::testing::ContainsRegex("k +1\\.[78][0-9]*e\\+07"));
 }
 
 TEST_F(SweepCommand, SaysWhatIsWrongWithASearch) {

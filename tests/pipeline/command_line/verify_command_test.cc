@@ -32,7 +32,7 @@ class VerifyCommand : public ::testing::Test {
 TEST_F(VerifyCommand, PrintsALineForEachFigure) {
   const Outcome outcome = run("--only open-chains");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, testing::MatchesRegex(test::only_progress));
+  EXPECT_THAT(outcome.err, ::testing::MatchesRegex(test::only_progress));
   EXPECT_THAT(outcome.out, HasSubstr("reference"));
   EXPECT_THAT(outcome.out, HasSubstr("open-chains"));
   EXPECT_THAT(outcome.out, HasSubstr("-4.905"));

@@ -74,7 +74,7 @@ TEST(ShellPressure, RegionsTogetherFeelTheForceThatMovesTheHull) {
   const ShellPressure pressure(box_hull(4), shell);
   Eigen::VectorXd wrenches(static_cast<Eigen::Index>(6 * shell.regions().size()));
   const WaveField still(deep), wavy(deep, {{0.5, 0.9, 0.7, 0.2}, {0.2, 1.4, -0.5, 1}});
-  dynamics::testing::OneBody body;
+  dynamics::test::OneBody body;
   for (const WaveField& waves : {still, wavy}) {
     const HullForce hull = hull_force(box_hull(4), waves);
     const double rho_g = deep.density * deep.gravity, most = rho_g * size.prod();
@@ -172,7 +172,7 @@ dynamics::LiftSystem box_in_waves() {
   dynamics::ForceElements elements;
   std::get<std::vector<HullForce>>(elements).push_back(
       hull_force(box_hull(4), WaveField(deep, {{0.3, 0.9, 0.7, 0}})));
-  const dynamics::Mechanism mechanism = dynamics::testing::OneBody::make();
+  const dynamics::Mechanism mechanism = dynamics::test::OneBody::make();
   return dynamics::LiftSystem({.mechanism = mechanism,
                                .elements = std::move(elements),
                                .operation = dynamics::OperationBuilder().build(1.0),
@@ -222,7 +222,7 @@ TEST(ShellPressure, FewFieldsMakeUpThePressureOfEveryInstant) {
   EXPECT_GT(finer->count(), basis->count());
 
   // Their resultant is the force of the hull to within the error.
-  dynamics::testing::OneBody body;
+  dynamics::test::OneBody body;
   double largest = 0, worst = 0;
   for (Eigen::Index k = 0; k < in_motion.sample_count(); ++k) {
     const Pose X_WB = in_motion.bodies[0].X_WB(k);

@@ -59,7 +59,7 @@ std::string complaint_about(const char* text) {
 
 TEST(FileKind, WhatAFileWithoutItsKindWasMeantToBeIsSaidOnce) {
   const TemporaryFolder temporary;
-  using testing::HasSubstr;
+  using ::testing::HasSubstr;
   EXPECT_THAT(complaint_about("mesh: {file: a.bdf, units: mm-t-N}\nlugs: {L1: {node: 1}}\n"),
               HasSubstr("file.yaml:1:1: error: this is a block by its keys, and does not say so\n"
                         "    begin the file with \"kind: block\"\n1 error"));
@@ -67,8 +67,8 @@ TEST(FileKind, WhatAFileWithoutItsKindWasMeantToBeIsSaidOnce) {
   EXPECT_THAT(complaint_about("mesh: {file: a.step}\nsupports: {}\nloads: {}\n"),
               HasSubstr("begin the file with \"part: NAME\""));
   EXPECT_THAT(complaint_about("title: a deck\nkind: blok\n"),
-              testing::AllOf(HasSubstr("file.yaml:2:7: error: kind \"blok\" is not known"),
-                             HasSubstr("did you mean \"block\"?")));
+              ::testing::AllOf(HasSubstr("file.yaml:2:7: error: kind \"blok\" is not known"),
+                               HasSubstr("did you mean \"block\"?")));
 }
 
 TEST(FileKind, FilesThatSayWhatTheyAreOrTellNothingAreLeftToTheirReaders) {

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using test::SampleLift;
 using test::TemporaryFolder;
 using test::with;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// While it lives files outside are allowed.
 struct Allowed {
@@ -56,8 +56,8 @@ TEST(NamedFile, LeadsIntoItsFolderOrIsRefusedWithItsPlace) {
                                  "/", "..", "up/not-there.csv"})
     EXPECT_THAT(
         said_of(name),
-        testing::AllOf(HasSubstr("inside/case.yaml:3:7: error: \"" + name + "\" leads outside"),
-                       HasSubstr("--allow-outside"), HasSubstr("BLOCKLIFT_ALLOW_OUTSIDE=1")));
+        ::testing::AllOf(HasSubstr("inside/case.yaml:3:7: error: \"" + name + "\" leads outside"),
+                         HasSubstr("--allow-outside"), HasSubstr("BLOCKLIFT_ALLOW_OUTSIDE=1")));
   const Allowed allowed;
   EXPECT_EQ(said_of("../outside.csv"), "");
   EXPECT_EQ(said_of("/etc/hostname"), "");

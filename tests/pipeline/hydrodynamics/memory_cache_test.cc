@@ -203,7 +203,7 @@ TEST(RadiationCache, WhatIsComputedHasItsConventions) {
   dynamics::HydrodynamicDatabase database = find_radiation(problem, {}).series->databases.front();
   database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(6, 6);
   database.hydrostatic_stiffness(2, 2) = database.water.density * database.water.gravity * 8 * 4;
-  EXPECT_THAT(doubts_about_conventions(database), testing::IsEmpty());
+  EXPECT_THAT(doubts_about_conventions(database), ::testing::IsEmpty());
   dynamics::HydrodynamicDatabase spoilt = database;
   for (auto* forces : {&spoilt.froude_krylov, &spoilt.diffraction})
     for (Eigen::MatrixXcd& X : *forces) X = Eigen::MatrixXcd(-X);

@@ -21,8 +21,8 @@ namespace blocklift::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::shared_ptr<const BlockModel> read_block(const fs::path& file, std::string& complaints) {
   ModelLibrary library({});
@@ -295,7 +295,7 @@ std::string mechanism_of(const test::TemporaryFolder& folder, const std::string&
 TEST(BlockMesh, AMechanismIsWrongInputAndSaysWhatHeldItInTheDeck) {
   const test::TemporaryFolder folder;
   const std::string nothing = mechanism_of(folder, "");
-  EXPECT_THAT(nothing, testing::StartsWith("block.yaml:"));
+  EXPECT_THAT(nothing, ::testing::StartsWith("block.yaml:"));
   EXPECT_THAT(nothing, HasSubstr("the block is a mechanism: a part of it can move"));
   // The edge away from the hinges moves most; what the box stands on has nothing to do with it.
   EXPECT_THAT(nothing, HasSubstr(", -0.4, 0) m, displacement along z)"));
@@ -317,7 +317,7 @@ TEST(BlockMesh, WhatIsWrongIsSaidWithFileAndLine) {
   say(mesh, "CQUAD4,1,1,1,2,3,4", "CQUAD4,1,1,1,7777,3,4",
       ": error: CQUAD4: CQUAD4 1 names grid 7777");
   say(mesh, "PLOTEL,", "WRONG,", ": error: the card WRONG is not known here");
-  EXPECT_THAT(complaints_after(mesh, "PLOTEL,", "WRONG,"), testing::StartsWith("box.bdf:"));
+  EXPECT_THAT(complaints_after(mesh, "PLOTEL,", "WRONG,"), ::testing::StartsWith("box.bdf:"));
   const auto without = [](const std::string& cards) {
     return "mesh: {file: box.bdf, units: mm-t-N, yield_stress: 355 MPa, leave_out: [" + cards +
            "]}\nlugs: {L1: {node: 9001}}\n";

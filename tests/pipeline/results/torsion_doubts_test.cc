@@ -17,7 +17,7 @@
 namespace blocklift::pipeline {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A beam of 4 m along x, lifted at arms of 1 m to either side at its ends, so that the ropes twist
 /// it.

@@ -65,7 +65,7 @@ TEST(Search, FindsTheBottomOfABowl) {
   EXPECT_NEAR(found.design(found.best, 1), -0.2, 0.01);
   ASSERT_TRUE(found.elsewhere.has_value());
   EXPECT_NEAR(*found.elsewhere, 0, 1e-3);
-  EXPECT_THAT(found.at_edge, testing::ElementsAre(0, 0));
+  EXPECT_THAT(found.at_edge, ::testing::ElementsAre(0, 0));
   // Each set of values is tried once, and all are kept.
   ASSERT_EQ(static_cast<std::size_t>(found.design.rows()), found.members.size());
   for (Eigen::Index a = 0; a < found.design.rows(); ++a)
@@ -115,7 +115,7 @@ TEST(Search, EndsAtEdgesAndSaysWhatCannotBe) {
   study.maximise = Located<std::string>{"sum", {}};
   const SearchResults corner = search(study, bowl);
   EXPECT_NEAR(corner.value, 2, 0.01);
-  EXPECT_THAT(corner.at_edge, testing::ElementsAre(1, 1));
+  EXPECT_THAT(corner.at_edge, ::testing::ElementsAre(1, 1));
   study.subject_to = {at_least("sum", 3)};
   const SearchResults none = search(study, bowl);
   EXPECT_FALSE(none.is_feasible);

@@ -22,11 +22,11 @@ namespace {
 // linear in place, so that the mean over a square is the value in its middle.
 struct MovedPlate {
   MovedPlate(int m, int n)
-      : model(testing::sheet_mesh(
+      : model(examples::sheet_mesh(
                   [](double x, double y) -> Vector3 {
                     return {3 * x, 2 * y, 0};
                   },
-                  m, n, 0.02, testing::plain_steel()),
+                  m, n, 0.02, examples::plain_steel()),
               {2, {}}),
         motion(Eigen::VectorXd::Zero(model.freedoms())) {
     for (int node = 0; node < model.space().node_count(); ++node) {
@@ -35,7 +35,7 @@ struct MovedPlate {
     }
   }
   static double von_mises_at(const Vector3& p) {
-    const Material material = testing::plain_steel();
+    const Material material = examples::plain_steel();
     const double e_11 = 1e-4 * p.y(), e_22 = 1e-4 * p.y(), g_12 = 1e-4 * p.x(),
                  nu = material.poisson_ratio, plane = material.youngs_modulus / (1 - nu * nu),
                  s_11 = plane * (e_11 + nu * e_22), s_22 = plane * (e_22 + nu * e_11),
@@ -85,7 +85,7 @@ std::unique_ptr<ElasticModel> model_of(const BlockDescription& block, int degree
 }
 
 CheckedAccuracy refined(double largest_element, double change) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.largest_element = largest_element;
   auto model = model_of(block, 3);
   auto responses = std::make_unique<UnitResponses>(*model);
@@ -107,7 +107,7 @@ TEST(CheckedAccuracy, EndsAtTheSameStressFromAnyMesh) {
 }
 
 TEST(CheckedAccuracy, EndsAtTheCostThatIsAllowed) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   auto model = model_of(block, 2);
   auto responses = std::make_unique<UnitResponses>(*model);
   const RefinedBlock result =

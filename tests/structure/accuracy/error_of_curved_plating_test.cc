@@ -20,27 +20,27 @@ double error_of_ring(int degree, int order, int elements, bool is_whole) {
   using std::numbers::pi;
   const double turn = is_whole ? 2 * pi : pi / 2;
   const ElasticModel model(
-      testing::sheet_mesh(
+      examples::sheet_mesh(
           [=](double x, double y) -> Vector3 {
             return {ring_radius * std::cos(turn * x), ring_width * y,
                     ring_radius * std::sin(turn * x)};
           },
-          is_whole ? elements : elements / 4, 1, 0.02, testing::plain_steel(), order),
+          is_whole ? elements : elements / 4, 1, 0.02, examples::plain_steel(), order),
       {degree, {}});
   const Space& space = model.space();
   const auto is_on_plane = [](int component) {
     return [=](const Vector3& place) { return std::abs(place[component]) < 1e-6; };
   };
   std::vector<FixedUnknown> fixed;
-  testing::hold(space, is_on_plane(0), {0, 4, 5}, fixed);
-  testing::hold(space, is_on_plane(2), {2, 3, 4}, fixed);
-  testing::hold(space, is_on_plane(1), {1}, fixed);
+  examples::hold(space, is_on_plane(0), {0, 4, 5}, fixed);
+  examples::hold(space, is_on_plane(2), {2, 3, 4}, fixed);
+  examples::hold(space, is_on_plane(1), {1}, fixed);
   const double share = is_whole ? 1 : 0.5;
   const Eigen::VectorXd load =
-      testing::edge_load(space, is_on_plane(0), [&](const Vector3& place) -> Vector3 {
+      examples::edge_load(space, is_on_plane(0), [&](const Vector3& place) -> Vector3 {
         return {0, 0, -std::copysign(share * ring_force / ring_width, place.z())};
       });
-  return estimate_block_error(model, testing::solve(space, load, fixed)).relative;
+  return estimate_block_error(model, examples::solve(space, load, fixed)).relative;
 }
 
 // Flat facets that meet at 22.5 degrees are the same elements of degree 1 as those of curved

@@ -58,10 +58,10 @@ void expect_brute_force(const Eigen::MatrixXd& units, const Eigen::MatrixXd& fac
 }
 
 TEST(Envelope, EqualsBruteForceForALiftAndForNoise) {
-  const Eigen::MatrixXd units = testing::random_responses(6 * 150, 30, 1);
-  expect_brute_force(units, testing::lift_like_history(30, 700, 2));
-  expect_brute_force(units, testing::noise_history(30, 333, 3));
-  expect_brute_force(units.leftCols(3), testing::noise_history(3, 100, 4));
+  const Eigen::MatrixXd units = test::random_responses(6 * 150, 30, 1);
+  expect_brute_force(units, test::lift_like_history(30, 700, 2));
+  expect_brute_force(units, test::noise_history(30, 333, 3));
+  expect_brute_force(units.leftCols(3), test::noise_history(3, 100, 4));
 }
 
 // Equal principal stresses are where closed forms lose digits: uniaxial, equibiaxial, hydrostatic
@@ -80,8 +80,8 @@ TEST(Envelope, HoldsWherePrincipalStressesCoincide) {
 }
 
 TEST(Envelope, ShortAndConstantHistoriesAreOnes) {
-  const Eigen::MatrixXd units = testing::random_responses(6 * 20, 4, 5);
-  expect_brute_force(units, testing::noise_history(4, 1, 6));
+  const Eigen::MatrixXd units = test::random_responses(6 * 20, 4, 5);
+  expect_brute_force(units, test::noise_history(4, 1, 6));
   expect_brute_force(units, Eigen::MatrixXd::Ones(4, 70));
   expect_brute_force(units, Eigen::MatrixXd::Zero(4, 3));
   // Of equal values the earliest instant is named.
@@ -95,7 +95,7 @@ TEST(Envelope, ShortAndConstantHistoriesAreOnes) {
 // Every instant lies in the box of its cluster and in that of its pack, and in one cluster alone.
 TEST(LoadHistory, BoxesHoldTheirInstants) {
   for (const int instants : {1, 33, 512, 513, 1100, 9000}) {
-    const Eigen::MatrixXd factors = testing::lift_like_history(7, instants, 21);
+    const Eigen::MatrixXd factors = test::lift_like_history(7, instants, 21);
     const LoadHistory history(factors, Eigen::VectorXd::Ones(7));
     std::vector<int> found(static_cast<std::size_t>(instants), 0);
     const auto holds = [&](const LoadBoxes& boxes, int box, int k, double y) {
@@ -119,15 +119,15 @@ TEST(LoadHistory, BoxesHoldTheirInstants) {
 // Stress of all kinds over more instants than a pack of clusters holds: in space, in a plane, along
 // a bar, none at all, and a shear beside a pressure that is far larger.
 TEST(Envelope, PacksOfClustersLeaveNothingOut) {
-  Eigen::MatrixXd units = testing::random_responses(6 * 60, 8, 22);
+  Eigen::MatrixXd units = test::random_responses(6 * 60, 8, 22);
   for (int p = 10; p < 40; ++p) units.middleRows<2>(6 * p + 4).setZero();
   for (int p = 20; p < 40; ++p) units.row(6 * p + 2).setZero();
   for (int p = 30; p < 40; ++p) units.middleRows<5>(6 * p + 1).setZero();
   for (int p = 40; p < 50; ++p) units.middleRows<6>(6 * p).setZero();
   for (int p = 50; p < 60; ++p)
     units.middleRows<3>(6 * p) = Eigen::Vector3d::Constant(1e9) * units.row(6 * p);
-  expect_brute_force(units, testing::lift_like_history(8, 9000, 23));
-  expect_brute_force(units, testing::noise_history(8, 1300, 24));
+  expect_brute_force(units, test::lift_like_history(8, 9000, 23));
+  expect_brute_force(units, test::noise_history(8, 1300, 24));
   expect_brute_force(units, Eigen::MatrixXd::Zero(8, 1300));
   expect_brute_force(units, Eigen::MatrixXd::Ones(8, 1300));
 }
@@ -135,20 +135,20 @@ TEST(Envelope, PacksOfClustersLeaveNothingOut) {
 // More coordinates than those that most clusters are passed over by, of which the others matter
 // little, a little, and as much as these.
 TEST(Envelope, LaterCoordinatesAreNotForgotten) {
-  Eigen::MatrixXd units = testing::random_responses(6 * 40, 29, 41);
+  Eigen::MatrixXd units = test::random_responses(6 * 40, 29, 41);
   for (int p = 20; p < 40; ++p) units.middleRows<2>(6 * p + 4).setZero();
   for (const double last : {1e-4, 0.1, 1.0}) {
     const Eigen::VectorXd sizes =
         Eigen::VectorXd::LinSpaced(29, 0, 1).unaryExpr([&](double x) { return std::pow(last, x); });
-    expect_brute_force(units, sizes.asDiagonal() * testing::lift_like_history(29, 9000, 42));
-    expect_brute_force(units, sizes.asDiagonal() * testing::noise_history(29, 1300, 43));
+    expect_brute_force(units, sizes.asDiagonal() * test::lift_like_history(29, 9000, 42));
+    expect_brute_force(units, sizes.asDiagonal() * test::noise_history(29, 1300, 43));
   }
 }
 
 // What points before have found is where a point is looked at first, and changes nothing.
 TEST(Envelope, PointsAloneHaveTheSameExtremesAsTogether) {
-  const Eigen::MatrixXd units = testing::random_responses(6 * 60, 8, 25);
-  const LoadHistory history(testing::lift_like_history(8, 2500, 26), Eigen::VectorXd::Ones(8));
+  const Eigen::MatrixXd units = test::random_responses(6 * 60, 8, 25);
+  const LoadHistory history(test::lift_like_history(8, 2500, 26), Eigen::VectorXd::Ones(8));
   const PointExtremes together = find_von_mises_envelope(
       history, 60, [&](int first, int count) { return units.middleRows(6 * first, 6 * count); }, 1);
   for (int p = 0; p < 60; ++p) {
@@ -167,7 +167,7 @@ TEST(Envelope, OfEqualsTheEarliestIsNamed) {
   for (int t = 0; t < 3000; ++t) factors(0, t) = (t * 37 + 5) % 41 - 20;
   Eigen::Index earliest = 0;
   factors.cwiseAbs().row(0).maxCoeff(&earliest);
-  Eigen::MatrixXd units = testing::random_responses(6 * 40, 1, 27);
+  Eigen::MatrixXd units = test::random_responses(6 * 40, 1, 27);
   units.bottomRows(6).setZero();
   const LoadHistory history(factors, Eigen::VectorXd::Ones(1));
   const PointExtremes each = find_von_mises_envelope(
@@ -179,8 +179,8 @@ TEST(Envelope, OfEqualsTheEarliestIsNamed) {
 
 // Extremes over sets of points are those of the points' own envelopes.
 TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
-  const Eigen::MatrixXd units = testing::random_responses(6 * 400, 12, 13);
-  const Eigen::MatrixXd factors = testing::lift_like_history(12, 1400, 14);
+  const Eigen::MatrixXd units = test::random_responses(6 * 400, 12, 13);
+  const Eigen::MatrixXd factors = test::lift_like_history(12, 1400, 14);
   const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
   const auto responses = [&](int first, int count) {
     return units.middleRows(6 * first, 6 * count);
@@ -206,13 +206,13 @@ TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
 
 // Stress in a plane has three components: the others are nil.
 TEST(Envelope, LargestInPlaneIsThatOfAllComponents) {
-  const Eigen::MatrixXd in_plane = testing::random_responses(3 * 300, 12, 15);
+  const Eigen::MatrixXd in_plane = test::random_responses(3 * 300, 12, 15);
   Eigen::MatrixXd units = Eigen::MatrixXd::Zero(6 * 300, 12);
   for (int p = 0; p < 300; ++p) {
     units.middleRows<2>(6 * p) = in_plane.middleRows<2>(3 * p);
     units.row(6 * p + 3) = in_plane.row(3 * p + 2);
   }
-  const Eigen::MatrixXd factors = testing::lift_like_history(12, 400, 16);
+  const Eigen::MatrixXd factors = test::lift_like_history(12, 400, 16);
   const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
   const PointExtremes each = find_von_mises_envelope(
       history, 300, [&](int first, int count) { return units.middleRows(6 * first, 6 * count); },
@@ -227,10 +227,10 @@ TEST(Envelope, LargestInPlaneIsThatOfAllComponents) {
 }
 
 TEST(Envelope, LargestDisplacementEqualsBruteForce) {
-  const Eigen::MatrixXd units = testing::random_responses(3 * 400, 30, 7);
+  const Eigen::MatrixXd units = test::random_responses(3 * 400, 30, 7);
   for (const bool comes_back : {true, false}) {
     const Eigen::MatrixXd factors =
-        comes_back ? testing::lift_like_history(30, 500, 8) : testing::noise_history(30, 333, 8);
+        comes_back ? test::lift_like_history(30, 500, 8) : test::noise_history(30, 333, 8);
     const LoadHistory history(factors, Eigen::VectorXd::Ones(30));
     const LargestValue moved = find_largest_displacement(
         history, 400, [&](int first, int count) { return units.middleRows(3 * first, 3 * count); },
@@ -248,8 +248,8 @@ TEST(Envelope, LargestDisplacementEqualsBruteForce) {
 
 // Of runs of points, each with what is known of it: that of its points, or what is known.
 TEST(Envelope, LargestOfRunsAreThoseOfTheirPoints) {
-  const Eigen::MatrixXd units = testing::random_responses(6 * 90, 12, 15);
-  const Eigen::MatrixXd factors = testing::lift_like_history(12, 2500, 16);
+  const Eigen::MatrixXd units = test::random_responses(6 * 90, 12, 15);
+  const Eigen::MatrixXd factors = test::lift_like_history(12, 2500, 16);
   const LoadHistory history(factors, Eigen::VectorXd::Ones(12));
   const auto responses = [&](int first, int count) {
     return units.middleRows(6 * first, 6 * count);
@@ -271,9 +271,9 @@ TEST(Envelope, LargestOfRunsAreThoseOfTheirPoints) {
 
 // What is known changes what is searched, and nothing of what is found.
 TEST(Envelope, LeadingPointsAreThoseThatComeToAShareOfTheLargest) {
-  const Eigen::MatrixXd units = testing::random_responses(6 * 300, 12, 31) *
+  const Eigen::MatrixXd units = test::random_responses(6 * 300, 12, 31) *
                                 Eigen::VectorXd::LinSpaced(12, 2, 0.01).asDiagonal();
-  const LoadHistory history(testing::lift_like_history(12, 2500, 32), Eigen::VectorXd::Ones(12));
+  const LoadHistory history(test::lift_like_history(12, 2500, 32), Eigen::VectorXd::Ones(12));
   const auto responses = [&](int first, int count) {
     return units.middleRows(6 * first, 6 * count);
   };
@@ -289,9 +289,9 @@ TEST(Envelope, LeadingPointsAreThoseThatComeToAShareOfTheLargest) {
 }
 
 TEST(Envelope, WhatIsNotANumberIsRefused) {
-  Eigen::MatrixXd factors = testing::noise_history(3, 5, 9);
+  Eigen::MatrixXd factors = test::noise_history(3, 5, 9);
   const LoadHistory history(factors, Eigen::VectorXd::Ones(3));
-  Eigen::MatrixXd units = testing::random_responses(6, 3, 10);
+  Eigen::MatrixXd units = test::random_responses(6, 3, 10);
   units(2, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(find_stress_envelope(history, 1, [&](int, int) { return units; }), ModelError);
   EXPECT_THROW(find_stress_envelope(history, 2, [&](int, int) { return units; }), ModelError);
@@ -301,8 +301,8 @@ TEST(Envelope, WhatIsNotANumberIsRefused) {
 }
 
 TEST(StressShares, SumToOneAndLeaveOutPressure) {
-  const Eigen::MatrixXd unit = testing::random_responses(6, 5, 11);
-  const Eigen::VectorXd whole = testing::noise_history(5, 1, 12);
+  const Eigen::MatrixXd unit = test::random_responses(6, 5, 11);
+  const Eigen::VectorXd whole = test::noise_history(5, 1, 12);
   Eigen::MatrixXd parts = Eigen::MatrixXd::Zero(5, 2);
   parts.col(0).head<2>() = whole.head<2>();
   parts.col(1).tail<3>() = whole.tail<3>();
@@ -320,7 +320,7 @@ TEST(StressShares, SumToOneAndLeaveOutPressure) {
 // The small block: the envelope over a short history is the largest of its instants, evaluated one
 // by one by the stress recovery, everywhere that both report.
 TEST(BlockEnvelope, IsTheLargestOfAllInstants) {
-  const ElasticModel model(testing::make_elastic_model(testing::small_block(), 2));
+  const ElasticModel model(test::make_elastic_model(test::small_block(), 2));
   const UnitResponses responses(model);
   const StressRecovery recovery(responses);
   std::vector<LoadCase> instants;

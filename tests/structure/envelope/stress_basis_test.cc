@@ -34,7 +34,7 @@ LoadCase spun_lift(const ElasticModel& model) {
 class OtherMass : public ::testing::Test {
  protected:
   OtherMass()
-      : block_(testing::small_block()),
+      : block_(test::small_block()),
         model_(generate_shell_mesh(block_), {2, {}}, block_.total_mass, block_.centre_of_mass_B),
         responses_(model_),
         other_mass_(1.07 * model_.mass_properties().mass),

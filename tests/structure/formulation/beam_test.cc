@@ -33,7 +33,7 @@ BeamSection sample_section() {
 // A line of beams along x, then along what comes next.
 Mesh line_of_beams(const BeamSection& section, const std::vector<Vector3>& vertices,
                    const Vector3& axis_2 = Vector3::UnitY()) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   mesh.beam_sections = {section};
   mesh.vertices = vertices;
   for (int v = 0; v + 1 < static_cast<int>(vertices.size()); ++v) {
@@ -47,7 +47,7 @@ Mesh line_of_beams(const BeamSection& section, const std::vector<Vector3>& verti
 }
 
 void clamp(const Space& space, const Vector3& place, std::vector<FixedUnknown>& fixed) {
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& x) { return (x - place).norm() < 1e-9; }, {0, 1, 2, 3, 4, 5},
       fixed);
 }
@@ -61,7 +61,7 @@ Eigen::Matrix<double, 6, 1> tip_motion(const Mesh& mesh, int degree,
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
   const int tip = space.node_of_vertex(static_cast<int>(mesh.vertices.size()) - 1);
   loads.segment<6>(6 * tip) = load;
-  return testing::solve(space, loads, fixed).segment<6>(6 * tip);
+  return examples::solve(space, loads, fixed).segment<6>(6 * tip);
 }
 
 Eigen::Matrix<double, 6, 1> unit(int c, double value) {
@@ -93,8 +93,8 @@ TEST(Beam, TaperedBar) {
     Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
     const int tip = space.node_of_vertex(cells);
     loads[6 * tip] = force;
-    const Eigen::VectorXd motion = testing::solve(space, loads, fixed);
-    const double modulus = testing::plain_steel().youngs_modulus;
+    const Eigen::VectorXd motion = examples::solve(space, loads, fixed);
+    const double modulus = examples::plain_steel().youngs_modulus;
     const double exact = force * length / (modulus * narrow * area) * std::log(1 / (1 - narrow));
     EXPECT_NEAR(motion[6 * tip], exact, (cells == 1 ? 5e-5 : 2e-6) * exact);
     for (const double xi : {0.0, 0.3, 1.0}) {
@@ -109,7 +109,7 @@ TEST(Beam, TaperedBar) {
 // degree, as the reduced rule makes quadratic elements. Axis 1 = x, 2 = y, 3 = z.
 TEST(Beam, TimoshenkosCantilever) {
   const BeamSection s = sample_section();
-  const Material m = testing::plain_steel();
+  const Material m = examples::plain_steel();
   const double e = m.youngs_modulus, g = m.shear_modulus();
   for (int degree = 1; degree <= 4; ++degree) {
     const Mesh mesh = line_of_beams(s, {{0, 0, 0}, {1, 0, 0}, {length, 0, 0}});
@@ -142,8 +142,8 @@ TEST(Beam, AQuarterOfARingAlongCurvedEdges) {
     return Vector3(std::cos(angle), std::sin(angle), z);
   };
   for (const auto& [inwards, tolerance] : {std::pair(0.0, 3e-4), std::pair(0.1, 8e-3)}) {
-    Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
-    mesh.materials.push_back(testing::plain_steel());
+    Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
+    mesh.materials.push_back(examples::plain_steel());
     mesh.materials.back().youngs_modulus *= 1e-9;
     mesh.shell_sections[0].material = 1;
     mesh.beam_sections = {sample_section()};
@@ -183,12 +183,12 @@ TEST(Beam, AQuarterOfARingAlongCurvedEdges) {
     const int tip = space.node_of_vertex(2 * count + 1);
     loads[6 * tip + 1] = force;
     const BeamSection s = sample_section();
-    const Material m = testing::plain_steel();
+    const Material m = examples::plain_steel();
     const double e = m.youngs_modulus, r = 1 - inwards;
     const double expected = std::numbers::pi / 4 * force * r *
                             (r * r / (e * s.second_moment_2) + 1 / (e * s.area) +
                              1 / (m.shear_modulus() * s.shear_area_3));
-    EXPECT_NEAR(testing::solve(space, loads, fixed)[6 * tip + 1], expected, tolerance * expected);
+    EXPECT_NEAR(examples::solve(space, loads, fixed)[6 * tip + 1], expected, tolerance * expected);
   }
 }
 
@@ -206,7 +206,7 @@ TEST(Beam, ForcesAcrossAreThoseOfStatics) {
       Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
       const int tip = space.node_of_vertex(2);
       loads.segment<3>(6 * tip + 1) << force, -2 * force, 0.5 * force;
-      const Eigen::VectorXd motion = testing::solve(space, loads, fixed);
+      const Eigen::VectorXd motion = examples::solve(space, loads, fixed);
       for (const int cell : {0, 1})
         for (const double xi : {0.0, 0.3, 1.0}) {
           const Eigen::VectorXd found = beam_forces(space, cell, xi, motion);
@@ -223,7 +223,7 @@ TEST(Beam, SkewBendingOfAnUnsymmetricSection) {
   BeamSection s = sample_section();
   s.product_23 = 2e-6;
   s.shear_area_2 = s.shear_area_3 = std::numeric_limits<double>::infinity();
-  const double e = testing::plain_steel().youngs_modulus;
+  const double e = examples::plain_steel().youngs_modulus;
   const Mesh mesh = line_of_beams(s, {{0, 0, 0}, {length, 0, 0}});
   const auto motion = tip_motion(mesh, 2, unit(2, force));
   const double determinant = s.second_moment_2 * s.second_moment_3 - s.product_23 * s.product_23;
@@ -278,7 +278,7 @@ TEST(Beam, RigidMotionsStrainNothingWithSlopingOffsets) {
     mesh.beams[0].offset = {Vector3(0, 0.1, 0.2), Vector3(0.05, -0.1, 0.3)};
     const Space space(mesh, {degree, {}});
     const Eigen::MatrixXd k = beam_stiffness(space, 0);
-    const Eigen::MatrixXd rigid = samples::rigid_motions(space, space.beams()[0].nodes);
+    const Eigen::MatrixXd rigid = test::rigid_motions(space, space.beams()[0].nodes);
     EXPECT_LT((k * rigid).cwiseAbs().maxCoeff(), 1e-12 * k.cwiseAbs().maxCoeff()) << degree;
     const Eigen::VectorXd values =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues();
@@ -301,8 +301,8 @@ TEST(Beam, ReleasedHingePassesNoMoment) {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
     const int middle = space.node_of_vertex(1);
     load[6 * middle + 2] = force;
-    const Eigen::VectorXd motion = testing::solve(space, load, fixed);
-    const Material m = testing::plain_steel();
+    const Eigen::VectorXd motion = examples::solve(space, load, fixed);
+    const Material m = examples::plain_steel();
     const double half = force / 2, reach = 1.5;
     const double w = half * std::pow(reach, 3) / (3 * m.youngs_modulus * s.second_moment_2) +
                      half * reach / (m.shear_modulus() * s.shear_area_3);
@@ -331,7 +331,7 @@ TEST(Beam, TripodOfRods) {
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
   for (const Vector3& foot : feet) {
     const Vector3 leg = head - foot;
-    stiffness += testing::plain_steel().youngs_modulus * sample_section().area /
+    stiffness += examples::plain_steel().youngs_modulus * sample_section().area /
                  std::pow(leg.norm(), 3) * leg * leg.transpose();
   }
   const Vector3 expected = stiffness.inverse() * pull;
@@ -345,7 +345,7 @@ TEST(Beam, TripodOfRods) {
       Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
       load.segment<3>(6 * space.node_of_vertex(1)) = pull;
       const Vector3 found =
-          testing::solve(space, load, fixed).segment<3>(6 * space.node_of_vertex(1));
+          examples::solve(space, load, fixed).segment<3>(6 * space.node_of_vertex(1));
       EXPECT_LT((found - expected).norm(), close * expected.norm()) << degree;
     }
   }
@@ -364,7 +364,7 @@ TEST(Beam, DivisionChangesNothing) {
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
   loads.segment<6>(6 * space.node_of_vertex(1)) = load;
   const Eigen::Matrix<double, 6, 1> divided =
-      testing::solve(space, loads, fixed).segment<6>(6 * space.node_of_vertex(1));
+      examples::solve(space, loads, fixed).segment<6>(6 * space.node_of_vertex(1));
   EXPECT_LT((divided - whole).norm(), 1e-8 * whole.norm());
 }
 

@@ -7,7 +7,7 @@
 #include "structure/system/linear_solver.h"
 #include "structure/system/matter.h"
 
-namespace blocklift::structure::samples {
+namespace blocklift::structure::test {
 
 std::array<double, 3> weigh(const Mesh& mesh, int degree, const std::array<Vector3, 3>& supports) {
   const Space space(mesh, {degree, {}});
@@ -19,7 +19,7 @@ std::array<double, 3> weigh(const Mesh& mesh, int degree, const std::array<Vecto
   std::array<int, 3> upright{};
   const std::array<std::vector<int>, 3> held{{{2, 1, 0}, {2, 1}, {2}}};
   for (std::size_t s = 0; s < 3; ++s) {
-    const int node = testing::nearest_node(space, supports[s]);
+    const int node = examples::nearest_node(space, supports[s]);
     if ((space.nodes().col(node) - supports[s]).norm() > 1e-9)
       throw std::runtime_error("no node lies at a support");
     upright[s] = static_cast<int>(fixed.size());
@@ -39,4 +39,4 @@ std::array<double, 3> weigh(const Mesh& mesh, int degree, const std::array<Vecto
   return upward;
 }
 
-}  // namespace blocklift::structure::samples
+}  // namespace blocklift::structure::test

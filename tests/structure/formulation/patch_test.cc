@@ -32,7 +32,7 @@ Motion6 turn(const Motion6& motion) {
 // A state of constant strain: motion by place before the turn, and the strains along the axes x, y.
 struct State {
   const char* name;
-  testing::Motion motion;
+  examples::Motion motion;
   Strains strains;
 };
 
@@ -107,7 +107,7 @@ double largest_deviation(const Space& space, const Eigen::VectorXd& motion,
   return worst;
 }
 
-Eigen::VectorXd impose(const Space& space, const testing::Motion& motion) {
+Eigen::VectorXd impose(const Space& space, const examples::Motion& motion) {
   Eigen::VectorXd all(space.freedoms());
   for (int n = 0; n < space.node_count(); ++n)
     all.segment<6>(6 * n) = turn(motion(turned.transpose() * space.nodes().col(n)));
@@ -120,20 +120,20 @@ bool on_rim(const Vector3& place) {
 }
 
 // Motion of the patch whose rim is moved as a state says.
-Eigen::VectorXd move_rim(const Space& space, const testing::Motion& motion) {
+Eigen::VectorXd move_rim(const Space& space, const examples::Motion& motion) {
   std::vector<FixedUnknown> fixed;
-  testing::hold_at(
+  examples::hold_at(
       space, on_rim, [&](const Vector3& x) { return turn(motion(turned.transpose() * x)); },
       {0, 1, 2, 3, 4, 5}, fixed);
-  return testing::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
+  return examples::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
 }
 
 // As it is, with two quads cut into triangles, and of triangles alone.
 std::vector<Mesh> patches() {
   std::vector<Mesh> meshes;
   for (const int kind : {0, 1, 2}) {
-    meshes.push_back(testing::macneal_patch(0.01, {"patch", 1e6, 0.25, 0, 1}));
-    if (kind > 0) testing::divide_into_triangles(meshes.back(), kind == 2);
+    meshes.push_back(examples::macneal_patch(0.01, {"patch", 1e6, 0.25, 0, 1}));
+    if (kind > 0) examples::divide_into_triangles(meshes.back(), kind == 2);
     meshes.back() = turn(meshes.back());
   }
   return meshes;
@@ -171,14 +171,14 @@ TEST(ShellPatch, MembraneAndBendingPatchesAreExact) {
 // w = 1e-3 (x^2 + x y + y^2) / 2 gives moments of 1.111e-7, 1.111e-7 and 3.333e-8, that is 0.667,
 // 0.667, 0.2 at the surfaces.
 TEST(ShellPatch, PublishedStressesOfMacNealAndHarder) {
-  const Mesh mesh = testing::macneal_patch(0.001, {"patch", 1e6, 0.25, 0, 1});
+  const Mesh mesh = examples::macneal_patch(0.001, {"patch", 1e6, 0.25, 0, 1});
   for (int degree = 1; degree <= 4; ++degree) {
     const Space space(mesh, {degree, {}});
     const auto rim = [](const Vector3& x) {
       return x.x() < 1e-9 || x.x() > 0.24 - 1e-9 || x.y() < 1e-9 || x.y() > 0.12 - 1e-9;
     };
     std::vector<FixedUnknown> fixed;
-    testing::hold_at(
+    examples::hold_at(
         space, rim,
         [](const Vector3& p) -> Motion6 {
           const double x = p.x(), y = p.y();
@@ -188,10 +188,10 @@ TEST(ShellPatch, PublishedStressesOfMacNealAndHarder) {
         },
         {0, 1, 2, 3, 4, 5}, fixed);
     const Eigen::VectorXd motion =
-        testing::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
+        examples::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
     for (int cell = 0; cell < 5; ++cell) {
-      const Eigen::Matrix3d middle = testing::shell_stress(space, cell, {0.3, 0.6}, 0, motion);
-      const Eigen::Matrix3d top = testing::shell_stress(space, cell, {0.3, 0.6}, 0.0005, motion);
+      const Eigen::Matrix3d middle = examples::shell_stress(space, cell, {0.3, 0.6}, 0, motion);
+      const Eigen::Matrix3d top = examples::shell_stress(space, cell, {0.3, 0.6}, 0.0005, motion);
       const Eigen::Matrix3d bending = middle - top;
       EXPECT_NEAR(middle(0, 0), 4000.0 / 3, 1e-5);
       EXPECT_NEAR(middle(1, 1), 4000.0 / 3, 1e-5);

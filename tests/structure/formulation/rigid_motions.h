@@ -4,7 +4,7 @@
 
 #include "structure/space/space.h"
 
-namespace blocklift::structure::samples {
+namespace blocklift::structure::test {
 
 /// Rigid motions of an element's nodes, in the order of its freedoms.
 /// @param nodes  of the space.
@@ -23,4 +23,4 @@ inline Eigen::MatrixXd rigid_motions(const Space& space, std::span<const int> no
   return rigid;
 }
 
-}  // namespace blocklift::structure::samples
+}  // namespace blocklift::structure::test

@@ -29,17 +29,17 @@ Profile thin_angle() { return angle_bar(0.2, 0.01, 0.1, 0.012); }
 /// Two beams in line along x, whose axis 2 is y if nothing else is said.
 Mesh two_in_line(const BeamSection& section, const Vector3& axis_2 = Vector3::UnitY(),
                  const Vector3& offset = Vector3::Zero()) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   mesh.beam_sections = {section};
   mesh.vertices = {{0, 0, 0}, {0.4 * span, 0, 0}, {span, 0, 0}};
-  testing::add_beams(mesh, mesh.vertices.front(), mesh.vertices.back(), 0, axis_2, offset);
+  examples::add_beams(mesh, mesh.vertices.front(), mesh.vertices.back(), 0, axis_2, offset);
   return mesh;
 }
 
 std::vector<FixedUnknown> clamped(const Space& space, const std::vector<double>& places) {
   std::vector<FixedUnknown> fixed;
   for (const double x : places)
-    testing::hold(
+    examples::hold(
         space, [x](const Vector3& p) { return std::abs(p.x() - x) < 1e-9; }, {0, 1, 2, 3, 4, 5},
         fixed);
   return fixed;
@@ -51,7 +51,7 @@ Motion6 end_motion(const Mesh& mesh, int degree, const Motion6& load) {
   Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
   const int end = space.node_of_vertex(2);
   loads.segment<6>(6 * end) = load;
-  return testing::solve(space, loads, clamped(space, {0})).segment<6>(6 * end);
+  return examples::solve(space, loads, clamped(space, {0})).segment<6>(6 * end);
 }
 
 /// What a force through a point (y, z) beside a node is at the node.
@@ -66,7 +66,7 @@ Motion6 through(const Vector3& force, const Eigen::Vector2d& point) {
 TEST(ShearCentre, ForceThroughItDoesNotTurnAChannel) {
   BeamSection section = thin_channel().section;
   const Eigen::Vector2d centre = section.shear_centre;
-  const Material m = testing::plain_steel();
+  const Material m = examples::plain_steel();
   const double bent = push * (std::pow(span, 3) / (3 * m.youngs_modulus * section.second_moment_3) +
                               span / (m.shear_modulus() * section.shear_area_2));
   const double turn = push * centre[1] * span / (m.shear_modulus() * section.torsion);
@@ -130,10 +130,10 @@ TEST(ShearCentre, IsTheOffsetOfShearAndTorsion) {
   const BeamSection whole = thin_angle().section;
   const Vector3 from(0.3, 0.1, -0.2), to(2, 1, 0.7), offset(0.02, -0.1, 0.2);
   const auto stiffness = [&](const BeamSection& section, const Vector3& beside, int degree) {
-    Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+    Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
     mesh.beam_sections = {section};
     mesh.vertices = {from, to};
-    testing::add_beams(mesh, from, to, 0, Vector3::UnitZ(), beside);
+    examples::add_beams(mesh, from, to, 0, Vector3::UnitZ(), beside);
     return beam_stiffness(Space(mesh, {degree, {}}), 0);
   };
   const Vector3 along = (to - from).normalized();
@@ -173,7 +173,7 @@ TEST(ShearCentre, MovesAlongATaperedBeam) {
     mesh.beams[b].end_section = b + 1;
   }
   const double turn = push * (first.shear_centre - last.shear_centre)[1] * span /
-                      (2 * testing::plain_steel().shear_modulus() * first.torsion);
+                      (2 * examples::plain_steel().shear_modulus() * first.torsion);
   for (const int degree : {1, 2, 3}) {
     const Motion6 found = end_motion(mesh, degree, through(Vector3(0, push, 0), last.shear_centre));
     EXPECT_NEAR(found[3], turn, tight * std::abs(turn)) << degree;
@@ -182,15 +182,15 @@ TEST(ShearCentre, MovesAlongATaperedBeam) {
 
 TEST(ShearCentre, RigidMotionsStrainNothing) {
   for (int degree = 2; degree <= 4; ++degree) {
-    Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+    Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
     mesh.beam_sections = {thin_angle().section, angle_bar(0.3, 0.012, 0.12, 0.014).section};
     mesh.vertices = {{0.3, 0.1, -0.2}, {2, 1, 0.7}};
-    testing::add_beams(mesh, mesh.vertices[0], mesh.vertices[1], 0, Vector3::UnitY());
+    examples::add_beams(mesh, mesh.vertices[0], mesh.vertices[1], 0, Vector3::UnitY());
     mesh.beams[0].end_section = 1;
     mesh.beams[0].offset = {Vector3(0, 0.1, 0.2), Vector3(0.05, -0.1, 0.3)};
     const Space space(mesh, {degree, {}});
     const Eigen::MatrixXd k = beam_stiffness(space, 0);
-    const Eigen::MatrixXd rigid = samples::rigid_motions(space, space.beams()[0].nodes);
+    const Eigen::MatrixXd rigid = test::rigid_motions(space, space.beams()[0].nodes);
     EXPECT_LT((k * rigid).cwiseAbs().maxCoeff(), 1e-12 * k.cwiseAbs().maxCoeff()) << degree;
   }
 }
@@ -201,7 +201,7 @@ TEST(ShearCentre, RigidMotionsStrainNothing) {
 // of its cross-sections.
 TEST(ShearCentre, ChannelBendsAndTwistsAtOnce) {
   const BeamSection s = thin_channel().section;
-  const Material m = testing::plain_steel();
+  const Material m = examples::plain_steel();
   const double length = 2, c = s.shear_centre[1], g = m.shear_modulus();
   std::vector<double> exact_frequencies;
   for (int n = 1; n <= 6; ++n) {
@@ -217,15 +217,15 @@ TEST(ShearCentre, ChannelBendsAndTwistsAtOnce) {
     for (const double square : squares) exact_frequencies.push_back(std::sqrt(square) / (2 * M_PI));
   }
   std::sort(exact_frequencies.begin(), exact_frequencies.end());
-  Mesh mesh = testing::empty_mesh(m, 0.01);
+  Mesh mesh = examples::empty_mesh(m, 0.01);
   mesh.beam_sections = {s};
   for (int v = 0; v <= 6; ++v) mesh.vertices.emplace_back(length * v / 6, 0, 0);
-  testing::add_beams(mesh, mesh.vertices.front(), mesh.vertices.back(), 0, Vector3::UnitY());
+  examples::add_beams(mesh, mesh.vertices.front(), mesh.vertices.back(), 0, Vector3::UnitY());
   const Space space(mesh, {4, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3&) { return true; }, {0, 2, 4}, fixed);
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return p.x() < 1e-9 || p.x() > length - 1e-9; }, {1, 3},
       fixed);
   const NaturalModes modes =
@@ -250,7 +250,7 @@ TEST(ShearCentre, IsWhatAReleasedEndTwistsAbout) {
     const Space space(mesh, {3, {}});
     Eigen::VectorXd loads = Eigen::VectorXd::Zero(space.freedoms());
     loads.segment<6>(6 * space.node_of_vertex(1)) << 700, 1000, 400, 30, 50, -60;
-    const Eigen::VectorXd motion = testing::solve(space, loads, clamped(space, {0, span}));
+    const Eigen::VectorXd motion = examples::solve(space, loads, clamped(space, {0, span}));
     for (const double xi : {0.0, 0.3, 1.0}) {
       const Eigen::VectorXd forces = beam_forces(space, 0, xi, motion);
       EXPECT_GT(std::abs(forces[3]), 1);
@@ -263,7 +263,7 @@ TEST(ShearCentre, IsWhatAReleasedEndTwistsAbout) {
 TEST(ShearCentre, IsNothingToARod) {
   Mesh mesh = two_in_line(thin_channel().section);
   for (Beam& beam : mesh.beams) beam.is_rod = true;
-  const Material m = testing::plain_steel();
+  const Material m = examples::plain_steel();
   Eigen::Matrix<double, 6, 6> law = Eigen::Matrix<double, 6, 6>::Zero();
   law(0, 0) = m.youngs_modulus * mesh.beam_sections[0].area;
   law(3, 3) = m.shear_modulus() * mesh.beam_sections[0].torsion;

@@ -20,16 +20,16 @@ Vector3 warped(double x, double y) {
 }
 
 Eigen::MatrixXd rigid_motions(const Space& space, int cell) {
-  return samples::rigid_motions(
+  return test::rigid_motions(
       space, {space.shell_nodes(cell), static_cast<std::size_t>(space.nodes_per_shell())});
 }
 
 Mesh warped_mesh(int degree, double offset, bool triangles) {
-  Mesh mesh = testing::sheet_mesh(warped, 2, 2, 0.05, testing::plain_steel(), degree);
+  Mesh mesh = examples::sheet_mesh(warped, 2, 2, 0.05, examples::plain_steel(), degree);
   mesh.shell_sections[0].offset = offset;
   if (triangles) {
     for (Shell& shell : mesh.shells) shell.curvature = -1;
-    testing::divide_into_triangles(mesh, true);
+    examples::divide_into_triangles(mesh, true);
   }
   return mesh;
 }
@@ -64,9 +64,9 @@ TEST(Shell, OffsetPlateIsThePlateThroughItsMidSurface) {
     return [z](double x, double y) { return Vector3(2 * x + 0.2 * x * y, y, z); };
   };
   for (int degree = 1; degree <= 4; ++degree) {
-    Mesh moved = testing::sheet_mesh(flat(-offset), 2, 2, 0.05, testing::plain_steel());
+    Mesh moved = examples::sheet_mesh(flat(-offset), 2, 2, 0.05, examples::plain_steel());
     moved.shell_sections[0].offset = offset;
-    const Mesh plain = testing::sheet_mesh(flat(0), 2, 2, 0.05, testing::plain_steel());
+    const Mesh plain = examples::sheet_mesh(flat(0), 2, 2, 0.05, examples::plain_steel());
     const Space moved_space(moved, {degree, {}}), plain_space(plain, {degree, {}});
     ShellStiffness moved_stiffness(moved_space), plain_stiffness(plain_space);
     const Eigen::MatrixXd k = moved_stiffness(0), expected = plain_stiffness(0);
@@ -91,7 +91,7 @@ using StressField = std::function<Eigen::Matrix3d(const Vector3&)>;
 
 // L2 norms of the errors over those of the exact fields, at the height z.
 Errors errors_of(const Space& space, const Eigen::VectorXd& motion,
-                 const testing::ForceField& displacement, const StressField& stress, double z) {
+                 const examples::ForceField& displacement, const StressField& stress, double z) {
   Eigen::Vector4d sums = Eigen::Vector4d::Zero();
   const Eigen::Matrix3Xd rule = square_rule(space.degree() + 2);
   ShellOperator strains(space, rule.topRows<2>());
@@ -110,7 +110,7 @@ Errors errors_of(const Space& space, const Eigen::VectorXd& motion,
       const Eigen::Matrix3d s = stress(point.place);
       sums[2] +=
           area *
-          (testing::shell_stress(space, cell, rule.col(q).head<2>(), z, motion) - s).squaredNorm();
+          (examples::shell_stress(space, cell, rule.col(q).head<2>(), z, motion) - s).squaredNorm();
       sums[3] += area * s.squaredNorm();
     }
   }
@@ -118,7 +118,7 @@ Errors errors_of(const Space& space, const Eigen::VectorXd& motion,
 }
 
 // The unit square with smoothly uneven cells, its rim and corners in place.
-testing::Chart uneven() {
+examples::Chart uneven() {
   return [](double x, double y) {
     const double push = 0.08 * std::sin(2 * pi * x) * std::sin(pi * y);
     return Vector3(x + push, y + 0.7 * push, 0);
@@ -128,26 +128,26 @@ testing::Chart uneven() {
 // Simply supported (hard) plate under q sin(pi x) sin(pi y), Reissner and Mindlin: with k^2 = 2
 // pi^2, w = q / (D k^4) (1 + D k^2 / S) sin sin, rotations beta = q / (D k^4) grad(sin sin).
 Errors plate_errors(int degree, int cells) {
-  const Material material = testing::plain_steel();
+  const Material material = examples::plain_steel();
   const double t = 0.05, nu = material.poisson_ratio, e = material.youngs_modulus;
   const double d = e * t * t * t / (12 * (1 - nu * nu)), s = 5.0 / 6 * material.shear_modulus() * t;
   const double k2 = 2 * pi * pi, bent = 1 / (d * k2 * k2), whole = bent * (1 + d * k2 / s);
-  const Mesh mesh = testing::sheet_mesh(uneven(), cells, cells, t, material);
+  const Mesh mesh = examples::sheet_mesh(uneven(), cells, cells, t, material);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
   const auto on = [](double v) { return v < 1e-9 || v > 1 - 1e-9; };
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& x) { return on(x.x()); }, {0, 1, 2, 3, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& x) { return on(x.y()); }, {0, 1, 2, 4, 5}, fixed);
   const auto wave = [](const Vector3& x) { return std::sin(pi * x.x()) * std::sin(pi * x.y()); };
   const Eigen::VectorXd motion =
-      testing::solve(space,
-                     testing::area_load(space,
-                                        [&](const Vector3& x) -> Vector3 {
-                                          return {0, 0, wave(x)};
-                                        }),
-                     fixed);
+      examples::solve(space,
+                      examples::area_load(space,
+                                          [&](const Vector3& x) -> Vector3 {
+                                            return {0, 0, wave(x)};
+                                          }),
+                      fixed);
   return errors_of(
       space, motion,
       [&](const Vector3& x) -> Vector3 {
@@ -168,13 +168,13 @@ Errors plate_errors(int degree, int cells) {
 Errors membrane_errors(int degree, int cells) {
   const Material material{"unit", 1, 0.3, 0, 1};
   const double nu = 0.3, c = 1 / (1 - nu * nu), g = material.shear_modulus(), t = 0.1;
-  const Mesh mesh = testing::sheet_mesh(uneven(), cells, cells, t, material);
+  const Mesh mesh = examples::sheet_mesh(uneven(), cells, cells, t, material);
   const Space space(mesh, {degree, {}});
   std::vector<FixedUnknown> fixed;
   const auto on = [](double v) { return v < 1e-9 || v > 1 - 1e-9; };
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& x) { return on(x.x()) || on(x.y()); }, {0, 1, 2, 3, 4}, fixed);
-  testing::hold(
+  examples::hold(
       space, [](const Vector3&) { return true; }, {2, 3, 4}, fixed);
   const auto load = [&](const Vector3& x) -> Vector3 {
     const double a = pi * x.x(), b = pi * x.y();
@@ -182,7 +182,7 @@ Errors membrane_errors(int degree, int cells) {
            Vector3((c + g) * std::sin(a) * std::sin(b), -(c * nu + g) * std::cos(a) * std::cos(b),
                    0);
   };
-  const Eigen::VectorXd motion = testing::solve(space, testing::area_load(space, load), fixed);
+  const Eigen::VectorXd motion = examples::solve(space, examples::area_load(space, load), fixed);
   return errors_of(
       space, motion,
       [](const Vector3& x) -> Vector3 {

@@ -377,8 +377,8 @@ TEST(DeckSolution, LoadsThatNothingBearsAreRefused) {
     return {};
   };
   EXPECT_THAT(complaint(held_cube("FORCE,2,5,,1000.,1.,0.,0.\nMOMENT,2,6,,500.,0.,1.,0.\n")),
-              testing::HasSubstr("a moment acts at node 6 at (1, 0, 1) m: no element resists the "
-                                 "rotation about y there"));
+              ::testing::HasSubstr("a moment acts at node 6 at (1, 0, 1) m: no element resists the "
+                                   "rotation about y there"));
   const Deck held = test::nastran(
       held_cube("FORCE,2,5,,1000.,1.,0.,0.\nMOMENT,2,1,,500.,0.,1.,0.\nSPC1,1,456,1\n"));
   const DeckSolution solution = solved(held, 1);
@@ -391,7 +391,7 @@ TEST(DeckSolution, LoadsThatNothingBearsAreRefused) {
       "SPC1,1,123,1,2,3\nFORCE,2,4,,1000.,0.,0.,-1.\n";
   EXPECT_EQ(complaint(tripod + "ENDDATA\n"), "");
   EXPECT_THAT(complaint(tripod + "MOMENT,2,4,,500.,1.,0.,0.\nENDDATA\n"),
-              testing::HasSubstr("do not arrive at the supports"));
+              ::testing::HasSubstr("do not arrive at the supports"));
 }
 
 /// Largest displacement of the nodes at a place.

@@ -13,10 +13,10 @@ namespace blocklift::structure {
 namespace {
 
 /// Adds a triangle over a chart, curved of an order, with its corners at places of the chart.
-void add_curved_triangle(Mesh& mesh, const testing::Chart& chart, int order,
+void add_curved_triangle(Mesh& mesh, const examples::Chart& chart, int order,
                          const Eigen::Matrix<double, 2, 3>& corners) {
   const auto vertex = [&](int i) {
-    return testing::vertex_at(mesh, chart(corners(0, i), corners(1, i)));
+    return examples::vertex_at(mesh, chart(corners(0, i), corners(1, i)));
   };
   Shell shell;
   shell.vertices = {vertex(0), vertex(1), vertex(2), vertex(2)};
@@ -40,9 +40,9 @@ void add_curved_triangle(Mesh& mesh, const testing::Chart& chart, int order,
 
 /// A quarter of a ring, radius 1 m and thickness 20 mm, in pairs of triangles.
 Mesh quarter_of_triangles(int pairs, int order) {
-  Material material = testing::plain_steel();
+  Material material = examples::plain_steel();
   material.poisson_ratio = 0;
-  Mesh mesh = testing::empty_mesh(material, 0.02);
+  Mesh mesh = examples::empty_mesh(material, 0.02);
   const auto chart = [](double x, double y) -> Vector3 {
     return {std::cos(std::numbers::pi / 2 * x), 0.2 * y, std::sin(std::numbers::pi / 2 * x)};
   };
@@ -65,18 +65,18 @@ double flexibility_share(const Mesh& mesh, int degree) {
     return [=](const Vector3& place) { return std::abs(place[component]) < 1e-6; };
   };
   std::vector<FixedUnknown> fixed;
-  testing::hold(space, is_on_plane(0), {0, 4, 5}, fixed);
-  testing::hold(space, is_on_plane(2), {2, 3, 4}, fixed);
-  testing::hold(space, is_on_plane(1), {1}, fixed);
+  examples::hold(space, is_on_plane(0), {0, 4, 5}, fixed);
+  examples::hold(space, is_on_plane(2), {2, 3, 4}, fixed);
+  examples::hold(space, is_on_plane(1), {1}, fixed);
   const double force = 1000, width = 0.2, inertia = width * std::pow(0.02, 3) / 12;
   const Eigen::VectorXd motion =
-      testing::solve(space,
-                     testing::edge_load(space, is_on_plane(0),
-                                        [&](const Vector3&) -> Vector3 {
-                                          return {0, 0, -force / 2 / width};
-                                        }),
-                     fixed);
-  return -testing::displacement_at(space, motion, {0, 0.1, 1}).z() /
+      examples::solve(space,
+                      examples::edge_load(space, is_on_plane(0),
+                                          [&](const Vector3&) -> Vector3 {
+                                            return {0, 0, -force / 2 / width};
+                                          }),
+                      fixed);
+  return -examples::displacement_at(space, motion, {0, 0.1, 1}).z() /
          (force / (210e9 * inertia) * (std::numbers::pi / 8 - 1 / std::numbers::pi));
 }
 
@@ -95,7 +95,7 @@ TEST(CurvedTriangles, ThoseThatLockAreFound) {
 
 // A flat triangle with curved edges rises over nothing.
 TEST(CurvedTriangles, CurvedEdgesInAPlaneAreNone) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.02);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.02);
   Eigen::Matrix<double, 2, 3> corners;
   corners << 0, 1, 0, 0, 0, 1;
   add_curved_triangle(

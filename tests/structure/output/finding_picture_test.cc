@@ -20,7 +20,7 @@ std::size_t occurrences(const std::string& text, const std::string& word) {
 }
 
 TEST(FindingPicture, MarksEachPlaceAndDrawsTheOutlineAlone) {
-  BlockDescription block = testing::cross_of_plates();
+  BlockDescription block = test::cross_of_plates();
   const Mesh mesh = generate_shell_mesh(block);
   const Diagnosis diagnosis = diagnose(mesh);
   const Finding* finding = diagnosis.find("free edges");

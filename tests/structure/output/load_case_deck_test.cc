@@ -77,7 +77,7 @@ void expect_balance(const Deck& deck, double tolerance) {
 
 /// Bars with an offset under the bottom, so that moments and beams are in the deck, too.
 Mesh block_with_bars() {
-  Mesh mesh = generate_shell_mesh(testing::small_block());
+  Mesh mesh = generate_shell_mesh(test::small_block());
   BeamSection bar;
   bar.area = 1e-3;
   bar.second_moment_2 = bar.second_moment_3 = 1e-7;
@@ -110,7 +110,7 @@ TEST(LoadCaseDeck, LoadsStayInBalance) {
 }
 
 TEST(LoadCaseDeck, SixComponentsAreHeld) {
-  const ElasticModel model(generate_shell_mesh(testing::small_block()), {1, {}});
+  const ElasticModel model(generate_shell_mesh(test::small_block()), {1, {}});
   const UnitResponses responses(model, 1);
   const LoadCase load = pull(model);
   const Deck deck = deck_of(responses, load);
@@ -154,7 +154,7 @@ TEST(LoadCaseDeck, ForcesAtNodesDoWhatTheLoadsDo) {
 
 /// The small block with its first lug as a padeye of solids.
 Mesh box_with_solid_lug(double largest_element) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.largest_element = largest_element;
   Mesh mesh = generate_shell_mesh(block);
   Eigen::Matrix3d R_BP;
@@ -167,7 +167,7 @@ Mesh box_with_solid_lug(double largest_element) {
 
 /// The same as a mesh with a padeye of solids askew on its bottom, across edges of its shells.
 Mesh box_with_lug_on_plating(double largest_element) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.largest_element = largest_element;
   block.pads.clear();
   block.lugs.clear();
@@ -291,8 +291,8 @@ Difference compare(const UnitResponses& responses, const LoadCase& load) {
 
 TEST(LoadCaseDeck, CalculiXAgreesOnAPlate) {
   BlockDescription plate;
-  plate.materials = {testing::steel()};
-  plate.plates = {{"plate", Axis::z, {0}, {{{0, 4}, {0, 3}, {}}}, 0.05, testing::steel().name}};
+  plate.materials = {test::steel()};
+  plate.plates = {{"plate", Axis::z, {0}, {{{0, 4}, {0, 3}, {}}}, 0.05, test::steel().name}};
   plate.largest_element = 0.5;
   Mesh mesh = generate_shell_mesh(plate);
   for (const Vector3& pin :
@@ -316,7 +316,7 @@ TEST(LoadCaseDeck, CalculiXAgreesOnAPlate) {
 // which stiffens coarse meshes: the difference is 10, 4.4, 2.3 and 0.9 % with elements of 0.75,
 // 0.5, 0.3 and 0.15 m, while a higher degree of ours moves it by a tenth of a per cent.
 TEST(LoadCaseDeck, CalculiXAgreesOnABlock) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.largest_element = 0.3;
   const ElasticModel model(generate_shell_mesh(block), {2, {}});
   const UnitResponses responses(model, 1);

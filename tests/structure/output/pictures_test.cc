@@ -27,7 +27,7 @@ namespace {
 class SmallBlock : public ::testing::Test {
  protected:
   static Mesh mesh() {
-    Mesh mesh = generate_shell_mesh(testing::small_block());
+    Mesh mesh = generate_shell_mesh(test::small_block());
     BeamSection bar;
     bar.area = 0.01 * 0.1;
     bar.second_moment_2 = 0.1 * std::pow(0.01, 3) / 12;

@@ -157,7 +157,7 @@ Mesh stiffened_deck() {
 
 /// Factors that strain a deck along x by `stretch`, without stress across, and bend it by
 /// `curvature` about its mid-surface.
-testing::MotionField deck_motion(double stretch, double curvature) {
+test::MotionField deck_motion(double stretch, double curvature) {
   return [=](const Vector3& x) {
     const double below = x.z() - 3;
     Eigen::Matrix<double, 6, 1> motion;
@@ -172,8 +172,8 @@ testing::MotionField deck_motion(double stretch, double curvature) {
 void expect_bearing_with_plates(Mesh mesh) {
   const ElasticModel model(std::move(mesh), {.degree = 2, .largest_edge = {}});
   Eigen::MatrixXd motions(model.freedoms(), 2);
-  motions << testing::motion_of(model.space(), deck_motion(-1e-3, 0)),
-      testing::motion_of(model.space(), deck_motion(0, 1e-3));
+  motions << test::motion_of(model.space(), deck_motion(-1e-3, 0)),
+      test::motion_of(model.space(), deck_motion(0, 1e-3));
   const BlockBars bars = bars_of(model, motions);
   ASSERT_EQ(bars.spans().size(), 4U);
   const double plate = 1.0 * 0.01, web = 0.2 * 0.012, area = plate + web;
@@ -214,8 +214,8 @@ TEST(BarBuckling, StiffenersOfQuadraticElementsBearAlike) {
 TEST(BarBuckling, StiffenersTrip) {
   const ElasticModel model(stiffened_deck(), {.degree = 2, .largest_edge = {}});
   Eigen::MatrixXd motions(model.freedoms(), 2);
-  motions << testing::motion_of(model.space(), deck_motion(-1e-3, 0)),
-      testing::motion_of(model.space(), deck_motion(0, 1e-3));
+  motions << test::motion_of(model.space(), deck_motion(-1e-3, 0)),
+      test::motion_of(model.space(), deck_motion(0, 1e-3));
   const BlockBars bars = bars_of(model, motions);
   const double modulus = column_steel.youngs_modulus, shear = column_steel.shear_modulus();
   const double elastic =

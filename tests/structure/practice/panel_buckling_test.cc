@@ -178,7 +178,7 @@ TEST(BlockPanels, FieldsAreAsWideAsTheSpacing) {
 // A step in thickness holds nothing: pads belong to their plate's panel. Lugs are none, and hold
 // the edge that they stand on as far as they reach.
 TEST(BlockPanels, PadsDivideNoPanel) {
-  const ElasticModel model(generate_shell_mesh(testing::small_block()), {1, {}});
+  const ElasticModel model(generate_shell_mesh(test::small_block()), {1, {}});
   int sides = 0;
   const BlockPanels panels = panels_at_rest(model);
   for (const Panel& panel : panels.panels()) {
@@ -488,7 +488,7 @@ Motion6 bent_upwards(const Vector3& x) {
 TEST(BlockPanels, APipeIsCutIntoSectors) {
   const double radius = 0.5;
   const ElasticModel model(pipe_that_bends(radius), {2, {}});
-  const BlockPanels panels(model, testing::motion_of(model.space(), bent_upwards), {});
+  const BlockPanels panels(model, test::motion_of(model.space(), bent_upwards), {});
   ASSERT_EQ(panels.panels().size(), 12U);
   double least = 0;
   for (const PanelStress& stress : panels.stresses(Eigen::VectorXd::Ones(1)))
@@ -511,7 +511,7 @@ TEST(BlockPanels, APipeIsCutIntoSectors) {
 // Hooke's law in the plane: s_11 = E / (1 - nu^2) (c + d y), s_22 = nu s_11.
 TEST(BlockPanels, MeanAndGradientOfALinearStressAreExact) {
   const ElasticModel model(generate_shell_mesh(box()), {2, {}});
-  const BlockPanels panels(model, testing::motion_of(model.space(), bent_in_plane), {});
+  const BlockPanels panels(model, test::motion_of(model.space(), bent_in_plane), {});
   const auto found = panels.stresses(Eigen::VectorXd::Ones(1));
   const double c = 1e-4, d = 3e-5, modulus = steel.youngs_modulus / (1 - 0.09);
   int seen = 0;
@@ -536,22 +536,22 @@ TEST(BlockPanels, DoNotDependOnTheBlocksDirection) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.rotate(Eigen::AngleAxisd(0.4, Vector3(0.2, -1, 0.5).normalized()));
   X.pretranslate(Vector3(5, 2, -3));
-  Mesh turned = testing::moved(mesh, X);
+  Mesh turned = test::moved(mesh, X);
   for (std::size_t s = 0; s < turned.shells.size(); s += 2) {
     std::swap(turned.shells[s].vertices[0], turned.shells[s].vertices[1]);
     std::swap(turned.shells[s].vertices[2], turned.shells[s].vertices[3]);
   }
   const ElasticModel straight(mesh, {2, {}}), tilted(turned, {2, {}});
-  const BlockPanels of_straight(straight, testing::motion_of(straight.space(), bent_in_plane), {});
-  const BlockPanels of_tilted(
-      tilted,
-      testing::motion_of(tilted.space(),
-                         [&](const Vector3& place) -> Motion6 {
-                           Motion6 motion = bent_in_plane(X.inverse() * place);
-                           motion.head<3>() = (X.linear() * motion.head<3>()).eval();
-                           return motion;
-                         }),
-      {});
+  const BlockPanels of_straight(straight, test::motion_of(straight.space(), bent_in_plane), {});
+  const BlockPanels of_tilted(tilted,
+                              test::motion_of(tilted.space(),
+                                              [&](const Vector3& place) -> Motion6 {
+                                                Motion6 motion = bent_in_plane(X.inverse() * place);
+                                                motion.head<3>() =
+                                                    (X.linear() * motion.head<3>()).eval();
+                                                return motion;
+                                              }),
+                              {});
   ASSERT_EQ(of_straight.panels().size(), of_tilted.panels().size());
   const auto stresses = of_straight.stresses(Eigen::VectorXd::Ones(1)),
              stresses_tilted = of_tilted.stresses(Eigen::VectorXd::Ones(1));

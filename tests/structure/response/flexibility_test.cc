@@ -20,7 +20,7 @@ namespace {
 class Flexibility : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    model_ = new ElasticModel(testing::make_elastic_model(testing::small_block(), 2));
+    model_ = new ElasticModel(test::make_elastic_model(test::small_block(), 2));
     responses_ = new UnitResponses(*model_);
   }
   static void TearDownTestSuite() {
@@ -89,7 +89,7 @@ BlockDescription make_girder() {
   constexpr double half_lug = 0.05;
   BlockDescription girder;
   girder.name = "girder";
-  girder.materials = {testing::steel()};
+  girder.materials = {test::steel()};
   girder.plates = {
       {"web", Axis::y, {0}, {{{0, length + 2 * half_lug}, {}, {0, depth}}}, thickness, "AH36"}};
   for (int i = 0; i < 3; ++i) {
@@ -112,7 +112,7 @@ BlockDescription make_girder() {
 // 0.1 %.
 TEST(GirderFlexibility, ComplianceIsThatOfABeam) {
   const BlockDescription girder = make_girder();
-  const ElasticModel model = testing::make_elastic_model(girder, 3);
+  const ElasticModel model = test::make_elastic_model(girder, 3);
   const UnitResponses responses(model);
   const Eigen::MatrixXd compliance = find_lug_flexibility(responses, 0).compliance;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(9);

@@ -22,7 +22,7 @@ namespace blocklift::structure {
 namespace {
 
 ElasticModel small_model(int degree) {
-  return testing::make_elastic_model(testing::small_block(), degree);
+  return test::make_elastic_model(test::small_block(), degree);
 }
 
 // The small block on its four lugs, once for all tests of it.
@@ -185,11 +185,11 @@ TEST_F(SmallBlock, WrongNumberOfLugForcesIsRefused) {
 
 // A strip of `length` x `width` in the plane z = 0 whose last tenth is the lug.
 Mesh strip(double length, double width, double thickness) {
-  Material material = testing::steel();
+  Material material = test::steel();
   material.poisson_ratio = 0;
   Mesh mesh =
-      testing::sheet_mesh([&](double x, double y) { return Vector3(length * x, width * y, 0); }, 10,
-                          1, thickness, material);
+      examples::sheet_mesh([&](double x, double y) { return Vector3(length * x, width * y, 0); },
+                           10, 1, thickness, material);
   mesh.groups.push_back({"lug", 0});
   mesh.regions.push_back({"lug", 1, true});
   mesh.shells.back().region = 1;
@@ -232,7 +232,7 @@ TEST(FreeBar, FirstElasticPeriodIsThatOfAFreeFreeBeam) {
   const ElasticModel model(strip(10, 0.4, 0.2), {3, {}});
   const UnitResponses responses(model);
   const double frequency =
-      22.3733 / (2 * M_PI * 100) * std::sqrt(206e9 * 0.2 * 0.2 / 12 / testing::steel().density);
+      22.3733 / (2 * M_PI * 100) * std::sqrt(206e9 * 0.2 * 0.2 / 12 / test::steel().density);
   const FreeModes modes = find_free_modes(responses, 1);
   EXPECT_NEAR(modes.angular_frequencies[0] / (2 * M_PI * frequency), 1, 0.01);
 }
@@ -240,10 +240,10 @@ TEST(FreeBar, FirstElasticPeriodIsThatOfAFreeFreeBeam) {
 // A plate in tension and bending: the membrane stress is the tension alone, to rounding, and the
 // bending stress E t curvature / 2 apart.
 TEST(CheckedStress, BendingDropsOut) {
-  const Material material = testing::steel();
+  const Material material = test::steel();
   const double thickness = 0.02, curvature = 1e-2;
-  const Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, 4,
-                                        2, thickness, material);
+  const Mesh mesh = examples::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, 4,
+                                         2, thickness, material);
   const ElasticModel model(mesh, {3, {}});
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(model.freedoms(), 2);
   for (int n = 0; n < model.space().node_count(); ++n) {
@@ -267,8 +267,8 @@ TEST(CheckedStress, BendingDropsOut) {
 // However a plate is divided into shells or regions, its squares are the same.
 TEST(CheckedStress, SquaresBelongToThePlateAndNotToItsMesh) {
   const auto squares_of = [](int m, int n, bool divided) {
-    Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n,
-                                    0.02, testing::steel());
+    Mesh mesh = examples::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n,
+                                     0.02, test::steel());
     if (divided) {
       mesh.regions.push_back({"other half", 0, false});
       for (std::size_t s = 0; s < mesh.shells.size(); s += 2) mesh.shells[s].region = 1;
@@ -352,9 +352,9 @@ TEST_F(SmallBlock, AddedLoadsAreSuperposedLikeAllOthers) {
 // An L of three panels in the plane z = 0 with its inner corner at (1, 1), and a web below its edge
 // y = 1: squares that touch the web are beside a weld, those along the free edge x = 1 are not.
 TEST(SquareSites, AreToldApartAtAnInnerCorner) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   const auto panel = [&](double x, double y) {
-    testing::add_sheet(
+    examples::add_sheet(
         mesh, [=](double s, double t) { return Vector3(x + s, y + t, 0); }, 2, 2);
   };
   panel(0, 0);
@@ -374,8 +374,8 @@ TEST(SquareSites, AreToldApartAtAnInnerCorner) {
   EXPECT_GE(bare, 4);
 
   Mesh stiffened = mesh;
-  testing::add_beams(stiffened, {1, 1, 0}, {2, 1, 0}, 0, Vector3::UnitY());
-  testing::add_sheet(
+  examples::add_beams(stiffened, {1, 1, 0}, {2, 1, 0}, 0, Vector3::UnitY());
+  examples::add_sheet(
       mesh, [](double s, double t) { return Vector3(1 + s, 1, -0.3 * t); }, 2, 1);
   for (const Mesh& welded : {mesh, stiffened}) {
     int beside = 0, apart = 0;
@@ -395,11 +395,11 @@ TEST(SquareSites, AreToldApartAtAnInnerCorner) {
 // A lug on the edge of a plate from its corner (0, 0) to (0.5, 0): the toe within the edge has no
 // limit of the stress, the root as a whole makes a corner.
 TEST(SquareSites, AreCornersAlongALugsRoot) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
-  testing::add_sheet(
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
+  examples::add_sheet(
       mesh, [](double s, double t) { return Vector3(2 * s, t, 0); }, 4, 2);
   const auto plates = static_cast<std::ptrdiff_t>(mesh.shells.size());
-  testing::add_sheet(
+  examples::add_sheet(
       mesh, [](double s, double t) { return Vector3(0.5 * s, 0, 0.3 * t); }, 1, 1);
   mesh.regions.push_back({"L1", 0, true});
   const int lug = static_cast<int>(mesh.regions.size()) - 1;

@@ -53,7 +53,7 @@ TEST(DeckJoints, SolidsGoOnAPlate) {
   EXPECT_EQ(entry(deck, "*SHELL TO SOLID COUPLING").used, 1);
   const Space space(deck.mesh, {3, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& x) { return x.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
   double count = 0;
@@ -64,7 +64,7 @@ TEST(DeckJoints, SolidsGoOnAPlate) {
   for (std::size_t v = 0; v < deck.mesh.vertices.size(); ++v)
     if (deck.mesh.vertices[v].x() > 0.4 - 1e-9)
       load[6 * space.node_of_vertex(static_cast<int>(v)) + 2] = force / count;
-  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+  const Eigen::VectorXd motion = examples::solve(space, load, fixed);
   for (std::size_t v = 0; v < deck.mesh.vertices.size(); ++v)
     if (deck.mesh.vertices[v].x() > 0.4 - 1e-9)
       deflection += motion[6 * space.node_of_vertex(static_cast<int>(v)) + 2] / count;
@@ -112,7 +112,7 @@ TEST(DeckJoints, ForcesOnWhatFollowsByAnEquation) {
   const Space space(deck.mesh, {1, {}});
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
   load[6 * space.node_of_vertex(1) + 2] = 90;
-  const Eigen::VectorXd motion = testing::solve(space, load, {});
+  const Eigen::VectorXd motion = examples::solve(space, load, {});
   EXPECT_NEAR(motion[6 * space.node_of_vertex(0) + 2], 0.06, 1e-12);
   EXPECT_NEAR(motion[6 * space.node_of_vertex(2) + 2], 0.06, 1e-12);
   EXPECT_NEAR(motion[6 * space.node_of_vertex(1) + 2], 0.06, 1e-12);
@@ -129,13 +129,13 @@ TEST(DeckJoints, AShearPanelInItsFrame) {
   const Space space(deck.mesh, {1, {}});
   std::vector<FixedUnknown> fixed;
   const auto is_corner = [](const Vector3& x) { return std::abs(x.x() - 1) > 0.5; };
-  testing::hold(space, is_corner, {2, 3, 4, 5}, fixed);
-  testing::hold(
+  examples::hold(space, is_corner, {2, 3, 4, 5}, fixed);
+  examples::hold(
       space, [](const Vector3& x) { return x.x() < 0.5; }, {0, 1}, fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
   const double force = 1000;
   for (const int v : {1, 2}) load[6 * space.node_of_vertex(v) + 1] = -force / 2;
-  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+  const Eigen::VectorXd motion = examples::solve(space, load, fixed);
   const double a = 2, b = 0.5, modulus = 70e9, shear = modulus / 2.6;
   const double deflection =
       force * a / (shear * 0.003 * b) + force * a * a * a / (2 * b * b * modulus * 0.0005);

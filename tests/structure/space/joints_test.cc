@@ -116,9 +116,9 @@ TEST(Joints, BendingOfASectionIsExactAcrossPlatesOfDifferentSizes) {
         .finished();
   };
   for (int degree = 2; degree <= 4; ++degree) {
-    Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.02);
+    Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.02);
     const auto sheet = [&](const Vector3& a, const Vector3& b) {
-      testing::add_sheet(
+      examples::add_sheet(
           mesh,
           [&](double s, double t) -> Vector3 {
             return {length * s, a.y() + t * b.y(), a.z() + t * b.z()};
@@ -136,11 +136,11 @@ TEST(Joints, BendingOfASectionIsExactAcrossPlatesOfDifferentSizes) {
                                return x.y() > 0 && !left ? 0.5 : 1.0;
                              }});
     std::vector<FixedUnknown> fixed;
-    testing::hold_at(
+    examples::hold_at(
         space, [](const Vector3& x) { return x.x() < 1e-9 || x.x() > length - 1e-9; }, motion,
         {0, 1, 2, 3, 4, 5}, fixed);
     const Eigen::VectorXd found =
-        testing::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
+        examples::solve(space, Eigen::VectorXd::Zero(space.freedoms()), fixed);
     double worst = 0;
     for (int n = 0; n < space.node_count(); ++n)
       worst = std::max(

@@ -169,14 +169,14 @@ TEST(Links, EquationsAreInBalance) {
 // A cantilever plate, a rigid arm from its end to a free vertex, a distributing link over that end
 // and the arm's slave: links follow one another.
 TEST(Links, LinksFollowOneAnother) {
-  Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(x, 0.2 * y, 0); }, 4, 2,
-                                  0.01, testing::plain_steel());
-  const int reference = testing::vertex_at(mesh, {1, 0.1, 0});  // a vertex of the end itself
-  const int hub = testing::vertex_at(mesh, {1.2, 0.1, 0.1}),
-            tip = testing::vertex_at(mesh, {2, 0, 0});
+  Mesh mesh = examples::sheet_mesh([](double x, double y) { return Vector3(x, 0.2 * y, 0); }, 4, 2,
+                                   0.01, examples::plain_steel());
+  const int reference = examples::vertex_at(mesh, {1, 0.1, 0});  // a vertex of the end itself
+  const int hub = examples::vertex_at(mesh, {1.2, 0.1, 0.1}),
+            tip = examples::vertex_at(mesh, {2, 0, 0});
   mesh.distributing_links = {
       {hub,
-       {testing::vertex_at(mesh, {1, 0, 0}), reference, testing::vertex_at(mesh, {1, 0.2, 0})},
+       {examples::vertex_at(mesh, {1, 0, 0}), reference, examples::vertex_at(mesh, {1, 0.2, 0})},
        {1, 1, 1},
        {true, true, true, true, true, true},
        Eigen::Matrix3d::Identity(),
@@ -185,11 +185,11 @@ TEST(Links, LinksFollowOneAnother) {
       {hub, {tip}, {true, true, true, true, true, true}, Eigen::Matrix3d::Identity(), 2}};
   const Space space(mesh, {2, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& x) { return x.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
   load.segment<3>(6 * space.node_of_vertex(tip)) << 10, 20, 30;
-  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+  const Eigen::VectorXd motion = examples::solve(space, load, fixed);
   const auto of = [&](int vertex) -> Motion6 {
     return motion.segment<6>(6 * space.node_of_vertex(vertex));
   };
@@ -204,9 +204,9 @@ TEST(Links, LinksFollowOneAnother) {
 }
 
 TEST(Links, SpringsInSeries) {
-  Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(x, y, 0); }, 1, 1, 0.01,
-                                  testing::plain_steel());
-  const int a = testing::vertex_at(mesh, {3, 0, 0}), b = testing::vertex_at(mesh, {4, 0, 0});
+  Mesh mesh = examples::sheet_mesh([](double x, double y) { return Vector3(x, y, 0); }, 1, 1, 0.01,
+                                   examples::plain_steel());
+  const int a = examples::vertex_at(mesh, {3, 0, 0}), b = examples::vertex_at(mesh, {4, 0, 0});
   const auto add = [&](std::array<int, 2> ends, std::array<int, 2> components, double stiffness) {
     Spring spring;
     spring.vertices = ends;
@@ -219,12 +219,12 @@ TEST(Links, SpringsInSeries) {
   add({b, -1}, {4, 0}, 50);
   const Space space(mesh, {1, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& x) { return x.x() < 2; }, {0, 1, 2, 3, 4, 5}, fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
   load[6 * space.node_of_vertex(b) + 2] = 60;
   load[6 * space.node_of_vertex(b) + 4] = 5;
-  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+  const Eigen::VectorXd motion = examples::solve(space, load, fixed);
   EXPECT_NEAR(motion[6 * space.node_of_vertex(a) + 2], 0.6, 1e-12);
   EXPECT_NEAR(motion[6 * space.node_of_vertex(b) + 2], 0.8, 1e-12);
   EXPECT_NEAR(motion[6 * space.node_of_vertex(b) + 4], 0.1, 1e-12);

@@ -24,7 +24,7 @@ constexpr double length = 2, width = 0.02, height = 0.1;
 /// Bar along x of a rectangular section, axis 2 upwards.
 Mesh bar() {
   Mesh mesh;
-  mesh.materials = {testing::plain_steel()};
+  mesh.materials = {examples::plain_steel()};
   mesh.groups = {{"bar", 0}};
   mesh.regions = {{"bar", 0, false}};
   mesh.vertices = {Vector3::Zero(), Vector3(length, 0, 0)};
@@ -56,7 +56,7 @@ TEST(BeamStress, BendingAndStretchAreNaviers) {
   const double offset = 0.07, stretch = 1e-4, curvature = 3e-3;
   mesh.beams[0].offset = {Vector3(0, 0, offset), Vector3(0, 0, offset)};
   const Space space(mesh, {3, {}});
-  const Eigen::VectorXd motion = testing::motion_of(space, [&](const Vector3& p) {
+  const Eigen::VectorXd motion = test::motion_of(space, [&](const Vector3& p) {
     Motion6 m;
     m << stretch * p.x(), 0, curvature * p.x() * p.x() / 2, 0, -curvature * p.x(), 0;
     return m;
@@ -112,7 +112,7 @@ TEST(BeamStress, RodHasNoBending) {
   Mesh mesh = bar();
   mesh.beams[0].is_rod = true;
   const Space space(mesh, {2, {}});
-  const Eigen::VectorXd motion = testing::motion_of(space, [&](const Vector3& p) {
+  const Eigen::VectorXd motion = test::motion_of(space, [&](const Vector3& p) {
     Motion6 m;
     m << 1e-4 * p.x(), 0, 0, 0, -0.1 * p.x(), 0;
     return m;
@@ -125,7 +125,7 @@ TEST(BeamStress, RodHasNoBending) {
 
 /// A twist of `rate` rad/m.
 Eigen::VectorXd twisted(const Space& space, double rate) {
-  return testing::motion_of(space, [&](const Vector3& p) {
+  return test::motion_of(space, [&](const Vector3& p) {
     Motion6 m = Motion6::Zero();
     m[3] = rate * p.x();
     return m;
@@ -185,7 +185,7 @@ TEST(BeamStress, TaperWhoseTorsionConstantVanishes) {
   ASSERT_LT(points_of_beam(mesh, mesh.beams[0], 1).size(),
             points_of_beam(mesh, mesh.beams[0], 0).size());
   ASSERT_EQ(points.count(), expected);
-  const Eigen::VectorXd stretched = testing::motion_of(space, [](const Vector3& p) {
+  const Eigen::VectorXd stretched = test::motion_of(space, [](const Vector3& p) {
     Motion6 m = Motion6::Zero();
     m[0] = 1e-3 * p.x();
     return m;

@@ -26,8 +26,8 @@ Eigen::Isometry3d tilt() {
 }
 
 Mesh flat_plate(int m, int n) {
-  return testing::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n,
-                             thickness, testing::plain_steel());
+  return examples::sheet_mesh([](double x, double y) { return Vector3(2 * x, y, 0); }, m, n,
+                              thickness, examples::plain_steel());
 }
 
 /// Stretching with a bending that is uniform, in the plate's own axes:
@@ -41,8 +41,8 @@ Motion6 stretch_and_bend(const Vector3& p, double stretch, double curvature) {
 
 class TiltedPlate : public ::testing::TestWithParam<int> {
  protected:
-  TiltedPlate() : model_(testing::moved(flat_plate(4, 2), tilt()), {GetParam(), {}}) {
-    motion_ = testing::motion_of(model_.space(), [](const Vector3& place) -> Motion6 {
+  TiltedPlate() : model_(test::moved(flat_plate(4, 2), tilt()), {GetParam(), {}}) {
+    motion_ = test::motion_of(model_.space(), [](const Vector3& place) -> Motion6 {
       Motion6 own = stretch_and_bend(tilt().inverse() * place, 1e-4, 2e-3);
       own << tilt().linear() * Vector3(own.head<3>()), tilt().linear() * Vector3(own.tail<3>());
       return own;
@@ -55,7 +55,7 @@ class TiltedPlate : public ::testing::TestWithParam<int> {
 // Hooke's law in the plane: s_11 = E s - E / (1 - nu^2) k z, s_22 = -nu E / (1 - nu^2) k z; the
 // uniform bending has no shear, which elements of degree 2 and more hold exactly.
 TEST_P(TiltedPlate, StressAtAHeightIsHookesLaw) {
-  const Material steel = testing::plain_steel();
+  const Material steel = examples::plain_steel();
   const double e = steel.youngs_modulus, nu = steel.poisson_ratio;
   for (const double z : {-0.01, -0.004, 0.0, 0.01})
     for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.31, 0.2), Eigen::Vector2d(1.5, 0.5)}) {
@@ -134,7 +134,7 @@ TEST(BlockField, WherePlatesMeetTheNormalTellsWhichIsMeant) {
   EXPECT_EQ(shell_at({0.5, 0.52, 0.2}, Vector3::UnitZ()), lug);  // no other is there
   // A rigid motion is the same from either plate.
   const Vector3 turn(1e-3, -2e-3, 3e-3);
-  const Eigen::VectorXd rigid = testing::motion_of(model.space(), [&](const Vector3& p) {
+  const Eigen::VectorXd rigid = test::motion_of(model.space(), [&](const Vector3& p) {
     Motion6 motion;
     motion << turn.cross(p), turn;
     return motion;
@@ -147,10 +147,10 @@ TEST(BlockField, WherePlatesMeetTheNormalTellsWhichIsMeant) {
 TEST(ShellStress, UniformStrainIsMetInEveryPointOfATriangle) {
   Mesh mesh = flat_plate(1, 1);
   mesh.shells = {{{0, 1, 2, 2}, 0, 0, -1, 1}, {{3, 2, 1, 1}, 0, 0, -1, 2}};
-  const double e = testing::plain_steel().youngs_modulus;
+  const double e = examples::plain_steel().youngs_modulus;
   for (const int degree : {1, 2, 3}) {
     const ElasticModel model(mesh, {degree, {}});
-    const Eigen::VectorXd motion = testing::motion_of(
+    const Eigen::VectorXd motion = test::motion_of(
         model.space(), [](const Vector3& p) { return stretch_and_bend(p, 1e-4, 0); });
     Eigen::Matrix2Xd corners(2, 4);
     corners << 0, 1, 0, 1, 0, 0, 1, 1;

@@ -19,7 +19,7 @@ namespace {
 /// Closed box of 4 x 2 x 1 m about the frame's origin with a bulkhead, and a lug on its deck.
 Mesh box_with_bulkhead() {
   BlockDescription block;
-  block.materials = {testing::steel()};
+  block.materials = {test::steel()};
   const std::array<Interval, 3> all = {{{-2, 2}, {-1, 1}, {-0.5, 0.5}}};
   block.plates = {{"level", Axis::z, {-0.5, 0.5}, all, 0.01, "AH36"},
                   {"sides", Axis::y, {-1, 1}, all, 0.01, "AH36"},
@@ -41,7 +41,7 @@ TEST(ShellRegions, OuterPlatesOfATurnedBoxMakeTheShell) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   for (const double angle : {0.0, 0.5, std::numbers::pi / 4}) {
     X.linear() = Eigen::AngleAxisd(angle, Vector3(0.3, 0.1, 1).normalized()).toRotationMatrix();
-    const ElasticModel model(testing::moved(box_with_bulkhead(), X), {1, {}});
+    const ElasticModel model(test::moved(box_with_bulkhead(), X), {1, {}});
     const ShellRegions shell(model, 100);
     std::array<double, 6> areas{};
     for (const ShellRegion& region : shell.regions()) {
@@ -90,12 +90,12 @@ TEST(ShellRegions, LoadsHaveTheWrenchesOfTheirRegions) {
 // A cylinder without ends: outside and inside of each cell look at nothing and at the opposite
 // wall.
 TEST(ShellRegions, CurvedPlatingIsOutsideOnItsConvexSide) {
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [](double x, double y) {
         const double angle = 2 * std::numbers::pi * y;
         return Vector3(3 * x, std::cos(angle), std::sin(angle));
       },
-      3, 12, 0.01, testing::plain_steel(), 3);
+      3, 12, 0.01, examples::plain_steel(), 3);
   const ElasticModel model(mesh, {3, {}});
   const ShellRegions shell(model, 1.1);
   double area = 0;

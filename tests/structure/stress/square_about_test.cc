@@ -20,8 +20,8 @@ constexpr double asked_side = 0.05;
 
 /// A plate of 8 x 1 m in few shells: between its ends and middle checked squares lie 0.5 m apart.
 Mesh long_plate() {
-  return testing::sheet_mesh([](double x, double y) { return Vector3(8 * x, y, 0); }, 4, 2, 0.02,
-                             testing::steel());
+  return examples::sheet_mesh([](double x, double y) { return Vector3(8 * x, y, 0); }, 4, 2, 0.02,
+                              test::steel());
 }
 
 std::optional<Square> square_near(const Mesh& mesh, const Vector3& place) {
@@ -92,7 +92,7 @@ TEST(SquareAbout, ClosedPlatingHasSquares) {
     return Vector3(radius * std::cos(a), radius * std::sin(a), 0.4 * std::sin(b));
   };
   for (const int used : {around, around / 2}) {
-    Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+    Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
     for (int i = 0; i < around; ++i)
       for (int j = 0; j < across; ++j) mesh.vertices.push_back(place(i, j));
     const auto vertex = [&](int i, int j) { return i % around * across + j % across; };

@@ -18,8 +18,8 @@ TEST(SquaresOfDegree1, HaveNoShearWhereAPlateBendsInItsPlane) {
   const double curvature = 1e-4, half = 0.2;  // 1/m, m
   for (const int cells : {1, 2, 3}) {
     const ElasticModel model(
-        testing::sheet_mesh([&](double x, double y) -> Vector3 { return x * a + 0.4 * y * b; },
-                            cells, 1, 0.02, testing::plain_steel()),
+        examples::sheet_mesh([&](double x, double y) -> Vector3 { return x * a + 0.4 * y * b; },
+                             cells, 1, 0.02, examples::plain_steel()),
         {1, {}});
     Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(model.freedoms(), 1);
     for (int n = 0; n < model.space().node_count(); ++n) {
@@ -48,11 +48,11 @@ TEST(SquaresOfDegree1, HaveNoShearWhereAPlateBendsInItsPlane) {
 // a square of 50 mm: 1.3e-5 of the rotation by the same integral over squares of this surface.
 TEST(SquaresOfDegree1, HaveNoStressWhereAWarpedPlateTurns) {
   const Vector3 rotation(0.3, 0.5, 0.8);
-  const ElasticModel model(testing::sheet_mesh(
+  const ElasticModel model(examples::sheet_mesh(
                                [](double x, double y) -> Vector3 {
                                  return Vector3(x, 0.4 * y, x * (0.4 * y - 0.2) / 2);
                                },
-                               2, 1, 0.02, testing::plain_steel()),
+                               2, 1, 0.02, examples::plain_steel()),
                            {1, {}});
   Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(model.freedoms(), 1);
   for (int n = 0; n < model.space().node_count(); ++n) {

@@ -16,7 +16,7 @@ namespace blocklift::structure {
 namespace {
 
 Material without_lateral_strain() {
-  Material material = testing::plain_steel();
+  Material material = examples::plain_steel();
   material.poisson_ratio = 0;
   return material;
 }
@@ -24,7 +24,7 @@ Material without_lateral_strain() {
 /// A strip of a cylinder about the y axis, from an angle of nothing on.
 Mesh strip_of_cylinder(double radius, double width, double turn, int cells, double thickness,
                        int order) {
-  return testing::sheet_mesh(
+  return examples::sheet_mesh(
       [=](double x, double y) -> Vector3 {
         return {radius * std::cos(turn * x), width * y, radius * std::sin(turn * x)};
       },
@@ -72,16 +72,16 @@ TEST(SquaresOnCurvedPlating, RingUnderTwoOppositeForces) {
                           static_cast<int>(std::lround(90 / c.angle)), t, c.order),
         {c.degree, {}});
     std::vector<FixedUnknown> fixed;
-    testing::hold(model.space(), is_at(0, 0), {0, 4, 5}, fixed);
-    testing::hold(model.space(), is_at(2, 0), {2, 3, 4}, fixed);
-    testing::hold(model.space(), is_at(1, 0), {1}, fixed);
+    examples::hold(model.space(), is_at(0, 0), {0, 4, 5}, fixed);
+    examples::hold(model.space(), is_at(2, 0), {2, 3, 4}, fixed);
+    examples::hold(model.space(), is_at(1, 0), {1}, fixed);
     const Eigen::VectorXd motion =
-        testing::solve(model.space(),
-                       testing::edge_load(model.space(), is_at(0, 0),
-                                          [&](const Vector3&) -> Vector3 {
-                                            return {0, 0, -force / 2 / width};
-                                          }),
-                       fixed);
+        examples::solve(model.space(),
+                        examples::edge_load(model.space(), is_at(0, 0),
+                                            [&](const Vector3&) -> Vector3 {
+                                              return {0, 0, -force / 2 / width};
+                                            }),
+                        fixed);
     const CheckedStress checked(model, motion);
     ASSERT_GT(checked.squares().size(), 30U);
     const double modulus = width * t * t / 6;
@@ -113,15 +113,15 @@ TEST(SquaresOnCurvedPlating, DeepArchInPureBending) {
       return
           [=](const Vector3& place) { return std::abs(place.z()) < 1e-6 && side * place.x() > 0; };
     };
-    testing::hold(model.space(), at_end(1), {0, 1, 2, 3, 4, 5}, fixed);
-    testing::hold_at(
+    examples::hold(model.space(), at_end(1), {0, 1, 2, 3, 4, 5}, fixed);
+    examples::hold_at(
         model.space(), at_end(-1),
         [&](const Vector3&) -> Eigen::Matrix<double, 6, 1> {
           return turn * Eigen::Matrix<double, 6, 1>::Unit(4);
         },
         {4}, fixed);
     const Eigen::VectorXd motion =
-        testing::solve(model.space(), Eigen::VectorXd::Zero(model.freedoms()), fixed);
+        examples::solve(model.space(), Eigen::VectorXd::Zero(model.freedoms()), fixed);
     const CheckedStress checked(model, motion);
     ASSERT_GT(checked.squares().size(), 30U);
     // n = -M / R, a share t / (6 R) of the bending stress.
@@ -141,7 +141,7 @@ TEST(SquaresOnCurvedPlating, RigidMotionsHaveNoStress) {
   const Vector3 rotation(0.3, -0.5, 0.8);
   for (int degree = 1; degree <= 4; ++degree)
     for (const double offset : {0.0, 0.1}) {
-      Mesh mesh = testing::sheet_mesh(bowl, 2, 2, 0.02, testing::plain_steel(), degree);
+      Mesh mesh = examples::sheet_mesh(bowl, 2, 2, 0.02, examples::plain_steel(), degree);
       mesh.shell_sections[0].offset = offset;
       const ElasticModel model(std::move(mesh), {degree, {}});
       Eigen::VectorXd motion(model.freedoms());
@@ -159,21 +159,21 @@ TEST(SquaresOnCurvedPlating, RigidMotionsHaveNoStress) {
 // displacements was 2.9, 1.1 and 0.5 times the stress away (degrees 1, 2 and 3).
 TEST(SquaresOnCurvedPlating, PinchedCylinderHasTheStressOfAFineMesh) {
   const double radius = 3, half_length = 3, force = 1e5;
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [&](double x, double y) -> Vector3 {
         return {radius * std::cos(std::numbers::pi / 2 * x), half_length * y,
                 radius * std::sin(std::numbers::pi / 2 * x)};
       },
-      8, 8, 0.03, testing::plain_steel(), 4);
+      8, 8, 0.03, examples::plain_steel(), 4);
   const auto solved = [&](const ElasticModel& model) {
     std::vector<FixedUnknown> fixed;
-    testing::hold(model.space(), is_at(0, 0), {0, 4, 5}, fixed);
-    testing::hold(model.space(), is_at(2, 0), {2, 3, 4}, fixed);
-    testing::hold(model.space(), is_at(1, 0), {1, 3, 5}, fixed);
-    testing::hold(model.space(), is_at(1, half_length), {0, 2}, fixed);
+    examples::hold(model.space(), is_at(0, 0), {0, 4, 5}, fixed);
+    examples::hold(model.space(), is_at(2, 0), {2, 3, 4}, fixed);
+    examples::hold(model.space(), is_at(1, 0), {1, 3, 5}, fixed);
+    examples::hold(model.space(), is_at(1, half_length), {0, 2}, fixed);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(model.freedoms());
-    load[6 * testing::nearest_node(model.space(), {0, 0, radius}) + 2] = -force / 4;
-    return testing::solve(model.space(), load, fixed);
+    load[6 * examples::nearest_node(model.space(), {0, 0, radius}) + 2] = -force / 4;
+    return examples::solve(model.space(), load, fixed);
   };
   const ElasticModel fine(mesh, {4, [](const Vector3&) { return 0.3; }});
   const CheckedStress expected(fine, solved(fine));

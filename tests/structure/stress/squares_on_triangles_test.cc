@@ -17,12 +17,12 @@ namespace {
 /// A plate of 2 x 1 m, its squares cut along one diagonal or the other, each triangle beginning at
 /// another vertex; flat or bent about a cylinder of 4 m.
 Mesh triangulated_plate(int variant, bool is_bent) {
-  Mesh mesh = testing::sheet_mesh(
+  Mesh mesh = examples::sheet_mesh(
       [&](double x, double y) {
         return is_bent ? Vector3(4 * std::sin(x / 2), y, 4 * std::cos(x / 2))
                        : Vector3(2 * x, y, 0);
       },
-      6, 3, 0.02, testing::steel());
+      6, 3, 0.02, test::steel());
   const std::vector<Shell> squares = std::move(mesh.shells);
   mesh.shells.clear();
   for (std::size_t s = 0; s < squares.size(); ++s) {
@@ -89,8 +89,8 @@ Mesh triangulated_ring() {
     const double radius = 0.2 + 0.1 * i / cuts, angle = 0.5 * std::numbers::pi * j / cuts;
     return {radius * std::cos(angle), radius * std::sin(angle), 0};
   };
-  Mesh mesh = testing::sheet_mesh([&](double x, double y) { return on_ring(cuts * x, cuts * y); },
-                                  cuts, cuts, 0.02, testing::steel());
+  Mesh mesh = examples::sheet_mesh([&](double x, double y) { return on_ring(cuts * x, cuts * y); },
+                                   cuts, cuts, 0.02, test::steel());
   const Shell like = mesh.shells.front();
   mesh.shells.clear();
   mesh.curved_shells.clear();

@@ -24,8 +24,8 @@ Eigen::Matrix3d box_inertia(double mass, const Vector3& sides) {
 }
 
 Mesh plate(double offset) {
-  Mesh mesh = testing::sheet_mesh([](double x, double y) { return Vector3(3 * x, 2 * y, 0.4); }, 2,
-                                  2, 0.1, testing::plain_steel());
+  Mesh mesh = examples::sheet_mesh([](double x, double y) { return Vector3(3 * x, 2 * y, 0.4); }, 2,
+                                   2, 0.1, examples::plain_steel());
   mesh.shell_sections[0].offset = offset;
   return mesh;
 }
@@ -50,7 +50,7 @@ TEST(Matter, PlateIsABox) {
 TEST(Matter, BeamAlongACurvedEdgeIsAsLongAsTheEdge) {
   for (const bool is_reversed : {false, true})
     for (const Vector3& offset : {Vector3(0, 0, 0), Vector3(0, 0.3, 0)}) {
-      Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+      Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
       const double chord = 2, rise = 0.25, k = 4 * rise / chord;
       mesh.vertices = {{0, 0, 0}, {chord, 0, 0}, {0, 3, 0}, {chord, 3, 0}};
       Shell shell;
@@ -93,7 +93,7 @@ TEST(Matter, BeamAlongACurvedEdgeIsAsLongAsTheEdge) {
 }
 
 TEST(Matter, BeamCarriesItsSectionsMoments) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   // A bar of 0.2 (axis 2 = y) by 0.6 (axis 3 = z), beside its vertices.
   BeamSection section;
   section.area = 0.12;
@@ -103,7 +103,7 @@ TEST(Matter, BeamCarriesItsSectionsMoments) {
   section.shear_area_2 = section.shear_area_3 = 0.1;
   mesh.beam_sections = {section};
   mesh.vertices = {{0, 0, 0}, {4, 0, 0}};
-  testing::add_beams(mesh, {0, 0, 0}, {4, 0, 0}, 0, Vector3::UnitY(), {0, 0.5, -0.7});
+  examples::add_beams(mesh, {0, 0, 0}, {4, 0, 0}, 0, Vector3::UnitY(), {0, 0.5, -0.7});
   const Space space(mesh, {2, {}});
   const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
   const double expected = 7850 * 4 * 0.12;
@@ -136,11 +136,11 @@ TEST(Matter, PointMassCarriesItsInertia) {
 // shell). By isoparametric cells of degree 4 over 22.5 degrees the circle's error is 1e-7.
 TEST(Matter, HalfACylinder) {
   const double r = 2, l = 3, t = 0.1;
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [&](double x, double y) {
         return Vector3(r * std::cos(M_PI * x), l * y, r * std::sin(M_PI * x));
       },
-      8, 2, t, testing::plain_steel(), 4);
+      8, 2, t, examples::plain_steel(), 4);
   const Space space(mesh, {4, {}});
   const MassProperties mass = find_mass_properties(space, nullptr, nullptr);
   const double expected = 7850 * M_PI * r * l * t;
@@ -159,7 +159,7 @@ Mesh everything() {
   section.torsion = 1e-5;
   section.shear_area_2 = section.shear_area_3 = 0.008;
   mesh.beam_sections = {section};
-  testing::add_beams(mesh, {0, 1, 0.4}, {3, 1, 0.4}, 0, Vector3::UnitY(), {0, 0, -0.3});
+  examples::add_beams(mesh, {0, 1, 0.4}, {3, 1, 0.4}, 0, Vector3::UnitY(), {0, 0, -0.3});
   PointMass mass;
   mass.vertex = 2;
   mass.mass = 300;

@@ -15,9 +15,9 @@ namespace blocklift::structure {
 namespace {
 
 Mesh plate(int m, int n, double length, double width) {
-  return testing::sheet_mesh(
+  return examples::sheet_mesh(
       [=](double x, double y) { return Vector3(length * x, width * y, 0.1 * x * y); }, m, n, 0.05,
-      testing::plain_steel());
+      examples::plain_steel());
 }
 
 NaturalModes modes_of(const Space& space, const std::vector<FixedUnknown>& fixed, int count) {
@@ -56,7 +56,7 @@ TEST(NaturalModes, AgreeWithADenseSolver) {
 
 // A square pipe's cantilever bends alike in two planes.
 TEST(NaturalModes, CopiesOfARepeatedFrequencyAreFound) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   BeamSection section;
   section.area = 1e-2;
   section.second_moment_2 = section.second_moment_3 = 1e-5;
@@ -64,10 +64,10 @@ TEST(NaturalModes, CopiesOfARepeatedFrequencyAreFound) {
   section.shear_area_2 = section.shear_area_3 = 5e-3;
   mesh.beam_sections = {section};
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-  testing::add_beams(mesh, {0, 0, 0}, {3, 0, 0}, 0, Vector3::UnitY());
+  examples::add_beams(mesh, {0, 0, 0}, {3, 0, 0}, 0, Vector3::UnitY());
   const Space space(mesh, {4, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& x) { return x.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
   const NaturalModes modes = modes_of(space, fixed, 4);
   for (const int pair : {0, 2})
@@ -83,7 +83,7 @@ TEST(NaturalModes, CopiesOfARepeatedFrequencyAreFound) {
 
 // With three times a beam's own mass hung along it each frequency is half of what it was.
 TEST(NaturalModes, MassBeyondTheSectionSlowsABeam) {
-  Mesh mesh = testing::empty_mesh(testing::plain_steel(), 0.01);
+  Mesh mesh = examples::empty_mesh(examples::plain_steel(), 0.01);
   BeamSection section;
   section.area = 1e-2;
   section.second_moment_2 = 1e-5;
@@ -92,11 +92,11 @@ TEST(NaturalModes, MassBeyondTheSectionSlowsABeam) {
   section.shear_area_2 = section.shear_area_3 = 5e-3;
   mesh.beam_sections = {section};
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-  testing::add_beams(mesh, {0, 0, 0}, {3, 0, 0}, 0, Vector3::UnitY());
+  examples::add_beams(mesh, {0, 0, 0}, {3, 0, 0}, 0, Vector3::UnitY());
   const auto modes = [&] {
     const Space space(mesh, {4, {}});
     std::vector<FixedUnknown> fixed;
-    testing::hold(
+    examples::hold(
         space, [](const Vector3& x) { return x.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
     return modes_of(space, fixed, 4);
   };
@@ -113,13 +113,13 @@ TEST(NaturalModes, MassBeyondTheSectionSlowsABeam) {
 
 // A free strip that cannot bend: f_n = n c / 2 L, c = sqrt(E / rho) without contraction.
 TEST(NaturalModes, FreeBarRingsInWholeMultiples) {
-  Material bar = testing::plain_steel();
+  Material bar = examples::plain_steel();
   bar.poisson_ratio = 0;
-  const Mesh mesh = testing::sheet_mesh(
+  const Mesh mesh = examples::sheet_mesh(
       [](double x, double y) { return Vector3(3 * x, 0.1 * y, 0); }, 6, 1, 0.05, bar);
   const Space space(mesh, {3, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3&) { return true; }, {1, 2, 3, 4, 5}, fixed);
   const NaturalModes modes = modes_of(space, fixed, 4);
   const double first = std::sqrt(210e9 / 7850) / 6;

@@ -16,7 +16,7 @@
 #include "structure/system/assembly.h"
 #include "structure/system/matter.h"
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::examples {
 
 Material plain_steel() { return {"steel", 210e9, 0.3, 7850, 355e6}; }
 
@@ -300,4 +300,4 @@ Eigen::Matrix3d stress_at(const Space& space, const Eigen::VectorXd& motion, con
   return sum / count;
 }
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::examples

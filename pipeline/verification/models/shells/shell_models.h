@@ -9,7 +9,7 @@
 #include "structure/space/space.h"
 #include "structure/system/linear_solver.h"
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::examples {
 
 /// Surface over the unit square.
 using Chart = std::function<Vector3(double xi, double eta)>;
@@ -87,4 +87,4 @@ Eigen::Matrix3d shell_stress(const Space& space, int cell, const Eigen::Vector2d
 Eigen::Matrix3d stress_at(const Space& space, const Eigen::VectorXd& motion, const Vector3& place,
                           double z);
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::examples

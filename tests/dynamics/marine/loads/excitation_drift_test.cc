@@ -68,7 +68,7 @@ Eigen::Vector2d mean_of_element(const HydrodynamicDatabase& database, int headin
   const Eigen::VectorXcd xi =
       std::polar(amplitude, k * (std::cos(theta) * p.x() + std::sin(theta) * p.y())) *
       motions_of_body()[0].col(heading);
-  testing::OneBody body;
+  test::OneBody body;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (int i = 0; i < instants; ++i) {
     const double phase = 2 * std::numbers::pi * i / instants;

@@ -18,9 +18,9 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::expect_balanced;
+using test::expect_balanced;
+using test::OneBody;
 using ::testing::HasSubstr;
-using testing::OneBody;
 using ::testing::ThrowsMessage;
 
 constexpr double rho_g = 1025 * 9.81;
@@ -41,9 +41,9 @@ TEST(HullForce, InStillWaterIsHydrostatics) {
   const ForceVector F = hull.calc_force(body.state());
   EXPECT_NEAR(F.force.z(), rho_g * 12 * 6 * 1.0, 1e-6);
   EXPECT_NEAR(F.moment.norm(), 0, 1e-6);
-  testing::Random random(3);
+  examples::Random random(3);
   for (int i = 0; i < 20; ++i) {
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.v = random.values(6, 1);
     body.update();
     expect_balanced(body, hull);
@@ -56,9 +56,9 @@ TEST(HullForce, VanishingWavesAreStillWater) {
   const auto clusters = box_of({12, 6, 3}, 3);
   const HullForce calm({"calm", 1, clusters, sea_of(WaveField(deep))});
   const HullForce wavy({"wavy", 1, clusters, sea_of(WaveField(deep, {{0, 1, 0, 0}}))});
-  testing::Random random(4);
+  examples::Random random(4);
   for (int i = 0; i < 20; ++i) {
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.q.head<3>() *= 0.7;
     body.update();
     const ForceVector a = calm.calc_force(body.state());
@@ -92,9 +92,9 @@ TEST(HullForce, OfAHullThatDriftsHasNoPartAlongTheWater) {
   const HullForce whole(d);
   d.p_BoR_B = Vector3(1, -0.5, 1.2);
   const HullForce drifting(d);
-  testing::Random random(8);
+  examples::Random random(8);
   for (int i = 0; i < 20; ++i) {
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.q.head<3>() *= 0.7;
     body.v = random.values(6, 1);
     body.time = 0.7 * i;
@@ -353,9 +353,9 @@ TEST(HullForce, BalancesInWavesAndCanLeaveThemToOthers) {
   const HullForce hull({"barge", 1, clusters, sea});
   const HullForce without({"barge", 1, clusters, sea, WaveLoading::none});
   const HullForce calm({"barge", 1, clusters, sea_of(WaveField(deep))});
-  testing::Random random(5);
+  examples::Random random(5);
   for (int i = 0; i < 10; ++i) {
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.v = random.values(6, 1);
     body.time = 3.0 * i;
     body.update();

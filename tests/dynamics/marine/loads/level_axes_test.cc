@@ -16,7 +16,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 using Complex = std::complex<double>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -136,7 +136,7 @@ TEST(LevelAxes, DiffractionDoesNotTiltWithTheBody) {
   const BodyFrame frame{1, {rotation_about(Vector3::UnitZ(), 0.3), {1, 2, -0.5}}};
   const DiffractionForce force = waves_on_box(frame, 1.5);
   const Vector3 p_WR(4, -7, 0.3);
-  testing::OneBody body;
+  test::OneBody body;
   body.time = 2.3;
   const auto place = [&](double pitch_angle, double roll_angle) {
     const Matrix3 R_WB = attitude(1.1, pitch_angle, roll_angle) * frame.X_BH.R.transpose();
@@ -150,7 +150,7 @@ TEST(LevelAxes, DiffractionDoesNotTiltWithTheBody) {
   EXPECT_GT(upright.force.norm(), 1e6);
   EXPECT_LT((tilted.force - upright.force).norm(), 1e-9 * upright.force.norm());
   EXPECT_LT((tilted.moment - upright.moment).norm(), 1e-9 * upright.moment.norm());
-  testing::expect_balanced(body, force);
+  test::expect_balanced(body, force);
 }
 
 // Nor does what the memory does, and what it is told: the same states press with the same force at
@@ -195,7 +195,7 @@ TEST(LevelAxes, RollBringsNoMeanForce) {
   const double amplitude = 1.0;
   const Complex roll_amplitude = std::polar(0.05, 0.4);
   const DiffractionForce force = waves_on_box({1, Pose::identity()}, amplitude);
-  testing::OneBody body;
+  test::OneBody body;
   Vector3 mean = Vector3::Zero(), mean_in_body = Vector3::Zero();
   constexpr int count = 64;
   for (int n = 0; n < count; ++n) {

@@ -15,9 +15,9 @@
 namespace blocklift::dynamics {
 namespace {
 
+using examples::Random;
+using test::OneBody;
 using ::testing::HasSubstr;
-using testing::OneBody;
-using testing::Random;
 using ::testing::ThrowsMessage;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -93,10 +93,10 @@ TEST(LinearBuoyancy, BalancesAtMotionsOfAnySize) {
   OneBody body;
   Random random(22);
   for (int i = 0; i < 20; ++i) {
-    body.q = testing::random_configuration(random, body.mechanism);
+    body.q = examples::random_configuration(random, body.mechanism);
     body.v = random.values(6, 1);
     body.update();
-    testing::expect_balanced(body, linear);
+    test::expect_balanced(body, linear);
   }
 }
 

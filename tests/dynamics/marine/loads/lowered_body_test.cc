@@ -234,10 +234,10 @@ TEST(LoweredBody, IsTheDatabaseOfItsDraughtWhereItStays) {
   Eigen::VectorXd y = Eigen::VectorXd::Constant(system.state_size(), 0.3), ydot(y.size());
   y.head(2) << -0.75, 0;
   const Contacts contacts;
-  const long allocations = blocklift::testing::allocations();
+  const long allocations = blocklift::test::allocations();
   calc_right_hand_side(system, 0, y, &contacts, w, ydot);
-  if (blocklift::testing::counts_allocations()) {
-    EXPECT_EQ(blocklift::testing::allocations(), allocations);
+  if (blocklift::test::counts_allocations()) {
+    EXPECT_EQ(blocklift::test::allocations(), allocations);
   }
   EXPECT_NEAR(w.added()->matrix(5, 5), 6e3, 1e-6);
   // K(t) = C exp(A t) B at zero, halfway between that of 0.5 and 1 m.

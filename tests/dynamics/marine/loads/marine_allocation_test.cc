@@ -11,12 +11,12 @@
 namespace blocklift::dynamics {
 namespace {
 
-using blocklift::testing::allocations;
-using blocklift::testing::counts_allocations;
+using blocklift::test::allocations;
+using blocklift::test::counts_allocations;
 
 TEST(MarineAllocation, NoneInTheForces) {
   if (!counts_allocations()) GTEST_SKIP() << "allocations cannot be counted in this build";
-  testing::OneBody body;
+  test::OneBody body;
   const auto hull = std::make_shared<const HullClusters>(make_box({12, 6, 3}, {12, 6, 3, 1}));
   const auto sea = std::make_shared<const Sea>(
       Sea{realise(WaveSpectrum::jonswap(2, 8), {}, {.spreading_exponent = 2.0}),

@@ -12,7 +12,7 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::Random;
+using examples::Random;
 
 Mechanism barge_with_boom() {
   MechanismBuilder builder;
@@ -48,7 +48,7 @@ LiftSystem system_with(ForceElements elements, const Eigen::VectorXd& q) {
 void expect_jacobian(const ForceElements& elements, Random& random) {
   for (int i = 0; i < 20; ++i) {
     const Mechanism mechanism = barge_with_boom();
-    Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+    Eigen::VectorXd q = examples::random_configuration(random, mechanism);
     q.head<3>() *= 0.5;
     const LiftSystem system = system_with(elements, q);
     LiftWorkspace w(system);
@@ -165,7 +165,7 @@ TEST(MarineJacobian, OfASunkenMember) {
       MorisonMember({"m", 1, {0.2, 0.3, -0.1}, {1.0, -0.5, 0.4}, 0.5, 1, 3, sea}));
   for (int i = 0; i < 20; ++i) {
     const Mechanism mechanism = barge_with_boom();
-    Eigen::VectorXd q = testing::random_configuration(random, mechanism);
+    Eigen::VectorXd q = examples::random_configuration(random, mechanism);
     q[2] = -10;
     const LiftSystem system = system_with(elements, q);
     LiftWorkspace w(system);

@@ -23,8 +23,8 @@
 namespace blocklift::dynamics {
 namespace {
 
+using examples::Random;
 using ::testing::HasSubstr;
-using testing::Random;
 using ::testing::ThrowsMessage;
 
 constexpr double water_density = 1000, gravity = 10;
@@ -197,7 +197,7 @@ TEST(RadiatedWater, EquilibriumAndPeriods) {
 }
 
 TEST(RadiatedWater, AllocatesNothing) {
-  if (!blocklift::testing::counts_allocations()) GTEST_SKIP() << "not counted in this build";
+  if (!blocklift::test::counts_allocations()) GTEST_SKIP() << "not counted in this build";
   const auto water = std::make_shared<const RadiatedWater>(
       RadiatedWater::Definition{frames(), made_up(3), {1e-3, 100}});
   const LiftSystem system = two_boxes(water, Eigen::Vector2d(0.1, 0.2));
@@ -205,9 +205,9 @@ TEST(RadiatedWater, AllocatesNothing) {
   Eigen::VectorXd y = Eigen::VectorXd::Constant(system.state_size(), 0.1), ydot(y.size());
   get_state(system, system.q_start(), system.v_start(), y);
   const Contacts contacts;
-  const long before = blocklift::testing::allocations();
+  const long before = blocklift::test::allocations();
   calc_right_hand_side(system, 0, y, &contacts, w, ydot);
-  EXPECT_EQ(blocklift::testing::allocations(), before);
+  EXPECT_EQ(blocklift::test::allocations(), before);
 }
 
 TEST(RadiatedWater, NeedsAPartForEachBody) {
@@ -256,7 +256,7 @@ DiffractionForce::Definition diffraction(const std::vector<WaveComponent>& waves
 TEST(DiffractionForce, FollowsTheBody) {
   constexpr double w = 0.8, theta = 0.6, amplitude = 1.5, wave_phase = 0.4;
   const DiffractionForce force(diffraction({{amplitude, w, theta, wave_phase}}));
-  testing::OneBody body;
+  test::OneBody body;
   for (const double yaw : {0.0, 0.5, -2.5}) {
     const Vector3 place(3, 8, 0);
     body.q.head<3>() = place;
@@ -277,7 +277,7 @@ TEST(DiffractionForce, FollowsTheBody) {
     // Linear between headings 5 degrees apart: (h/2)^2/2 of the amplitude at most.
     EXPECT_LT((F.force - R * expected.head<3>()).norm(), 2e-3 * amplitude);
     EXPECT_LT((F.moment - R * expected.tail<3>()).norm(), 2e-3 * amplitude);
-    testing::expect_balanced(body, force);
+    test::expect_balanced(body, force);
   }
 }
 
@@ -288,7 +288,7 @@ TEST(DiffractionForce, WithFroudeKrylovAndBetweenFrequencies) {
   const DiffractionForce whole(definition);
   definition.froude_krylov = FroudeKrylovPart::along_water;
   const DiffractionForce along_water(definition);
-  testing::OneBody body;
+  test::OneBody body;
   body.time = 0.3;
   const double alone = scattered.calc_force(body.state()).force.x();
   EXPECT_NEAR(alone, 0.65 * std::cos(0.65 * 0.3), 1e-9);

@@ -52,7 +52,7 @@ SlowDrift slow_drift(const std::vector<WaveComponent>& waves) {
 TEST(SlowDrift, OneWaveGivesItsMeanForce) {
   constexpr double amplitude = 1.5, heading = 0.6;
   const SlowDrift drift = slow_drift({{amplitude, 0.8, heading, 0.3}});
-  testing::OneBody body;
+  test::OneBody body;
   for (const double yaw_angle : {0.0, 1.1, -2.0}) {
     body.q.head<3>() = Vector3(3, -8, 0);
     body.q.tail<4>() = quaternion_from_rotation(rotation_about(Vector3::UnitZ(), yaw_angle));
@@ -66,7 +66,7 @@ TEST(SlowDrift, OneWaveGivesItsMeanForce) {
       const ForceVector F = drift.calc_force(body.state());
       EXPECT_LT((F.force - force).norm(), 2e-3 * 100 * square);
       EXPECT_NEAR(F.moment.z(), 10 * std::sin(2 * h) * square, 5e-3 * 10 * square);
-      testing::expect_balanced(body, drift);
+      test::expect_balanced(body, drift);
     }
   }
 }
@@ -74,7 +74,7 @@ TEST(SlowDrift, OneWaveGivesItsMeanForce) {
 // D1 a1^2 + D2 a2^2 + 2 a1 a2 sqrt(D1 D2) cos of the difference, and nothing else.
 TEST(SlowDrift, TwoWavesBeatAsNewmanHasIt) {
   const SlowDrift drift = slow_drift({{2.0, 0.5, 0.0, 0.2}, {1.0, 1.0, 0.0, 0.7}});
-  testing::OneBody body;
+  test::OneBody body;
   body.q.head<3>() = Vector3(6, 0, 0);
   for (const double time : {0.0, 1.0, 4.5, 11.0}) {
     body.time = time;
@@ -116,14 +116,14 @@ TEST(CurrentLoad, FollowsItsCoefficients) {
   d.sea = std::make_shared<const Sea>(
       Sea{WaveField(Water{.density = 1000}), Current::uniform(1.5, 0.9)});
   const CurrentLoad load(d);
-  testing::OneBody body;
+  test::OneBody body;
   body.update();
   const double share = 0.9 / (pi / 2), q = 0.5 * 1000 * 1.5 * 1.5;
   ForceVector F = load.calc_force(body.state());
   EXPECT_NEAR(F.force.x(), q * 500 * 0.1 * (1 - share), 1e-6);
   EXPECT_NEAR(F.force.y(), q * 500 * 0.8 * share, 1e-6);
   EXPECT_NEAR(F.moment.z(), q * 500 * 100 * 0.05 * share, 1e-4);
-  testing::expect_balanced(body, load);
+  test::expect_balanced(body, load);
   // With the water it feels nothing.
   body.v.tail<3>() = 1.5 * Vector3(std::cos(0.9), std::sin(0.9), 0);
   body.update();

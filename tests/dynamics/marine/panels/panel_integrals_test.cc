@@ -11,8 +11,8 @@
 namespace blocklift::dynamics {
 namespace {
 
-using testing::by_quadrature;
-using testing::skew_quadrangle;
+using examples::by_quadrature;
+using examples::skew_quadrangle;
 
 TEST(PanelIntegrals, AgreeWithQuadrature) {
   const Panel panel = skew_quadrangle();

@@ -315,8 +315,8 @@ TEST(MeanDrift, RefusesWhatIsNotKnown) {
 // The panel method's far field of a hemisphere: its waves carry away what its damping takes, and a
 // free body takes nothing out of the waves. Two headings are the same to a round body.
 TEST(MeanDrift, OfAHemisphereConservesEnergy) {
-  const testing::Hemisphere sphere =
-      testing::make_hemisphere(1.0, {16, 6, 0.12, 1.08, 30.0}, {1.0, 1.0});
+  const examples::Hemisphere sphere =
+      examples::make_hemisphere(1.0, {16, 6, 0.12, 1.08, 30.0}, {1.0, 1.0});
   DatabaseSettings settings;
   settings.frequencies = {0.8, 1.1};
   settings.headings = {0.0, 0.9};

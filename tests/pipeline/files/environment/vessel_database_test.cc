@@ -24,10 +24,10 @@ TEST(VesselDatabase, IsDoubtedByName) {
   vessel.hydrodynamics = std::make_shared<const dynamics::HydrodynamicDatabase>(database);
   EXPECT_THAT(
       doubts_about_database({vessel}),
-      testing::ElementsAre("Database rm3.h5: its 3 headings lie between 0 and 5157 degrees, "
-                           "as if the headings were in degrees, and were read as radians."));
+      ::testing::ElementsAre("Database rm3.h5: its 3 headings lie between 0 and 5157 degrees, "
+                             "as if the headings were in degrees, and were read as radians."));
   vessel.radiation.value = RadiationMethod::none;
-  EXPECT_THAT(doubts_about_database({vessel}), testing::IsEmpty());
+  EXPECT_THAT(doubts_about_database({vessel}), ::testing::IsEmpty());
 }
 
 }  // namespace

@@ -182,7 +182,7 @@ TEST(LiftCaseErrors, SpreadersInARing) {
 TEST(LiftCaseErrors, SpreaderWhoseLengthHasNoUnit) {
   const std::string complaints = complaints_about_spreader("    length: 4 m\n", "    length: 4\n");
   EXPECT_THAT(complaints, HasSubstr("length \"4\" has no unit"));
-  EXPECT_THAT(complaints, testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(complaints, ::testing::Not(HasSubstr("nan")));
 }
 
 TEST(LiftCaseErrors, EyeThatASpreaderDoesNotHave) {

@@ -105,21 +105,22 @@ TEST(VesselModel, AMeshMustBeClosedBelowTheWater) {
                         "2 1 -1 -2 1 -1 -2 1 0 2 1 0\n"
                         "-2 1 -1 -2 -1 -1 -2 -1 0 -2 1 0\n";
   EXPECT_EQ(said_of_wetted_box(bottom + starboard + rest), "");
-  EXPECT_THAT(said_of_wetted_box(starboard + rest),
-              testing::AllOf(HasSubstr("vessel.yaml:2:"),
-                             HasSubstr("has no panel on its other side, and lies below the water "
-                                       "line z = 0, where alone a mesh may end (4 such edges); add "
-                                       "the panels that are missing")));
+  EXPECT_THAT(
+      said_of_wetted_box(starboard + rest),
+      ::testing::AllOf(HasSubstr("vessel.yaml:2:"),
+                       HasSubstr("has no panel on its other side, and lies below the water "
+                                 "line z = 0, where alone a mesh may end (4 such edges); add "
+                                 "the panels that are missing")));
   EXPECT_THAT(said_of_wetted_box(bottom + starboard + rest + starboard),
               HasSubstr("panel 5: it has the same vertices as panel 1"));
   EXPECT_THAT(said_of_wetted_box("-2 -1 1 -2 1 1 2 1 1 2 -1 1\n"),
-              testing::AllOf(HasSubstr("all panels are above the water line; lower the hull"),
-                             testing::Not(HasSubstr("no panel on its other side"))));
+              ::testing::AllOf(HasSubstr("all panels are above the water line; lower the hull"),
+                               ::testing::Not(HasSubstr("no panel on its other side"))));
   const std::string turned = "-2 -1 0 2 -1 0 2 -1 -1 -2 -1 -1\n";
   EXPECT_THAT(said_of_wetted_box(bottom + turned + rest),
-              testing::AllOf(HasSubstr("one of the two is turned round"),
-                             HasSubstr("panel 1 (counted from 0) is turned round against all "
-                                       "neighbours: reverse the order of its vertices")));
+              ::testing::AllOf(HasSubstr("one of the two is turned round"),
+                               HasSubstr("panel 1 (counted from 0) is turned round against all "
+                                         "neighbours: reverse the order of its vertices")));
 }
 
 TEST(VesselModel, AHalfIsToldFromAWhole) {
@@ -181,7 +182,7 @@ TEST(VesselModel, AMeshBecomesSymmetricByKey) {
   const auto halved = read(", symmetric_in: [y]", -1);
   EXPECT_GT(halved.first, 8) << halved.second;
   EXPECT_THAT(read(", symmetric_in: [y]", -1.5).second,
-              testing::AllOf(HasSubstr("vessel.yaml:2:"), HasSubstr("not symmetric in y = 0")));
+              ::testing::AllOf(HasSubstr("vessel.yaml:2:"), HasSubstr("not symmetric in y = 0")));
   EXPECT_THAT(read(", symmetric_in: [z]", -1).second, HasSubstr("vessel.yaml:2:"));
 }
 

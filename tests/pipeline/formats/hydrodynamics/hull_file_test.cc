@@ -62,7 +62,7 @@ TEST(HullFile, ClosesNothingButTheTop) {
     const auto path = put(folder, "open.gdf", text);
     EXPECT_THAT(
         [&] { read_hull(path, {.close_openings = true}); },
-        ThrowsMessage<HullFileError>(testing::AllOf(
+        ThrowsMessage<HullFileError>(::testing::AllOf(
             HasSubstr("close_openings closes what is open at the top"), HasSubstr(message))));
   };
   std::string without_bottom = whole.substr(0, whole.find("0 0 -2  0 1 -2"));

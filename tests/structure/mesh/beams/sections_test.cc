@@ -200,7 +200,7 @@ TEST(Sections, RefuseWhatCannotBe) {
     bulb_flat(0.25, 0.01);
     FAIL();
   } catch (const ModelError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("250 mm high; EN 10067 has 120, 140"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("250 mm high; EN 10067 has 120, 140"));
   }
 }
 

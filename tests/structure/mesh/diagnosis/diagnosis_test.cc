@@ -15,7 +15,7 @@
 namespace blocklift::structure {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Plate in the plane of x and y, cells of 1 m, shells numbered from 1.
 Mesh plate(int along, int across) {
@@ -118,9 +118,9 @@ TEST(Diagnosis, PartsThatTouchAreToldWithPlaceAndGap) {
   ASSERT_EQ(count(diagnosis, "parts that touch"), 1);
   const Finding& finding = *diagnosis.find("parts that touch");
   EXPECT_EQ(finding.severity, Severity::warning);
-  EXPECT_THAT(finding.text, testing::HasSubstr("the nearest across 20 mm at (2"));
+  EXPECT_THAT(finding.text, ::testing::HasSubstr("the nearest across 20 mm at (2"));
   // Two ends of either lie beside the other, the fourth of six stands out.
-  EXPECT_THAT(finding.text, testing::HasSubstr("where 4 vertices lie beside the other part"));
+  EXPECT_THAT(finding.text, ::testing::HasSubstr("where 4 vertices lie beside the other part"));
   EXPECT_EQ(count(diagnose(plates_apart(0.1)), "parts that touch"), 0);
   mesh.rigid_links.push_back({.master = 2, .slaves = {9}});
   EXPECT_EQ(count(diagnose(mesh), "parts that touch"), 0);
@@ -154,7 +154,7 @@ TEST(Diagnosis, MiddlesAtQuarterPointsAreNamedWithTheirPlace) {
   const Finding at_quarter = found(0.25);
   EXPECT_EQ(at_quarter.severity, Severity::warning);
   EXPECT_THAT(at_quarter.labels, ElementsAre(1));
-  EXPECT_THAT(at_quarter.text, testing::HasSubstr("at (0.75, 1, 0) m, 0.25 of the edge"));
+  EXPECT_THAT(at_quarter.text, ::testing::HasSubstr("at (0.75, 1, 0) m, 0.25 of the edge"));
   EXPECT_EQ(found(0.27).count, 1);
   EXPECT_EQ(found(0.28).count, 0);
   EXPECT_EQ(found(0.5).count, 0);
@@ -181,7 +181,7 @@ TEST(Diagnosis, DuplicatedVerticesAndCells) {
   mesh.shells[1].vertices[0] = 6;
   mesh.shells[1].vertices[2] = 7;
   Diagnosis diagnosis = diagnose(mesh);
-  EXPECT_THAT(diagnosis.find("duplicated vertices")->labels, testing::UnorderedElementsAre(7, 8));
+  EXPECT_THAT(diagnosis.find("duplicated vertices")->labels, ::testing::UnorderedElementsAre(7, 8));
   EXPECT_EQ(diagnosis.parts, 2);
   // Springs between them on purpose.
   for (const auto& [a, b] : {std::pair(1, 6), std::pair(4, 7)}) {

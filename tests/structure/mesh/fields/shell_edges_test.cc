@@ -15,12 +15,12 @@ using std::numbers::pi;
 
 // A pipe of so many flat facets round it and two along it; every second one is turned over.
 Mesh faceted_pipe(int facets) {
-  Mesh mesh = testing::sheet_mesh(
+  Mesh mesh = examples::sheet_mesh(
       [=](double x, double y) {
         const double angle = 2 * pi * std::round(x * facets) / facets;
         return Vector3(std::cos(angle), std::sin(angle), 2 * y);
       },
-      facets, 2, 0.01, testing::plain_steel());
+      facets, 2, 0.01, examples::plain_steel());
   for (std::size_t i = 0; i < mesh.shells.size(); i += 2) {
     std::swap(mesh.shells[i].vertices[0], mesh.shells[i].vertices[1]);
     std::swap(mesh.shells[i].vertices[2], mesh.shells[i].vertices[3]);
@@ -56,18 +56,18 @@ TEST(ShellEdges, CornersOfTheStructureAreNoFacets) {
 }
 
 TEST(ShellEdges, PlanePlatesAndCurvedShellsAreNoFacets) {
-  EXPECT_EQ(facets_of(testing::sheet_mesh([](double x, double y) { return Vector3(x, y, 0); }, 4, 4,
-                                          0.01, testing::plain_steel())),
+  EXPECT_EQ(facets_of(examples::sheet_mesh([](double x, double y) { return Vector3(x, y, 0); }, 4,
+                                           4, 0.01, examples::plain_steel())),
             0);
   const auto roof = [](double x, double y) { return Vector3(std::cos(x), std::sin(x), y); };
-  EXPECT_EQ(facets_of(testing::sheet_mesh(roof, 4, 4, 0.01, testing::plain_steel(), 3)), 0);
-  EXPECT_EQ(facets_of(testing::sheet_mesh(roof, 4, 4, 0.01, testing::plain_steel(), 1)), 16);
+  EXPECT_EQ(facets_of(examples::sheet_mesh(roof, 4, 4, 0.01, examples::plain_steel(), 3)), 0);
+  EXPECT_EQ(facets_of(examples::sheet_mesh(roof, 4, 4, 0.01, examples::plain_steel(), 1)), 16);
 }
 
 // A plate on a round shell does not make the shell less round, and is no facet itself.
 TEST(ShellEdges, ShellBelowAPlateIsStillRound) {
   Mesh mesh = faceted_pipe(16);
-  testing::add_sheet(
+  examples::add_sheet(
       mesh, [](double x, double y) { return Vector3(1 + x, 0, 2 * y); }, 1, 2);
   const std::vector<bool> is_facet = find_facets(mesh);
   EXPECT_EQ(std::count(is_facet.begin(), is_facet.end(), true), 32);

@@ -52,7 +52,7 @@ void add_shells(Mesh& mesh) {
 JoinedPlate joined_plate(const Eigen::Matrix3d& turn) {
   JoinedPlate plate;
   Mesh& mesh = plate.mesh;
-  mesh.materials = {testing::steel()};
+  mesh.materials = {test::steel()};
   mesh.materials[0].poisson_ratio = poisson;
   mesh.shell_sections = {{thickness, 0}};
   mesh.groups = {{"plate", 0}, {"lug", 0}};

@@ -15,8 +15,8 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string steel_of_plate = "*MATERIAL, NAME=Steel\n*ELASTIC\n206.e9, .3\n*DENSITY\n7850.\n";
 const std::string plate_of_two =
@@ -95,7 +95,7 @@ TEST(AbaqusData, FilesOfDataAreGuardedLikeThoseThatAreIncluded) {
   EXPECT_THAT(said(", INPUT=keywords.txt"),
               HasSubstr("keywords.txt:2: error: \"*CLOAD\" in the file of INPUT = of *CLOAD"));
   // What is left out is not looked for.
-  EXPECT_THAT(said("\n5, 1, 100.\n*AMPLITUDE, NAME=A, INPUT=gone.txt"), testing::IsEmpty());
+  EXPECT_THAT(said("\n5, 1, 100.\n*AMPLITUDE, NAME=A, INPUT=gone.txt"), ::testing::IsEmpty());
 }
 
 TEST(AbaqusData, ParametersThatAreNotReadAreSaid) {
@@ -105,8 +105,8 @@ TEST(AbaqusData, ParametersThatAreNotReadAreSaid) {
       all += remark.place.substr(remark.place.find("deck.inp")) + ": " + remark.text + "\n";
     return all;
   };
-  EXPECT_THAT(remarks(""), testing::IsEmpty());
-  EXPECT_THAT(remarks("*NSET, NSET=X, INTERNAL, gene rate\n1, 3\n"), testing::IsEmpty());
+  EXPECT_THAT(remarks(""), ::testing::IsEmpty());
+  EXPECT_THAT(remarks("*NSET, NSET=X, INTERNAL, gene rate\n1, 3\n"), ::testing::IsEmpty());
   EXPECT_EQ(remarks("*NODE, NSTE=X\n7, 5., 5., 5.\n"),
             "deck.inp:18: *NODE: the parameter NSTE is not read (did you mean NSET?)\n");
   EXPECT_EQ(remarks("*STEP\n*CLOAD, LOAD CASE=2\n5, 1, 1.\n*END STEP\n"),

@@ -13,8 +13,8 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::HasSubstr;
-using testing::SizeIs;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 const std::string steel_shells =
     "*MATERIAL, NAME=STEEL\n*ELASTIC\n206.E9, .3\n*DENSITY\n7850.\n"

@@ -12,8 +12,8 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 // Three instances, one turned; a girder 4 mm above a plate, tied to it at its ends.
 TEST(Preprocessors, AbaqusCae) {
@@ -528,7 +528,7 @@ TEST(Preprocessors, AWrongMaterialIsSaidOnce) {
 .01
 )");
   EXPECT_THAT(complaints, HasSubstr("deck.inp:8: error: *MATERIAL: material S has a Young's"));
-  EXPECT_THAT(complaints, testing::Not(HasSubstr("does not exist")));
+  EXPECT_THAT(complaints, ::testing::Not(HasSubstr("does not exist")));
 }
 
 }  // namespace

@@ -20,9 +20,9 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string &steel = abaqus_steel, &nodes = abaqus_nodes, &square_plate = abaqus_square_plate;
 
@@ -59,7 +59,7 @@ TEST(AbaqusReader, SectionsWithoutElementsAreRefused) {
                                     "*SHELL SECTION, ELS?T=Plate, MATERIAL=Steel\n.01\n",
                                     "*SOLID SECTION, MATERIAL=Steel\n500.\n"})
     EXPECT_THAT([&] { abaqus(square_plate + section); },
-                testing::ThrowsMessage<DeckError>(HasSubstr("ELSET")))
+                ::testing::ThrowsMessage<DeckError>(HasSubstr("ELSET")))
         << section;
 }
 
@@ -371,7 +371,7 @@ TEST(AbaqusReader, SurfacesOfInstances) {
   EXPECT_EQ(loads(deck(second, "Two.Top"))[0].shell, 1);
   EXPECT_EQ(loads(deck("", "Top")).size(), 1U);
   EXPECT_THAT([&] { abaqus(deck(second, "Top")); },
-              testing::ThrowsMessage<DeckError>(
+              ::testing::ThrowsMessage<DeckError>(
                   HasSubstr("surface Top does not exist; those of the deck are ONE.TOP, TWO.TOP")));
 }
 

@@ -58,7 +58,7 @@ Plate, P, 1000.
   // A perturbation moves no further what the step before it has moved.
   EXPECT_EQ(deck.support_sets[2].supports.size(), 2U);
   EXPECT_EQ(deck.support_sets[2].supports[1].value[1], 0);
-  EXPECT_THAT(entry(deck, "*OUTPUT").left_out, testing::HasSubstr("printed"));
+  EXPECT_THAT(entry(deck, "*OUTPUT").left_out, ::testing::HasSubstr("printed"));
 }
 
 // A perturbation after a step with NLGEOM has the stiffness of what that has strained.

@@ -14,7 +14,7 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// From y to y and z to z, y being up and z to the right; a sign of -1 is a hole.
 struct Rectangle {

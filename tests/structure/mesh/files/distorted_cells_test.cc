@@ -15,9 +15,9 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Corners of a cube of 1 m, 1 to 8; 9 above its middle.
 const std::string grids_of_cube =
@@ -267,7 +267,7 @@ TEST(DistortedCells, FastenedMiddlesOfCurvedEdgesLieOffStraightShells) {
   EXPECT_TRUE(fastened_off_straight_shells(nastran(deck + "CONM2,9,11,,5.\n").mesh).empty());
   const std::vector<int> off =
       fastened_off_straight_shells(nastran(deck + "CONM2,9,10,,5.\n").mesh);
-  EXPECT_THAT(off, testing::ElementsAre(9));
+  EXPECT_THAT(off, ::testing::ElementsAre(9));
 }
 
 }  // namespace

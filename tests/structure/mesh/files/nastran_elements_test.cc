@@ -15,8 +15,8 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 // A quarter of a cylinder by one CQUAD8: its middles lie on the arc.
 TEST(NastranReader, QuadraticShellsAreCurved) {
@@ -323,7 +323,7 @@ RBE1,14,4,123456
   EXPECT_THAT(mesh.distributing_links[0].weights, ElementsAre(1, 1, 2.5, 2.5));
   EXPECT_THAT(entry(deck, "RBE2").left_out, HasSubstr("thermal"));
   // Which freedoms UM has the solver eliminate changes nothing.
-  EXPECT_THAT(entry(deck, "RBE3").left_out, testing::IsEmpty());
+  EXPECT_THAT(entry(deck, "RBE3").left_out, ::testing::IsEmpty());
   const std::string pair = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\n";
   const Deck warmed = nastran(pair + "RBE3,12,,1,123,1.,123,2,3\n,UM,2,123,,,,,\n,ALPHA,1.2-5\n");
   EXPECT_THAT(entry(warmed, "RBE3").left_out, HasSubstr("thermal"));

@@ -14,8 +14,8 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string aluminium_card = "MAT1,7,70.+9,,.3,2700.\n";
 constexpr double young_of_aluminium = 70e9, poisson_of_aluminium = 0.3,

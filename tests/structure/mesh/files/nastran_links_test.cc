@@ -13,7 +13,7 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string grids = R"(GRID,1,,0.,0.,0.
 GRID,2,,2000.,0.,0.
@@ -185,7 +185,7 @@ TEST(NastranLinks, RotationsThatNothingResistsDoNotCount) {
   };
   const std::vector<DeckRemark> remarks = of_rotations(deck);
   ASSERT_EQ(remarks.size(), 1U);
-  EXPECT_THAT(remarks[0].place, testing::EndsWith("deck.bdf:14"));
+  EXPECT_THAT(remarks[0].place, ::testing::EndsWith("deck.bdf:14"));
   EXPECT_EQ(remarks[0].count, 4);
   // A plate over the face resists them.
   const Deck plated = nastran(cube + mean + "CQUAD4,2,2,5,6,7,8\nPSHELL,2,7,.01,7,,7\n");

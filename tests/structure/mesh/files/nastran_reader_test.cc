@@ -15,9 +15,9 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double pi = std::numbers::pi;
 
@@ -256,7 +256,7 @@ TEST(NastranReader, RangesToTheLargestNumberTakeNoTime) {
 TEST(NastranReader, DamagedStiffnessIsRefused) {
   EXPECT_THAT(
       [&] { nastran(square + "CTRIA3,11,6,1,2,3\nPSHELL,6,3,.01\nMAT2,3,2.06+5,,0.3,7.85-90.\n"); },
-      testing::ThrowsMessage<DeckError>(HasSubstr("stiffness")));
+      ::testing::ThrowsMessage<DeckError>(HasSubstr("stiffness")));
 }
 
 TEST(NastranReader, LoadsAndSubcases) {
@@ -494,7 +494,7 @@ TEST(NastranReader, LoadsOnElementsThatFailAreNotComplainedOf) {
                                                  "CQUAD4,11,6,1,2,3,4\nPLOAD2,3,2.,11\n"
                                                  "PLOAD4,3,77,1.\nPLOAD1,3,78,FX,FR,0.,1.,1.,1.\n");
   EXPECT_THAT(text, HasSubstr("property 6 does not exist"));
-  EXPECT_THAT(text, testing::Not(HasSubstr("PLOAD2")));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("PLOAD2")));
   EXPECT_THAT(text,
               HasSubstr("PLOAD4: a pressure of set 3 is on element 77, which does not exist"));
   EXPECT_THAT(text, HasSubstr("PLOAD1: a load of set 3 is on element 78, which does not exist"));
@@ -534,7 +534,7 @@ TEST(NastranReader, LeavesOutCommandsToTheSolverThatAreNotThere) {
       "SET 8 = 1 THRU 9,\n  12,13 THRU 20, \n 30\nINCLUDE 'more.inc'\nBEGIN BULK\n" +
       square + "ENDDATA\n");
   EXPECT_THAT(entry(deck, "INCLUDE").left_out, HasSubstr("commands to the solver"));
-  EXPECT_THAT(describe_ledger(deck), testing::Not(HasSubstr("case control 12")));
+  EXPECT_THAT(describe_ledger(deck), ::testing::Not(HasSubstr("case control 12")));
   EXPECT_THAT(complaints_of_nastran("CEND\nBEGIN BULK\nINCLUDE 'gone.bdf'\n" + square),
               HasSubstr("\"gone.bdf\" to be included cannot be read"));
 }
@@ -563,7 +563,7 @@ TEST(NastranReader, LeavesOutWhatHasNoMeaningHereAndSaysSo) {
   EXPECT_EQ(entry(deck, "MAT1").read, 2);
   EXPECT_EQ(entry(deck, "MAT1").used, 1);
   EXPECT_EQ(entry(deck, "CQUAD4").used, 1);
-  EXPECT_THAT(entry(deck, "CQUAD4").left_out, testing::IsEmpty());
+  EXPECT_THAT(entry(deck, "CQUAD4").left_out, ::testing::IsEmpty());
   EXPECT_THAT(describe_ledger(deck), HasSubstr("CAERO1"));
 }
 

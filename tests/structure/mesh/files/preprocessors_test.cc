@@ -10,8 +10,8 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 // Two plates of 1 x 1 m, 12 and 15 mm of steel; a mass of 500 kg on a rigid element.
 TEST(Preprocessors, HyperMesh) {

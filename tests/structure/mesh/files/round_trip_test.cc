@@ -18,7 +18,7 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // Eleven digits of a field of sixteen columns.
 constexpr double tolerance = 1e-10;

@@ -22,7 +22,7 @@
 namespace blocklift::structure::test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A cube of 1 m, a wedge of half of one on it, and a tetrahedron beside it.
 const std::string nastran_solids = R"(GRID,1,,0.,0.,0.

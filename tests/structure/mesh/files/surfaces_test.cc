@@ -30,8 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 namespace occ = gmsh::model::occ;
+using examples::plain_steel;
 using ::testing::HasSubstr;
-using testing::plain_steel;
 
 class Surfaces : public ::testing::Test {
  protected:
@@ -95,14 +95,14 @@ double middle_deflection(const Mesh& mesh) {
   const Space space(mesh, {3, {}});
   const auto on = [](double x) { return std::min(std::abs(x), std::abs(x - 1)) < 1e-6; };
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return on(p.x()); }, {0, 1, 2, 3, 5}, fixed);
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return on(p.y()) && !on(p.x()); }, {0, 1, 2, 4, 5}, fixed);
   const Eigen::VectorXd load =
-      testing::area_load(space, [](const Vector3&) { return Vector3(0, 0, -plate_pressure); });
-  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
-  return -testing::displacement_at(space, motion, {0.5, 0.5, 0}).z();
+      examples::area_load(space, [](const Vector3&) { return Vector3(0, 0, -plate_pressure); });
+  const Eigen::VectorXd motion = examples::solve(space, load, fixed);
+  return -examples::displacement_at(space, motion, {0.5, 0.5, 0}).z();
 }
 
 // Timoshenko and Woinowsky-Krieger (1959), table 8: w = 0.00406 q a^4 / D. Shear adds

@@ -32,7 +32,7 @@ BlockDescription hull_corner(bool has_lug) {
   const Interval along{0, 8}, across{0, side_at};
   BlockDescription block;
   block.name = "corner";
-  block.materials = {testing::steel()};
+  block.materials = {test::steel()};
   block.plates = {{"deck", Axis::z, {deck_at}, {{along, across, {}}}, 0.02, "AH36"},
                   {"side", Axis::y, {side_at}, {{along, {}, {0, deck_at}}}, 0.014, "AH36"},
                   {"stringer", Axis::z, {0}, {{along, {5, side_at}, {}}}, 0.012, "AH36"},

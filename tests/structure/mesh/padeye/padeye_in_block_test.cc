@@ -43,7 +43,7 @@ PadeyeGeometry strip_padeye() { return {0.1, strip_thickness, 0.06, 0.057, 0, 0,
 BlockDescription strip_with_lug() {
   BlockDescription block;
   block.name = "strip";
-  block.materials = {testing::steel()};
+  block.materials = {test::steel()};
   const double top = strip_length;
   const Interval width{0, strip_width};
   block.plates = {{"strip", Axis::y, {0}, {{width, {}, {0, top}}}, strip_thickness, "AH36"}};
@@ -136,7 +136,7 @@ TEST(PadeyeInBlock, RigidMotionsAreFreeOfStrain) {
       lower.selfadjointView<Eigen::Lower>();
   const double stiffest = stiffness.diagonal().maxCoeff();
   for (int i = 0; i < 6; ++i) {
-    const Eigen::VectorXd rigid = testing::motion_of(space, [i](const Vector3& place) {
+    const Eigen::VectorXd rigid = test::motion_of(space, [i](const Vector3& place) {
       Eigen::Matrix<double, 6, 1> motion = Eigen::Matrix<double, 6, 1>::Zero();
       motion[i] = 1;
       if (i >= 3) motion.head<3>() = Vector3::Unit(i - 3).cross(place);
@@ -177,7 +177,7 @@ TEST(PadeyeInBlock, ForceAndMomentReachTheFoot) {
 TEST(PadeyeInBlock, PinMovesAsAStripWithAPadeyeDoes) {
   const ElasticModel model(strip_mesh(), {3, {}});
   const Eigen::Matrix3d found = HeldAtFoot(model).compliance();
-  const PadeyeModel padeye(strip_padeye(), testing::steel(), 16);
+  const PadeyeModel padeye(strip_padeye(), test::steel(), 16);
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();  // along P's axes
   for (int i = 0; i < 3; ++i) {
     PadeyeLoad load;
@@ -191,7 +191,7 @@ TEST(PadeyeInBlock, PinMovesAsAStripWithAPadeyeDoes) {
       }
     own.col(i) /= nodes;
   }
-  const Material steel = testing::steel();
+  const Material steel = test::steel();
   const double L = strip_length, b = strip_width, t = strip_thickness, h = 0.25;
   const double E = steel.youngs_modulus, area = b * t, shear = steel.shear_modulus() * area * 5 / 6;
   const auto bent = [&](double second_moment) {
@@ -246,7 +246,7 @@ PadeyeGeometry box_padeye() { return {0.12, 0.03, 0.06, 0.057, 0.09, 0.01, 0.25,
 
 /// The small block's lugs of these names as padeyes.
 Mesh small_box(const std::vector<std::string>& solid_lugs) {
-  const BlockDescription block = testing::small_block();
+  const BlockDescription block = test::small_block();
   Mesh mesh = generate_shell_mesh(block);
   for (const Lug& lug : block.lugs)
     if (std::find(solid_lugs.begin(), solid_lugs.end(), lug.name) != solid_lugs.end())
@@ -370,7 +370,7 @@ TEST(PadeyeInBlock, PeaksOfSolidLugsAreNotChecked) {
 
 // What of a lug lies within its pad is an insert of the lug's thickness, and stays.
 TEST(PadeyeInBlock, WhatLiesWithinThePadStays) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.lugs[0].extent[2].lower = 1.7;
   Mesh mesh = generate_shell_mesh(block);
   stand_padeye(mesh, {"L1", box_padeye(), upright_along_y(), block.lugs[0].p_BPin});
@@ -397,7 +397,7 @@ std::string refusal_of(const BlockDescription& block, const PadeyeInBlock& padey
 }
 
 TEST(PadeyeInBlock, RefusesWhatHasNoRoom) {
-  const BlockDescription box = testing::small_block();
+  const BlockDescription box = test::small_block();
   const PadeyeInBlock good{"L1", box_padeye(), upright_along_y(), box.lugs[0].p_BPin};
   EXPECT_EQ(refusal_of(box, good), "");
   PadeyeInBlock wrong = good;

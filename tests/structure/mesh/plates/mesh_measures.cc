@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::test {
 
 namespace {
 
@@ -143,4 +143,4 @@ void expect_conforming(const Mesh& mesh) {
         << "beam " << beam.label << " lies on no shell's edge";
 }
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::test

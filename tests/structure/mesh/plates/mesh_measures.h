@@ -5,7 +5,7 @@
 
 #include "structure/mesh/mesh.h"
 
-namespace blocklift::structure::testing {
+namespace blocklift::structure::test {
 
 /// Steel of a mesh's shells and beams, integrated by hand.
 struct SteelMeasures {
@@ -30,4 +30,4 @@ double joint_overlap(const Mesh& mesh);
 /// within an edge, and no two lie at one place; beams lie on shells' edges.
 void expect_conforming(const Mesh& mesh);
 
-}  // namespace blocklift::structure::testing
+}  // namespace blocklift::structure::test

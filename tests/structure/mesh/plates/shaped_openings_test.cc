@@ -18,14 +18,14 @@ namespace blocklift::structure {
 namespace {
 
 using std::numbers::pi;
-using testing::expect_conforming;
+using test::expect_conforming;
+using test::measure;
 using ::testing::HasSubstr;
-using testing::measure;
 
 BlockDescription plate_of(double length, double breadth, Axis normal = Axis::z) {
   BlockDescription block;
   block.name = "plate";
-  block.materials = {testing::steel()};
+  block.materials = {test::steel()};
   std::array<Interval, 3> extent;
   const auto u = at((static_cast<int>(normal) + 1) % 3), v = at((static_cast<int>(normal) + 2) % 3);
   extent[u] = {0, length};
@@ -105,7 +105,7 @@ TEST(ShapedOpenings, MayBePolygonsInPlatesOfAnyAxis) {
 
 TEST(ShapedOpenings, LieBetweenPlatesAndStiffeners) {
   // Manholes in the frames of a box, close to its bottom, beside a web and one another.
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.plates.push_back({"web", Axis::y, {1.5}, {{{0, 4}, {}, {0, 0.5}}}, 0.01, "AH36"});
   for (const auto& [name, y] : {std::pair{"a", 0.5}, {"b", 1.1}, {"c", 2.2}}) {
     Opening hole;
@@ -137,7 +137,7 @@ TEST(ShapedOpenings, LieBetweenPlatesAndStiffeners) {
       lowest = std::min(lowest, mesh.vertices[beam.vertices[0]].z());
   EXPECT_GE(lowest, 0.9);
   EXPECT_LE(lowest, 0.9 + 0.5);
-  const auto reactions = samples::weigh(mesh, 3, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}});
+  const auto reactions = test::weigh(mesh, 3, {{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}});
   const double weight = 9.81 * steel.mass;
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], weight, 1e-6 * weight);
 }
@@ -157,9 +157,9 @@ TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
     const auto at_place = [](const Vector3& place) {
       return [place](const Vector3& p) { return (p - place).norm() < 1e-9; };
     };
-    testing::hold(space, at_place({0, 0, 0}), {0, 1, 2}, fixed);
-    testing::hold(space, at_place({0, breadth, 0}), {0, 2}, fixed);
-    testing::hold(space, at_place({length, 0, 0}), {2}, fixed);
+    examples::hold(space, at_place({0, 0, 0}), {0, 1, 2}, fixed);
+    examples::hold(space, at_place({0, breadth, 0}), {0, 2}, fixed);
+    examples::hold(space, at_place({length, 0, 0}), {2}, fixed);
     // Tension as the work-equivalent forces of a linear field: the internal forces of uniform
     // stress in the plate without its hole are those on its ends alone.
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
@@ -182,7 +182,7 @@ TEST(ShapedOpenings, SoftenAPlateAsKirschSays) {
                   (end > 0 ? 1 : -1) * stress * t * (b - a).norm() * weight[q] * values[i];
           }
         }
-    const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+    const Eigen::VectorXd motion = examples::solve(space, load, fixed);
     stretch[has_hole ? 1 : 0] = load.dot(motion);
   }
   const double youngs = 206e9;

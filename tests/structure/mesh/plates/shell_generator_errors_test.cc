@@ -9,7 +9,7 @@
 namespace blocklift::structure {
 namespace {
 
-using testing::cross_of_plates;
+using test::cross_of_plates;
 using ::testing::HasSubstr;
 
 std::string refusal(const BlockDescription& block) {
@@ -78,32 +78,32 @@ TEST(ShellGeneratorErrors, NameUsedTwice) {
 }
 
 TEST(ShellGeneratorErrors, LugMustTouchItsPad) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.lugs[0].extent[0] = {3.2, 4};  // at the other end of the side, on the pad of L2
   block.lugs[1].extent[0] = {0, 0.8};
   EXPECT_THAT(refusal(block), HasSubstr("lug \"L1\" does not touch its pad \"pad_L1\""));
 }
 
 TEST(ShellGeneratorErrors, PinOutOfReach) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.lugs[2].p_BPin = {0.4, 3, 5.25};
   EXPECT_THAT(refusal(block), HasSubstr("the pin of lug \"L3\" lies 2.87"));
 }
 
 TEST(ShellGeneratorErrors, LugOnAPadThatIsNotThere) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.lugs[0].pad = "pad_7";
   EXPECT_THAT(refusal(block), HasSubstr("its pads are pad_L1, pad_L2"));
 }
 
 TEST(ShellGeneratorErrors, PadThinnerThanItsPlate) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.pads[1].thickness = 0.010;
   EXPECT_THAT(refusal(block), HasSubstr("pad \"pad_L2\" is 10 mm thick in total, thinner than"));
 }
 
 TEST(ShellGeneratorErrors, PadBesideEveryPlate) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.pads[0].position = 1.3;
   EXPECT_THAT(refusal(block), HasSubstr("pad \"pad_L1\" at y = 1.3 m lies on no plate"));
 }

@@ -15,10 +15,10 @@
 namespace blocklift::structure {
 namespace {
 
-using testing::cross_of_plates;
+using test::cross_of_plates;
+using test::expect_conforming;
+using test::measure;
 using ::testing::ElementsAre;
-using testing::expect_conforming;
-using testing::measure;
 using ::testing::UnorderedElementsAre;
 
 constexpr double density = 7850;  // kg/m^3
@@ -38,7 +38,7 @@ TEST(ShellGenerator, MassIsThatOfTheMidPlanes) {
   EXPECT_NEAR(steel.area, 2 * 1 + 1 * 1, 1e-10);
   EXPECT_NEAR(steel.mass, density * (2 * 1 * 0.02 + 1 * 1 * 0.01), 1e-9);
   EXPECT_LT((steel.centre - Vector3(1, 0.5, 0)).norm(), 1e-10);
-  EXPECT_NEAR(testing::joint_length(mesh), 1, 1e-10);
+  EXPECT_NEAR(test::joint_length(mesh), 1, 1e-10);
 }
 
 TEST(ShellGenerator, LargestElementIsHonoured) {
@@ -66,12 +66,12 @@ TEST(ShellGenerator, EdgesWithinAPlateEndOnItsMidPlane) {
     const auto steel = measure(mesh);
     EXPECT_NEAR(steel.area_of_group.at("flat"), 2, 1e-10);
     EXPECT_NEAR(steel.area_of_group.at("upright"), 0.5, 1e-10);
-    EXPECT_NEAR(testing::joint_length(mesh), 1, 1e-10);
+    EXPECT_NEAR(test::joint_length(mesh), 1, 1e-10);
   }
 }
 
 TEST(ShellGenerator, RegionsAreSheetsAndGroupsAreNames) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   const Mesh mesh = generate_shell_mesh(block);
   expect_conforming(mesh);
   check_mesh(mesh);
@@ -89,7 +89,7 @@ TEST(ShellGenerator, RegionsAreSheetsAndGroupsAreNames) {
 }
 
 TEST(ShellGenerator, PadsAreThickOnTheSameMidPlane) {
-  const Mesh mesh = generate_shell_mesh(testing::small_block());
+  const Mesh mesh = generate_shell_mesh(test::small_block());
   const auto steel = measure(mesh);
   EXPECT_NEAR(steel.area_of_group.at("pad_L1"), 0.8 * 0.8, 1e-10);
   EXPECT_NEAR(steel.area_of_group.at("L1"), 0.8 * 0.4, 1e-10);
@@ -107,7 +107,7 @@ TEST(ShellGenerator, PadsAreThickOnTheSameMidPlane) {
 }
 
 TEST(ShellGenerator, LiftingPointsKnowTheirLugAndPad) {
-  const Mesh mesh = generate_shell_mesh(testing::small_block());
+  const Mesh mesh = generate_shell_mesh(test::small_block());
   ASSERT_EQ(mesh.lifting_points.size(), 4U);
   const LiftingPoint& lug = mesh.lifting_points[2];
   EXPECT_EQ(lug.name, "L3");
@@ -118,13 +118,13 @@ TEST(ShellGenerator, LiftingPointsKnowTheirLugAndPad) {
 }
 
 TEST(ShellGenerator, ALugMayLieInItsPadOrStandAcrossIt) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.lugs[0].extent[2] = {1.6, 2.4};  // half of it in the pad: lug there
   const auto steel = measure(generate_shell_mesh(block));
   EXPECT_NEAR(steel.area_of_group.at("L1"), 0.8 * 0.8, 1e-10);
   EXPECT_NEAR(steel.area_of_group.at("pad_L1"), 0.8 * 0.4, 1e-10);
 
-  block = testing::small_block();  // from the pad's face outwards, normal to x
+  block = test::small_block();  // from the pad's face outwards, normal to x
   block.lugs[0] = {"L1", "pad_L1", Axis::x,         0.4, {{{}, {-0.4, -0.0175}, {1.4, 1.8}}},
                    0.03, "",       {0.4, -0.3, 1.6}};
   const Mesh mesh = generate_shell_mesh(block);
@@ -140,11 +140,11 @@ TEST(ShellGenerator, OpeningsCutTheirPlateOnly) {
   const auto steel = measure(mesh);
   EXPECT_NEAR(steel.area_of_group.at("flat"), 2 - 0.4 * 0.4, 1e-10);
   EXPECT_NEAR(steel.area_of_group.at("upright"), 1, 1e-10);
-  EXPECT_NEAR(testing::joint_length(mesh), 1 - 0.4, 1e-10);
+  EXPECT_NEAR(test::joint_length(mesh), 1 - 0.4, 1e-10);
 }
 
 TEST(ShellGenerator, OpeningsCutThePositionsThatTheyName) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.openings = {{"hole", "frames", {2}, {{{}, {1, 2}, {0.5, 1.5}}}}};
   const auto steel = measure(generate_shell_mesh(block));
   EXPECT_NEAR(steel.area_of_region.at("frames at x = 2 m"), 5, 1e-10);
@@ -157,7 +157,7 @@ TEST(ShellGenerator, PlatesOfOtherThicknessInOnePlaneMeet) {
   const Mesh mesh = generate_shell_mesh(block);
   expect_conforming(mesh);
   EXPECT_NEAR(measure(mesh).mass, density * (0.04 + 0.01 + 0.012), 1e-9);
-  EXPECT_NEAR(testing::joint_length(mesh), 2, 1e-10);
+  EXPECT_NEAR(test::joint_length(mesh), 2, 1e-10);
 }
 
 TEST(ShellGenerator, CutsStayWhereTheyAreNeeded) {
@@ -176,8 +176,8 @@ TEST(ShellGenerator, CutsStayWhereTheyAreNeeded) {
 }
 
 TEST(ShellGenerator, TotalsDoNotDependOnHowPlatesAreDivided) {
-  const auto whole = measure(generate_shell_mesh(testing::small_block()));
-  BlockDescription block = testing::small_block();
+  const auto whole = measure(generate_shell_mesh(test::small_block()));
+  BlockDescription block = test::small_block();
   block.plates[0].extent[0] = {0, 1.37};
   block.plates.push_back(block.plates[0]);
   block.plates.back().name = "bottom_fore";
@@ -192,7 +192,7 @@ TEST(ShellGenerator, TotalsDoNotDependOnHowPlatesAreDivided) {
 }
 
 TEST(ShellGenerator, HullBlockIsConforming) {
-  const Mesh mesh = generate_shell_mesh(testing::hull_block());
+  const Mesh mesh = generate_shell_mesh(test::hull_block());
   expect_conforming(mesh);
   check_mesh(mesh);
   EXPECT_EQ(mesh.lifting_points.size(), 6U);
@@ -203,10 +203,10 @@ TEST(ShellGenerator, HullBlockIsConforming) {
 // Positive definite with six freedoms held: one piece without mechanisms. The weight divides among
 // the supports as statics says, so the elements join where they should.
 TEST(ShellGenerator, SmallBlockBearsItsWeight) {
-  const Mesh mesh = generate_shell_mesh(testing::small_block());
+  const Mesh mesh = generate_shell_mesh(test::small_block());
   const auto steel = measure(mesh);
   const std::array<Vector3, 3> supports{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}};
-  const auto reactions = samples::weigh(mesh, 2, supports);
+  const auto reactions = test::weigh(mesh, 2, supports);
   const double weight = 9.81 * steel.mass;
   EXPECT_NEAR(reactions[1], weight * steel.centre.x() / 4, 1e-6 * weight);
   EXPECT_NEAR(reactions[2], weight * steel.centre.y() / 3, 1e-6 * weight);

@@ -22,16 +22,16 @@
 namespace blocklift::structure {
 namespace {
 
-using testing::expect_conforming;
+using test::expect_conforming;
+using test::measure;
 using ::testing::HasSubstr;
-using testing::measure;
 
 constexpr double density_of_steel = 7850;  // kg/m^3
 
 BlockDescription deck(double length, double breadth, double thickness) {
   BlockDescription block;
   block.name = "deck";
-  block.materials = {testing::steel()};
+  block.materials = {test::steel()};
   block.plates = {{"deck", Axis::z, {0}, {{{0, length}, {0, breadth}, {}}}, thickness, "AH36"}};
   block.largest_element = 0.5;
   return block;
@@ -176,17 +176,17 @@ double sag(const Stiffeners& row, double length, double breadth, double thicknes
     return std::abs(p.x() - x) < 1e-9 && std::abs(p.z()) < 1e-9;
   };
   const auto is_middle = [&](const Vector3& p) { return std::abs(p.y() - breadth / 2) < 1e-9; };
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return is_at(p, 0) || is_at(p, length); }, {2}, fixed);
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return is_at(p, 0) && is_middle(p); }, {0, 1}, fixed);
-  testing::hold(
+  examples::hold(
       space, [&](const Vector3& p) { return is_at(p, length) && is_middle(p); }, {1}, fixed);
-  const Eigen::VectorXd load = testing::area_load(space, [](const Vector3& p) {
+  const Eigen::VectorXd load = examples::area_load(space, [](const Vector3& p) {
     return std::abs(p.z()) < 1e-9 ? Vector3(0, 0, -1e3) : Vector3(0, 0, 0);
   });
-  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
-  return -testing::displacement_at(space, motion, {length / 2, breadth / 2, 0}).z();
+  const Eigen::VectorXd motion = examples::solve(space, load, fixed);
+  return -examples::displacement_at(space, motion, {length / 2, breadth / 2, 0}).z();
 }
 
 // Deflection of a beam of the plate and the stiffener together, all of the strip's width bearing
@@ -200,7 +200,7 @@ TEST(StiffenerPlates, BendWithTheirPlateAsABeam) {
   const Profile both = walled_profile(
       "strip with tee", {{0, 0}, {0, -half}, {0, half}, {level, 0}, {level, -0.05}, {level, 0.05}},
       {{1, 0, t}, {2, 0, t}, {4, 3, 0.014}, {5, 3, 0.014}, {3, 0, 0.01}});
-  const Material steel = testing::steel();
+  const Material steel = test::steel();
   const double load = 1e3 * breadth;
   const double expected =
       5 * load * std::pow(length, 4) / (384 * steel.youngs_modulus * both.section.second_moment_3) +
@@ -227,17 +227,17 @@ TEST(StiffenerPlates, TwistAsThinWalls) {
   const Mesh mesh = generate_shell_mesh(block);
   const Space space(mesh, {2, {}});
   std::vector<FixedUnknown> fixed;
-  testing::hold(
+  examples::hold(
       space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
-  const int left = testing::nearest_node(space, {length, 0, 0}),
-            right = testing::nearest_node(space, {length, breadth, 0});
+  const int left = examples::nearest_node(space, {length, 0, 0}),
+            right = examples::nearest_node(space, {length, breadth, 0});
   load[6 * left + 2] = -1e2;
   load[6 * right + 2] = 1e2;
-  const Eigen::VectorXd motion = testing::solve(space, load, fixed);
+  const Eigen::VectorXd motion = examples::solve(space, load, fixed);
   const double twist = (motion[6 * right + 2] - motion[6 * left + 2]) / breadth;
   const double torsion = (breadth * std::pow(t, 3) + (height + t / 2) * std::pow(web, 3)) / 3;
-  const double expected = 1e2 * breadth * length / (testing::steel().shear_modulus() * torsion);
+  const double expected = 1e2 * breadth * length / (test::steel().shear_modulus() * torsion);
   EXPECT_NEAR(twist, expected, 0.03 * expected);
 }
 

@@ -15,10 +15,10 @@
 namespace blocklift::structure {
 namespace {
 
+using test::expect_conforming;
+using test::measure;
 using ::testing::ElementsAre;
-using testing::expect_conforming;
 using ::testing::HasSubstr;
-using testing::measure;
 
 constexpr double steel_density = 7850;  // kg/m^3
 
@@ -44,7 +44,7 @@ Stiffeners flat_bars(const std::string& plate, Axis along, double spacing) {
 BlockDescription panel(double length, double breadth, double thickness) {
   BlockDescription block;
   block.name = "panel";
-  block.materials = {testing::steel()};
+  block.materials = {test::steel()};
   block.plates = {{"deck", Axis::z, {0}, {{{0, length}, {0, breadth}, {}}}, thickness, "AH36"}};
   block.largest_element = 1;
   return block;
@@ -137,16 +137,16 @@ TEST(Stiffeners, EndWithTheirPlateWithinAnother) {
 }
 
 TEST(Stiffeners, StandOnThePositionsThatTheyName) {
-  BlockDescription block = testing::small_block();
+  BlockDescription block = test::small_block();
   block.stiffeners = {flat_bars("frames", Axis::z, 0.75)};
   block.stiffeners[0].positions = {2};
   const Mesh mesh = generate_shell_mesh(block);
   expect_conforming(mesh);
-  EXPECT_NEAR(measure(mesh).mass - measure(generate_shell_mesh(testing::small_block())).mass,
+  EXPECT_NEAR(measure(mesh).mass - measure(generate_shell_mesh(test::small_block())).mass,
               steel_density * 3 * 2 * height * width, 1e-7);
   for (const Beam& beam : mesh.beams) EXPECT_EQ(mesh.vertices[beam.vertices[0]].x(), 2);
   const std::array<Vector3, 3> supports{{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}};
-  const auto reactions = samples::weigh(mesh, 2, supports);
+  const auto reactions = test::weigh(mesh, 2, supports);
   EXPECT_NEAR(reactions[0] + reactions[1] + reactions[2], 9.81 * measure(mesh).mass, 0.1);
 }
 
@@ -164,12 +164,12 @@ TEST(Stiffeners, BendAboutTheCommonCentroid) {
     const Mesh mesh = generate_shell_mesh(block);
     const Space space(mesh, {2, {}});
     std::vector<FixedUnknown> fixed;
-    testing::hold(
+    examples::hold(
         space, [](const Vector3& p) { return p.x() < 1e-9; }, {0, 1, 2, 3, 4, 5}, fixed);
     Eigen::VectorXd load = Eigen::VectorXd::Zero(space.freedoms());
-    const int end = testing::nearest_node(space, {length, breadth / 2, 0});
+    const int end = examples::nearest_node(space, {length, breadth / 2, 0});
     load[6 * end + 2] = -1e3;
-    const double deflection = -testing::solve(space, load, fixed)[6 * end + 2];
+    const double deflection = -examples::solve(space, load, fixed)[6 * end + 2];
 
     const double strip = breadth * t, bar = height * width, arm = t / 2 + height / 2;
     const double centroid = bar * arm / (strip + bar);
