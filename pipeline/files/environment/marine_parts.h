@@ -162,10 +162,10 @@ namespace given {
 struct Vessel {
   Located<std::string> name;
   Located<std::string> model_name;
-  std::shared_ptr<const Vessel> model;     ///< after the look-up; null if it failed
-  std::array<double, 2> position{};        ///< of its frame's origin, level, m
-  double heading = 0;                      ///< of its x axis from the world's, rad
-  std::optional<Located<double>> draught;  ///< of its frame's origin, m
+  std::shared_ptr<const pipeline::Vessel> model;  ///< after the look-up; null if it failed
+  std::array<double, 2> position{};               ///< of its frame's origin, level, m
+  double heading = 0;                             ///< of its x axis from the world's, rad
+  std::optional<Located<double>> draught;         ///< of its frame's origin, m
   Located<RadiationMethod> radiation{RadiationMethod::database, {}};
   /// Of one that is lowered or lifted: from its lowest point, ascending, m.
   std::optional<Located<std::vector<double>>> draughts;

@@ -58,7 +58,7 @@ struct Load {
   Located<std::string> model_name;          ///< of the block; empty for a vessel
   std::shared_ptr<const BlockModel> model;  ///< after the look-up; null if it failed
   std::optional<Located<std::string>> vessel_name;
-  std::shared_ptr<const Vessel>
+  std::shared_ptr<const pipeline::Vessel>
       vessel;  ///< after the look-up; null if it failed; beside a block its hull
   std::vector<Named<Vector3>> lugs;    ///< of a vessel, in its frame, m
   std::vector<LoadEdge> edges;         ///< of a vessel without a block, in its frame
