@@ -31,7 +31,7 @@ Goliath::Goliath(MechanismBuilder& builder, const std::string& crane, double x) 
                              .joint = {.kind = JointKind::prismatic, .axis = axis},
                              .X_PJ = Pose::translation(position),
                              .mass = mass,
-                             .I_BBcm_B = box_inertia(mass, 10, 10, 10),
+                             .I_BBcm_B = examples::box_inertia(mass, 10, 10, 10),
                              .driven = {true}});
   };
   const std::string gantry_name = name + ".gantry";
@@ -121,13 +121,13 @@ Operation turn_over(OperationBuilder& operation) {
 
 LiftSystem two_goliaths() {
   MechanismBuilder builder;
-  builder.set_gravity({0, 0, -g});
+  builder.set_gravity({0, 0, -examples::g});
   const Goliath first(builder, "C1", -8.0);
   const Goliath second(builder, "C2", 8.0);
   const BodyIndex block = builder.add_body({.name = "block",
                                             .joint = {.kind = JointKind::free},
                                             .mass = 860e3,
-                                            .I_BBcm_B = box_inertia(860e3, 32, 20, 8)});
+                                            .I_BBcm_B = examples::box_inertia(860e3, 32, 20, 8)});
   Mechanism mechanism = builder.build();
   Eigen::VectorXd q = mechanism.zero_configuration();
   q.segment<3>(mechanism.body(block).q_offset) = Vector3(-16.0 + 15.2, 40.0 + 9.8, 3.0 + 3.9);
