@@ -25,8 +25,8 @@ struct SupportLoad {
 /// A point of a body that may stand on level ground, and lift off it.
 ///
 ///   N = max(0, k d + c dd/dt) where the depth d = z_ground - z > 0, else 0 (one_sided_force);
-///   within `reach` of p_WG alone: beside the pad the load may go below its height (d = min(z_ground - z, reach -
-///     distance));
+///   within `reach` of p_WG alone: beside the pad the load may go below its height
+///   (d = min(z_ground - z, reach - distance));
 ///   friction: with s the point's level displacement from where it stands at first and its rate,
 ///   f = -(k_t s + c_t ds/dt), shortened to mu N where longer (regularised Coulomb law).
 /// The elastic part holds a standing load in place, so that a static equilibrium is unique. Where

@@ -43,9 +43,9 @@ class MooringLine {
 };
 
 /// Tugger line: a straight light line that pulls and never pushes, by the law of ropes
-/// (one_sided_force) with a damping force c dL/dt. The elastic force of a winch that stands still is
-///   F = k (L - L0)   (N),
-/// that of a winch which holds a tension, paying out and taking in as the ends move, is
+/// (one_sided_force) with a damping force c dL/dt. Where its winch stands still the elastic force is
+///   F = k (L - L0)   (N);
+/// where the winch holds a tension, paying out and taking in as the ends move, it is
 ///   F = T0,
 /// and its work -T0 dL/dt is supplied from outside. A tension above zero says which.
 ///
@@ -56,7 +56,8 @@ class MooringLine {
 /// (tolerance 1e-8), and ends as near the place that a tolerance of 1e-12 gives. The energy that is
 /// dissipated is known less well, since the damping force sets in at once: it errs by 0.1 % to
 /// 0.9 % of the largest kinetic energy at any tolerance from 1e-4 to 1e-10, whereas with a rope the
-/// error shrinks with the tolerance. So what falls into its line again and again is modelled as a rope.
+/// error shrinks with the tolerance. So what falls into its line again and again is modelled as a
+/// rope.
 class TuggerLine {
  public:
   struct Definition {
