@@ -61,7 +61,7 @@ void SupportPad::set_force(const Kinematics& kinematics, SupportLoad& load) cons
 SupportLoad SupportPad::calc_load(const Kinematics& kinematics, const Vector3& p_WG) const {
   SupportLoad load = calc_depth(kinematics, p_WG);
   load.carries = load.indicator() > 0.0;
-  load.normal_force = load.carries ? load.elastic_force + load.damping_force : 0.0;
+  load.normal_force = one_sided_force(load.elastic_force, load.damping_force, load.carries);
   set_force(kinematics, load);
   return load;
 }
@@ -70,7 +70,7 @@ SupportLoad SupportPad::calc_load(const Kinematics& kinematics, bool carries,
                                   const Vector3& p_WG) const {
   SupportLoad load = calc_depth(kinematics, p_WG);
   load.carries = carries;
-  load.normal_force = carries ? load.elastic_force + load.damping_force : 0.0;
+  load.normal_force = one_sided_force(load.elastic_force, load.damping_force, carries);
   set_force(kinematics, load);
   return load;
 }

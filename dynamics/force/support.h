@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "dynamics/force/force_element.h"
+#include "dynamics/force/one_sided.h"
 
 namespace blocklift::dynamics {
 
@@ -18,15 +19,14 @@ struct SupportLoad {
   Vector3 p_WG = Vector3::Constant(not_a_number);     ///< where friction holds the point, m
 
   /// Positive where the ground carries, negative where it does not, continuous between: N.
-  double indicator() const { return elastic_force + std::min(0.0, damping_force); }
+  double indicator() const { return one_sided_indicator(elastic_force, damping_force); }
 };
 
 /// A point of a body that may stand on level ground, and lift off it.
 ///
-///   N = max(0, k d + c dd/dt) where the depth d = z_ground - z > 0, else 0;  within `reach` of
-///     p_WG
-///   alone: beside the pad the load may go below its height (d = min(z_ground - z, reach -
-///     distance));
+///   N = max(0, k d + c dd/dt) where the depth d = z_ground - z > 0, else 0 (one_sided_force);
+///   within `reach` of p_WG alone: beside the pad the load may go below its height
+///   (d = min(z_ground - z, reach - distance));
 ///   friction: with s the point's level displacement from where it stands at first and its rate,
 ///   f = -(k_t s + c_t ds/dt), shortened to mu N where longer (regularised Coulomb law).
 /// The elastic part holds a standing load in place, so that a static equilibrium is unique. Where

@@ -13,6 +13,13 @@ namespace blocklift::dynamics {
 /// part of 1e-11 of the longest of its group (groups hold columns of one unit), and as dependent on
 /// those before it where what is left of it is below the threshold. All memory is taken by the
 /// constructor. Source: Golub and Van Loan (2013), section 5.4.2.
+///
+/// Why not Eigen's: of its decompositions only the complete orthogonal one has the same answers
+/// where columns depend on others (equal to 4e-15; those of column pivoting alone are then wrong).
+/// It takes memory for each solution and does not scale columns. For both answers, correct() and
+/// multipliers(), of a matrix of 6 x 3, 7 x 6, 12 x 10 (rank 7) and 40 x 30 (rank 24) it takes
+/// 0.70, 1.36, 3.1 and 18.7 us of processor time, this one 0.26, 0.60, 1.27 and 11.9 us with the
+/// scaling (medians of five, 2.1 GHz, tests/benchmarks/rank_revealing_benchmark.cc).
 class RankRevealingQr {
  public:
   RankRevealingQr(Eigen::Index rows, Eigen::Index largest_columns);

@@ -260,7 +260,7 @@ void ElasticBody::add_forces(const Kinematics& kinematics, ConstVectorRef q, Con
     load.elastic_force = w.elastic[local];
     load.damping_force = w.damping[local];
     load.taut = ropes.contacts ? declared_taut(ropes, local) : load.slack_indicator() > 0.0;
-    load.tension = load.taut ? load.elastic_force + load.damping_force : 0.0;
+    load.tension = one_sided_force(load.elastic_force, load.damping_force, load.taut);
     load.kept_force = kept_force(load);
     if (load.tension == 0.0) continue;
     ropes.ropes[index].calc_path(kinematics, ropes.path, &ropes.shifts[index]);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dynamics/errors.h"
+#include "dynamics/force/one_sided.h"
 
 namespace blocklift::dynamics {
 
@@ -117,12 +118,12 @@ TuggerLine::Pull TuggerLine::calc_pull(const MotionState& state) const {
   pull.relative_velocity_W =
       point_velocity(k, b.body, b.p_BoQ_B) - point_velocity(k, a.body, a.p_BoQ_B);
   pull.rate = pull.direction_W.dot(pull.relative_velocity_W);
-  pull.elastic =
+  const double elastic =
       definition_.tension > 0.0
           ? definition_.tension
-          : definition_.stiffness * std::max(0.0, pull.length - definition_.unstretched_length);
-  pull.tension =
-      pull.elastic > 0.0 ? std::max(0.0, pull.elastic + definition_.damping * pull.rate) : 0.0;
+          : definition_.stiffness * (pull.length - definition_.unstretched_length);
+  pull.tension = one_sided_force(elastic, definition_.damping * pull.rate);
+  pull.elastic = std::max(0.0, elastic);
   return pull;
 }
 

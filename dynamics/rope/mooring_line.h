@@ -42,11 +42,22 @@ class MooringLine {
   Definition definition_;
 };
 
-/// Tugger line: a straight light line that pulls and never pushes. Of a winch that stands still,
-///   T = max(0, k (L - L0) + c dL/dt) where L > L0, else 0   (N),
-/// or of one that holds a tension, paying out and taking in as the ends move,
-///   T = max(0, T0 + c dL/dt),
-/// whose work -T0 dL/dt is supplied from outside. A tension above zero says which.
+/// Tugger line: a straight light line that pulls and never pushes, by the law of ropes
+/// (one_sided_force) with a damping force c dL/dt. Where its winch stands still the elastic force is
+///   F = k (L - L0)   (N);
+/// where the winch holds a tension, paying out and taking in as the ends move, it is
+///   F = T0,
+/// and its work -T0 dL/dt is supplied from outside. A tension above zero says which.
+///
+/// It is no Rope: a winch that holds a tension leaves no length out that one could tell, and stores
+/// nothing. Nor does the integration declare a line taut or slack for a step, as it does ropes. Its
+/// steps find the change by failing there: a load of 20 t that falls 1 m into a line of 40 MN over
+/// 20 m, with a damping of 0.005 s, takes 1,534 right-hand sides where the same rope takes 845
+/// (tolerance 1e-8), and ends as near the place that a tolerance of 1e-12 gives. The energy that is
+/// dissipated is known less well, since the damping force sets in at once: it errs by 0.1 % to
+/// 0.9 % of the largest kinetic energy at any tolerance from 1e-4 to 1e-10, whereas with a rope the
+/// error shrinks with the tolerance. So what falls into its line again and again is modelled as a
+/// rope.
 class TuggerLine {
  public:
   struct Definition {

@@ -225,7 +225,7 @@ RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed) const {
   RopeLoad load = calc_elastic_and_damping(path, feed);
   load.taut = load.slack_indicator() > 0.0;
   if (hangs()) return load;
-  load.tension = load.taut ? load.elastic_force + load.damping_force : 0.0;
+  load.tension = one_sided_force(load.elastic_force, load.damping_force, load.taut);
   return load;
 }
 
@@ -233,7 +233,7 @@ RopeLoad Rope::calc_load(const RopePath& path, const RopeFeed& feed, bool taut) 
   RopeLoad load = calc_elastic_and_damping(path, feed);
   load.taut = taut;
   if (hangs()) return load;
-  load.tension = taut ? load.elastic_force + load.damping_force : 0.0;
+  load.tension = one_sided_force(load.elastic_force, load.damping_force, taut);
   return load;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "dynamics/force/force_element.h"
+#include "dynamics/force/one_sided.h"
 #include "dynamics/rope/catenary.h"
 #include "dynamics/rope/edge_wrap.h"
 #include "dynamics/rope/tension_law.h"
@@ -133,7 +134,7 @@ struct RopeLoad {
 
   double elongation() const { return length - unstretched_length; }
   /// Positive where the rope pulls, negative where it is slack, continuous between: N.
-  double slack_indicator() const { return elastic_force + std::min(0.0, damping_force); }
+  double slack_indicator() const { return one_sided_indicator(elastic_force, damping_force); }
 };
 
 /// Elastic rope that pulls but never pushes, led over sheaves.
@@ -142,7 +143,7 @@ struct RopeLoad {
 /// tension acts along the whole path p_W0 .. p_Wn (world positions, m), but for segments that are
 /// left out:
 ///   L = sum |p_Wi+1 - p_Wi|,   1/k = L0/EA + 1/k_crane,   c = damping_time k + damping,
-///   T = max(0, k (L - L0) + c (Ldot - L0dot)) where L > L0, else 0,
+///   T = max(0, k (L - L0) + c (Ldot - L0dot)) where L > L0, else 0 (one_sided_force),
 /// L0 being the unstretched length that the winch leaves out (m), k_crane the stiffness of what the
 /// rope hangs from (N/m). The sheaves are points: the wrap around them is not part of the path.
 ///

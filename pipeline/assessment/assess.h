@@ -5,7 +5,7 @@
 
 #include "pipeline/assessment/unfinished_run.h"
 #include "pipeline/checks/assessment.h"
-#include "pipeline/results/load_case_decks.h"
+#include "pipeline/results/files/load_case_decks.h"
 
 namespace blocklift::pipeline {
 

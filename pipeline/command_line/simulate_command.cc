@@ -19,7 +19,7 @@
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results/summary_file.h"
 #include "pipeline/processes/exit_code.h"
-#include "pipeline/results/radiation_summary.h"
+#include "pipeline/results/summaries/radiation_summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
 #include "pipeline/terminal/progress_bar.h"

@@ -12,7 +12,7 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/preparation.h"
 #include "pipeline/part/deck_assessment.h"
-#include "pipeline/results/result_file.h"
+#include "pipeline/results/files/result_file.h"
 #include "pipeline/version.h"
 #include "structure/load_cases/deck_heat.h"
 #include "structure/output/vtu.h"

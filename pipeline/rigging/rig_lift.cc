@@ -11,7 +11,7 @@
 #include "pipeline/checks/gather_facts.h"
 #include "pipeline/coupling/block_flexibility.h"
 #include "pipeline/lift/block_preparation.h"
-#include "pipeline/results/lift_scene.h"
+#include "pipeline/results/files/lift_scene.h"
 
 namespace blocklift::pipeline {
 namespace {

@@ -18,8 +18,8 @@
 #include "pipeline/formats/results/run_identity.h"
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/report/report.h"
-#include "pipeline/results/lift_scene.h"
-#include "pipeline/results/summary.h"
+#include "pipeline/results/files/lift_scene.h"
+#include "pipeline/results/summaries/summary.h"
 #include "pipeline/simulation/mechanism_results.h"
 #include "structure/response/elastic_model.h"
 

@@ -9,8 +9,8 @@
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results/run_identity.h"
 #include "pipeline/report/report.h"
-#include "pipeline/results/radiation_summary.h"
-#include "pipeline/results/summary.h"
+#include "pipeline/results/summaries/radiation_summary.h"
+#include "pipeline/results/summaries/summary.h"
 #include "pipeline/simulation/mechanism_scene.h"
 #include "pipeline/version.h"
 

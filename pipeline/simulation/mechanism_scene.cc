@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "pipeline/results/lift_scene.h"
+#include "pipeline/results/files/lift_scene.h"
 
 namespace blocklift::pipeline {
 namespace {

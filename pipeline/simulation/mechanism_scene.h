@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/build/build_mechanism.h"
-#include "pipeline/results/result_file.h"
+#include "pipeline/results/files/result_file.h"
 
 namespace blocklift::pipeline {
 

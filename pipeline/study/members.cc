@@ -18,7 +18,7 @@
 #include "pipeline/formats/results/run_identity.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/report/input_values.h"
-#include "pipeline/results/summary.h"
+#include "pipeline/results/summaries/summary.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/study/asked_figures.h"
 #include "pipeline/study/block_variables.h"

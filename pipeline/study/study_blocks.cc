@@ -23,7 +23,7 @@
 #include "pipeline/lift/block_preparation.h"
 #include "pipeline/lift/history_assessment.h"
 #include "pipeline/lift/kept_stages.h"
-#include "pipeline/results/lift_scene.h"
+#include "pipeline/results/files/lift_scene.h"
 #include "pipeline/study/block_variables.h"
 #include "structure/accuracy/accuracy.h"
 #include "structure/system/mass_distribution.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamics/errors.h"
+#include "dynamics/rope/rope.h"
 #include "tests/dynamics/force/one_body.h"
 
 namespace blocklift::dynamics {
@@ -182,6 +183,35 @@ TEST(TuggerLine, PullsAndNeverPushes) {
   body.q.head<3>() << 0, 0, 1.5;
   body.update();
   EXPECT_EQ(tugger.calc_tension(body.state()), 0);
+}
+
+// Its law is the one of ropes: at any state it pulls as a rope of the same stiffness and damping.
+TEST(TuggerLine, PullsAsARope) {
+  OneBody body;
+  const BodyPoint from{world_index, {-5, 0, 3}}, to{1, {0.5, 0, 0}};
+  const TuggerLine tugger({"t", from, to, 1e4, 300, 5.0});
+  const Rope rope(body.mechanism, {.name = "r",
+                                   .points = {from, to},
+                                   .axial_stiffness = 5e4,
+                                   .damping = 300,
+                                   .unstretched_length = 5.0});
+  RopePath path = make_rope_path({rope});
+  int pulling = 0, held_by_damping = 0;
+  for (const double x : {-4.0, -1.4, -1.0, 0.0, 2.0}) {
+    for (const double speed : {-40.0, -3.0, 0.0, 3.0, 40.0}) {
+      body.q[0] = x;
+      body.v.setZero();
+      body.v[3] = speed;
+      body.update();
+      rope.calc_path(body.kinematics, path);
+      const RopeLoad load = rope.calc_load(path, {.unstretched_length = 5.0});
+      EXPECT_NEAR(tugger.calc_tension(body.state()), load.tension, 1e-9 * (1.0 + load.tension));
+      pulling += load.tension > 0.0 ? 1 : 0;
+      held_by_damping += load.elastic_force > 0.0 && load.tension == 0.0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(pulling, 5);
+  EXPECT_GT(held_by_damping, 0);
 }
 
 // A winch that holds a tension: the same at any length, more while it pays out, never a push.

@@ -317,5 +317,34 @@ TEST(TimeIntegration, RefusesSettingsWithoutSense) {
                ModelError);
 }
 
+// A load that falls into a tugger line moves as on the rope that has its stiffness, though no event
+// tells when the line is taut.
+TEST(TimeIntegration, TuggerLineThatGoesSlackMovesItsLoadAsARopeDoes) {
+  for (const double damping_time : {0.0, 0.005}) {
+    examples::SingleRopeLift model;
+    model.mass = 20e3;
+    model.duration = 6.0;
+    model.damping_time = damping_time;
+    const LiftSystem roped = model.build();
+    ForceElements elements;
+    std::get<std::vector<TuggerLine>>(elements).push_back(
+        TuggerLine({"line",
+                    {world_index, Vector3::Zero()},
+                    {1, Vector3::Zero()},
+                    model.stiffness(),
+                    damping_time * model.stiffness(),
+                    model.length}));
+    const LiftSystem lined({.mechanism = roped.mechanism(),
+                            .elements = std::move(elements),
+                            .operation = OperationBuilder().build(model.duration),
+                            .q_start = roped.q_start()});
+    const Vector3 start(0, 0, 1.0 - model.length);
+    const auto end_height = [&](const LiftSystem& system) {
+      return integrate(system, start, Vector3::Zero(), {.relative_tolerance = 1e-8}).q_end[2];
+    };
+    EXPECT_NEAR(end_height(lined), end_height(roped), 3e-5) << damping_time << " s";
+  }
+}
+
 }  // namespace
 }  // namespace blocklift::dynamics

@@ -8,7 +8,7 @@
 #include "pipeline/lift/block_assessment.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/lift/natural_modes.h"
-#include "pipeline/results/lift_scene.h"
+#include "pipeline/results/files/lift_scene.h"
 #include "tests/pipeline/small_lift.h"
 
 namespace blocklift::pipeline {

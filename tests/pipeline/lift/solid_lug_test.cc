@@ -18,7 +18,7 @@
 #include "pipeline/assessment/assess.h"
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/lift/block_preparation.h"
-#include "pipeline/results/assumptions.h"
+#include "pipeline/results/summaries/assumptions.h"
 #include "structure/mesh/files/nastran/writer.h"
 #include "tests/pipeline/small_lift.h"
 #include "tests/pipeline/temporary_folder.h"
