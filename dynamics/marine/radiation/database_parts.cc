@@ -178,6 +178,24 @@ Eigen::VectorXd calc_radiation_error(const HydrodynamicDatabase& database,
                 caution_with_panels * largest_share(modes, as_force, coarser.infinite_error));
 }
 
+Eigen::VectorXd calc_mean_excitation(const HydrodynamicDatabase& database) {
+  constexpr double lost = 1e-2;
+  const MatrixXcd forces = forces_on_themselves(database);
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(forces.rows());
+  const Water& water = database.water;
+  for (Eigen::Index k = 0; k < forces.cols(); ++k) {
+    const double w = database.frequencies[static_cast<std::size_t>(k)];
+    const double per_damping = 4.0 * water.density * water.gravity * calc_group_velocity(w, water) /
+                               calc_wave_number(w, water);
+    for (Eigen::Index m = 0; m < squares.size(); ++m) {
+      const double damping = forces(m, k).real();
+      if (damping > lost * std::abs(forces(m, k)))
+        squares[m] = std::max(squares[m], per_damping * damping);
+    }
+  }
+  return squares.cwiseSqrt();
+}
+
 Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
                                           const CoarserForces& coarser) {
   constexpr double negligible = 1e-3;
@@ -190,12 +208,13 @@ Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
     forces = forces.cwiseMax(database.excitation(k).cwiseAbs().rowwise().maxCoeff());
   }
   constexpr Eigen::Index along_axes = 3;
+  const Eigen::VectorXd means = calc_mean_excitation(database);
   for (Eigen::Index m = 0; m < changes.size(); ++m) {
     const double largest = forces.segment<along_axes>(m - m % along_axes).maxCoeff();
     if (forces[m] <= negligible * largest)
       changes[m] = 0.0;
     else
-      changes[m] /= forces[m];
+      changes[m] /= std::max(forces[m], means[m]);
   }
   return changes;
 }

@@ -56,10 +56,19 @@ struct CoarserForces {
 Eigen::VectorXd calc_radiation_error(const HydrodynamicDatabase& database,
                                      const CoarserForces& coarser, const PanelClusters& clusters);
 
+/// For each mode, the force of waves of unit amplitude in the mean over all headings, the largest
+/// over the frequencies, by what waves carry off (Haskind's relation, Newman 1977): the mean of
+/// |X|^2 is 4 rho g c_g B/k. Nothing where damping is below a hundredth of the mode's force on
+/// itself at all frequencies: the runs do not know so little, and in long waves its root would make
+/// much of it. What a lid takes counts as sent out. N/m, N.
+Eigen::VectorXd calc_mean_excitation(const HydrodynamicDatabase& database);
+
 /// For each mode, the largest difference of its diffraction from that of coarser panels, over
-/// frequencies and headings, as a share of the largest excitation of the mode over them. Zero for a
-/// mode on which waves exert next to nothing: less than a thousandth of the largest excitation of
-/// those that move the same body in the same way. Empty without headings.
+/// frequencies and headings, as a share of the largest excitation of the mode over them, or of
+/// calc_mean_excitation if that is more: waves along a plane of symmetry leave next to nothing of
+/// the modes across it, which tells nothing of the panels. Zero for a mode on which waves exert
+/// next to nothing: less than a thousandth of the largest excitation of those that move the same
+/// body in the same way. Empty without headings.
 Eigen::VectorXd largest_excitation_change(const HydrodynamicDatabase& database,
                                           const CoarserForces& coarser);
 

@@ -45,9 +45,10 @@ struct HydrodynamicDatabase {
   Eigen::VectorXd change_from_coarser;
   /// For each mode, how much the force of waves on it changes from panels of twice the size to
   /// these, with its phase: the largest change over frequencies and headings as a share of the
-  /// largest force that any of these waves exerts on the mode; infinite and order as above; empty:
-  /// unknown. Where Froude-Krylov and diffraction all but cancel, as in roll of some sections, it
-  /// is a multiple of change_from_coarser.
+  /// largest force that any of these waves exerts on the mode, or of its mean force over all
+  /// headings if that is more (calc_mean_excitation); infinite and order as above; empty: unknown.
+  /// Where Froude-Krylov and diffraction all but cancel, as in roll of some sections, it is a
+  /// multiple of change_from_coarser.
   Eigen::VectorXd excitation_change_from_coarser;
   /// For each mode, how much of its radiation force on itself the end of the impulse runs cuts off
   /// at most over the frequencies, relative, by estimate (ImpulseRun::cut_off); empty: there were
@@ -69,7 +70,7 @@ struct HydrodynamicDatabase {
 /// Changes whenever compute_database, or the meshing of the water's surface, gives other figures
 /// for the same bodies, or tells more of them: what was computed before is then not to be taken for
 /// what would be now.
-inline constexpr int panel_method_version = 14;
+inline constexpr int panel_method_version = 15;
 
 struct DatabaseSettings {
   std::vector<double> frequencies;  ///< rad/s, positive, ascending
