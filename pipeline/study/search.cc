@@ -21,6 +21,9 @@ constexpr double apart = 0.25;  // how far from the first the second search begi
 // Shares of a limit.
 constexpr double rounding = 1e-9;
 constexpr double near_limit = 0.01;
+// Linear approximations end on either side of a limit: the search aims so far within it that the
+// end keeps to it.
+constexpr double aimed_within = 1e-5;
 
 double limit_of(const FigureBound& bound, const std::vector<Member>& members) {
   return limit_of(bound.at_most ? *bound.at_most : *bound.at_least, bound.figure.value,
@@ -194,7 +197,8 @@ class Functions {
     OT::Point margins(static_cast<OT::UnsignedInteger>(problem_.bounds()));
     for (std::size_t b = 0; b < problem_.bounds(); ++b) {
       const double margin = problem_.margin(member, b) / problem_.size(b);
-      margins[static_cast<OT::UnsignedInteger>(b)] = std::isfinite(margin) ? margin : -1;
+      margins[static_cast<OT::UnsignedInteger>(b)] =
+          std::isfinite(margin) ? margin - aimed_within : -1;
     }
     return margins;
   }

@@ -54,6 +54,13 @@ FigureBound at_least(const std::string& figure, double value, const Exponents& e
   return bound;
 }
 
+FigureBound at_most(const std::string& figure, double value) {
+  FigureBound bound;
+  bound.figure = {figure, {}};
+  bound.at_most = Located<Measure>{{value, plain}, {}};
+  return bound;
+}
+
 // The bottom of a bowl, which the second search finds as well; steps end at a thousandth of 2 m, of
 // whose square the cost is off.
 TEST(Search, FindsTheBottomOfABowl) {
@@ -89,6 +96,32 @@ TEST(Search, KeepsToABoundThatBinds) {
       EXPECT_LE(so_far[m], so_far[m - 1]);
     }
   }
+}
+
+// A box hangs on two hoists 3.2 m apart, whose hooks weigh 2.943 kN, at a place x from the left one.
+// The heaviest one loads both to their limits of 60 and 45 kN: 99.114 kN, at 3.2 m 42.057 / 99.114.
+// Both searches end there, on the inner side of both limits.
+TEST(Search, FindsTheHeaviestLoadThatTwoHoistsBear) {
+  StudyFile study = bowl_study(120);
+  study.variables = {variable_between("weight", 70, 120), variable_between("x", 1, 2.2)};
+  study.minimise.reset();
+  study.maximise = Located<std::string>{"both", {}};
+  study.subject_to = {at_most("left", 60), at_most("right", 45)};
+  const SearchResults found = search(study, [](const Eigen::VectorXd& values, int number) {
+    const double weight = values[0], of_right = values[1] / 3.2, hook = 2.943;
+    return Member{number,
+                  {},
+                  {{"left", weight * (1 - of_right) + hook},
+                   {"right", weight * of_right + hook},
+                   {"both", weight + 2 * hook}},
+                  {}};
+  });
+  EXPECT_TRUE(found.is_feasible);
+  EXPECT_NEAR(found.value, 105, 0.003);
+  EXPECT_NEAR(found.design(found.best, 1), 3.2 * 42.057 / 99.114, 1e-3);
+  ASSERT_TRUE(found.elsewhere.has_value());
+  EXPECT_NEAR(*found.elsewhere, 105, 0.003);
+  for (const BoundOfSearch& bound : found.bounds) EXPECT_TRUE(bound.is_active) << bound.figure;
 }
 
 // The same bound as a force that may be no less than zero, in newtons.
