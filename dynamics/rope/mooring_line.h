@@ -43,7 +43,7 @@ class MooringLine {
 };
 
 /// Tugger line: a straight light line that pulls and never pushes, by the law of ropes
-/// (one_sided_force) with a damping force c dL/dt. Where its winch stands still the elastic force is
+/// (one_sided_force) with a damping force c dL/dt. If its winch stands still, the elastic force is
 ///   F = k (L - L0)   (N);
 /// where the winch holds a tension, paying out and taking in as the ends move, it is
 ///   F = T0,
