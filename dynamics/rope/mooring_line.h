@@ -43,9 +43,10 @@ class MooringLine {
 };
 
 /// Tugger line: a straight light line that pulls and never pushes, by the law of ropes
-/// (one_sided_force) with a damping force c dL/dt. Where its winch stands still the elastic force is
+/// (one_sided_force) with a damping force c dL/dt. Of a winch that stands still the elastic force
+/// is
 ///   F = k (L - L0)   (N);
-/// where the winch holds a tension, paying out and taking in as the ends move, it is
+/// of one that holds a tension, paying out and taking in as the ends move, it is
 ///   F = T0,
 /// and its work -T0 dL/dt is supplied from outside. A tension above zero says which.
 ///
