@@ -330,7 +330,7 @@ class JacobianRows {
   Eigen::Ref<Eigen::MatrixXd> jacobian_;
 };
 
-// Adds a force about the point p_WQ to that of a body about its origin.
+// Adds a force about the point p_WQ to a body's force about its origin.
 void add_force(const Kinematics& kinematics, BodyIndex body, const Vector3& p_WQ,
                const ForceVector& F_Q_W, std::vector<ForceVector>& F_Bo_W) {
   F_Bo_W[body] += shift_to(F_Q_W, p_WQ - kinematics.X_WB[body].p);

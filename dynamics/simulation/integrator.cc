@@ -280,7 +280,7 @@ bool Integrator::part_ropes(double t) {
     if (events_.release(parting.rope)) result_.events.push_back({t, parting.rope, false});
     const double energy = before - elastic_energy();
     dissipated_work() += energy;
-    // What a rope with weight loses besides is that of its height.
+    // What a rope with weight loses besides is the energy of its height.
     const bool hangs = system_.ropes()[parting.rope].hangs();
     result_.parted.push_back(
         {parting.rope, t, load.tension, hangs ? load.hanging.strain_energy : energy});

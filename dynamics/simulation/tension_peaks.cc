@@ -35,7 +35,7 @@ void keep_rows_of_ropes(std::vector<RopeHistory>& ropes, const std::vector<Eigen
   }
 }
 
-// The sign of a quaternion is that of the sample before it.
+// A quaternion has the sign of the sample before it.
 void join_quaternions(BodyHistory::Rows7& pose) {
   for (Eigen::Index i = 1; i < pose.rows(); ++i) {
     if (pose.row(i).tail<4>().dot(pose.row(i - 1).tail<4>()) < 0.0) pose.row(i).tail<4>() *= -1.0;

@@ -351,7 +351,7 @@ void MarineBuilder::take_buoyancy_of_database(const given::Vessel& vessel, doubl
                           : from_reference(database.centres_of_mass);
   const Eigen::Index heave = dynamics::modes_per_body * Eigen::Index{vessel.hydrodynamic_body} + 2;
   const dynamics::Matrix3 C = database.hydrostatic_stiffness.block<3, 3>(heave, heave);
-  // The database's bodies float by themselves: their weight is that of the water.
+  // The database's bodies float by themselves: they weigh what their water weighs.
   buoyancy.stiffness =
       0.5 * (C + C.transpose()) - dynamics::calc_stiffness_of_weight(buoyancy.buoyancy, arm);
 }

@@ -260,7 +260,7 @@ class MechanismAssembler {
     return builder.build(file_.simulate.duration.value);
   }
 
-  /// Driven coordinates and velocities are those of their drives.
+  /// Driven coordinates and velocities come from their drives.
   void set_driven(const dynamics::Operation& operation) {
     for (const dynamics::JointDrive& drive : operation.joint_drives()) {
       const dynamics::ProfileValue value = drive.position.evaluate(0.0);

@@ -19,7 +19,7 @@ double level_angle(const Vector3& from, const Vector3& to) {
   return std::atan2(from.x() * to.y() - from.y() * to.x(), from.head<2>().dot(to.head<2>()));
 }
 
-/// Angles at each sample, the turn nearest to that of the sample before.
+/// Angles at each sample, the turn nearest to the sample before.
 template <class AngleAt>
 Eigen::VectorXd unwrapped(const History& history, const AngleAt& angle_at) {
   constexpr double turn = 2 * std::numbers::pi;

@@ -21,7 +21,7 @@ Matrix3 cross_matrix(const Vector3& a) {
   return matrix;
 }
 
-/// A_ii at a frequency, linear between those of the database and constant beyond.
+/// A_ii at a frequency, linear between the database's frequencies and constant beyond.
 double added_mass_at(const HydrodynamicDatabase& database, Eigen::Index mode, double frequency) {
   const auto& w = database.frequencies;
   const auto value = [&](std::size_t k) { return database.added_mass[k](mode, mode); };

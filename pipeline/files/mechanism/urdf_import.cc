@@ -136,7 +136,7 @@ class Importer {
     result_.parts.joints.push_back(std::move(joint));
   }
 
-  /// A joint that mimics another: its position is multiplier times that of the other, plus offset.
+  /// A joint that mimics another: its position is multiplier times the other's, plus offset.
   void add_gear(const urdf::Joint& given) {
     const auto other = robot_.getJoint(given.mimic->joint_name);
     const bool turns = given.type != urdf::Joint::PRISMATIC;

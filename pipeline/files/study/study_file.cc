@@ -103,7 +103,7 @@ void check_variable(const StudyVariable& variable, Reading& reading, const Mark&
   const int told = (variable.values.empty() ? 0 : 1) + (variable.law ? 1 : 0) +
                    (variable.between.empty() ? 0 : 1);
   if (told != 1) reading.error(mark, "one of values, spread and between is due");
-  // The first one's unit is that of all: "3 m" behind "8 t" would be 3 kg.
+  // The first one's unit serves all: "3 m" behind "8 t" would be 3 kg.
   for (const Located<Measure>& value : variable.values)
     if (is_read(value) && is_read(variable.values.front()) &&
         !(value.value.exponents == variable.values.front().value.exponents))

@@ -305,7 +305,7 @@ class ResultsCheck {
                                   shown_shape(values->shape), instants, layout::outputs_time));
     text_attribute(path, "columns");
     meaning(path);
-    // Units of the columns stand side by side, or one is that of all.
+    // Units of the columns stand side by side, or one serves all.
     attempt(path, [&] {
       const std::string units = results_.read_meaning(path).units;
       std::size_t count = 1;

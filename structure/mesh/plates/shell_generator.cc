@@ -247,7 +247,7 @@ Vector3 place_in(const SheetGrid& grid, const Place& planes) {
   return {grid.planes(0)[planes[0]], grid.planes(1)[planes[1]], grid.planes(2)[planes[2]]};
 }
 
-/// The lugs on free pads, whose regions follow those of the grid's sheets.
+/// The lugs on free pads, whose regions follow the regions of the grid's sheets.
 void add_free_lifting_points(const BlockDescription& block,
                              const std::vector<FreeSheet>& free_sheets, int first_free,
                              Mesh& mesh) {

@@ -126,7 +126,7 @@ TEST(AddedInertia, TiesBodiesAsADenseSolutionDoes) {
     const Eigen::VectorXd dense = M_free.ldlt().solve(right);
     const Eigen::VectorXd sparse = vdot(free);
     EXPECT_LT((dense - sparse).norm(), 1e-9 * (1 + dense.norm())) << "seed " << seed;
-    // The Jacobian is that of the velocities.
+    // The Jacobian belongs to the velocities.
     Eigen::VectorXd u(added.size());
     added.calc_velocity(at.kinematics, u);
     EXPECT_LT((u - water.jacobian * at.v).norm(), 1e-12 * (1 + u.norm()));

@@ -121,7 +121,7 @@ TEST_P(RandomTree, ForwardDynamicsInvertsInverseDynamics) {
   compute_forward_dynamics(s.mechanism, s.kinematics, s.v, s.forces, workspace, tau, vdot);
   const Eigen::VectorXd back = s.inverse(vdot);
   EXPECT_LT((back - tau).norm(), 1e-12 * (tau.norm() + s.inverse(0 * vdot).norm()));
-  // The accelerations that come along are those of vdot.
+  // The accelerations that come along are vdot's.
   std::vector<MotionVector> A(workspace.A_WB.size());
   compute_accelerations(s.mechanism, s.kinematics, vdot, A);
   for (std::size_t b = 0; b < A.size(); ++b) {

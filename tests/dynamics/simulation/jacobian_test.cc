@@ -211,7 +211,7 @@ TEST_P(Jacobian, DifferencesApproachItInSecondOrder) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1);
 }
 
-// The structured solution is that of the whole matrix.
+// The structured solution equals the whole matrix's.
 TEST_P(Jacobian, NewtonMatrixSolvesWithIt) {
   const Eigen::MatrixXd J = analytical();
   NewtonMatrix newton(system_);

@@ -166,7 +166,7 @@ TEST_F(SmallLiftPadeyes, TakeTheRopesForceAtItsLargest) {
     EXPECT_LT((state.result.reaction.force + state.force_P).norm(), 0.02 * state.force_P.norm());
     EXPECT_GT(state.result.main_plate.checked_von_mises.value, 0);
   }
-  // The hand formula at its worst instant is that of the largest load.
+  // The hand formula has its worst instant where the load is largest.
   const double bearing =
       padeye.consequence_factor * padeye.states[1].force_P.norm() / (0.057 * 0.05);
   EXPECT_NEAR(padeye.formulas[0].formula.demand, bearing, 1e-6 * bearing);

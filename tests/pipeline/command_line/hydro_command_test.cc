@@ -275,7 +275,7 @@ TEST_F(HydroCommand, LidsDampTheWaterInAGap) {
   const Outcome outcome = run("pair.yaml -o pair.h5");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, Not(HasSubstr("already computed")));
-  // The draught that is told is that of the first body alone.
+  // The first body's draught alone is told.
   EXPECT_THAT(outcome.out,
               AllOf(HasSubstr("float, draught 3.000 m, "), HasSubstr("\nspar, 907.9")));
   EXPECT_EQ(lowest_damping(), 0.0);

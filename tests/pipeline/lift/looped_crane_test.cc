@@ -229,7 +229,7 @@ TEST(Equaliser, GivesBothTacklesTheSameLoad) {
     const Vector3 along = rest.body("load").X_WB(i).R.col(0);
     ASSERT_NEAR(std::atan2(-along.z(), along.x()), std::atan(0.05 / 0.7), 2e-3);
   }
-  // The length that the file leaves open is that of the pose: 2 + 4 + 2 m.
+  // The length that the file leaves open follows from the pose: 2 + 4 + 2 m.
   EXPECT_DOUBLE_EQ(lift.model.system.mechanism().loops()[0].length, 8);
   const std::vector<Check> checks = check_equalisers(lift, 1000);
   ASSERT_EQ(checks.size(), 1U);

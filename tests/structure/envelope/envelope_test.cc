@@ -177,7 +177,7 @@ TEST(Envelope, OfEqualsTheEarliestIsNamed) {
   EXPECT_EQ(each.instant[39], 0);
 }
 
-// Extremes over sets of points are those of the points' own envelopes.
+// Extremes over sets of points equal the extremes of the points' own envelopes.
 TEST(Envelope, LargestOfSetsAreThoseOfTheirPoints) {
   const Eigen::MatrixXd units = test::random_responses(6 * 400, 12, 13);
   const Eigen::MatrixXd factors = test::lift_like_history(12, 1400, 14);

@@ -197,7 +197,7 @@ TEST(Links, LinksFollowOneAnother) {
   EXPECT_LT((of(tip).head<3>() - of(hub).head<3>() - Vector3(of(hub).tail<3>()).cross(arm)).norm(),
             1e-12 * motion.norm());
   EXPECT_GT(of(tip).head<3>().norm(), 0);
-  // The work of the load is that of the forces that the links make of it.
+  // The load does the work of the forces that the links make of it.
   const Eigen::VectorXd reduced = space.reduce(load);
   const Eigen::VectorXd expanded = space.expand(reduced);
   EXPECT_NEAR(expanded.dot(load), reduced.squaredNorm(), 1e-9 * reduced.squaredNorm());

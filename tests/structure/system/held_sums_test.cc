@@ -67,7 +67,7 @@ TEST(HeldSystem, IsTheSaddlePointProblem) {
     EXPECT_NEAR(held[0], sum.value, 1e-12);
     EXPECT_NEAR(held[1], sum.value, 1e-12);
   }
-  // The multipliers pull at the sums: their sign is that of a reaction.
+  // The multipliers pull at the sums: their sign is a reaction's.
   const Eigen::MatrixXd reactions = system.reactions(solution, loads);
   EXPECT_LT((reactions + expected.bottomRows(5)).norm(), 1e-9 * expected.norm());
   const Eigen::VectorXd one = solution.col(0);

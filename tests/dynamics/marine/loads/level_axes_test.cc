@@ -178,7 +178,7 @@ TEST(LevelAxes, MemoryDoesNotTiltWithTheBody) {
     water->calc_rate(workspace.water_shares, workspace.memory, workspace.level_velocity,
                      workspace.memory_rate);
     const ForceVector F_R_W = shift_to(workspace.loads.F_Bo_W[1], Vector3(-p_BoR_W));
-    // The power of the force is that of the ledger.
+    // The force's power equals the ledger's.
     EXPECT_NEAR(dot(F_R_W, V_R_W), workspace.water_force.dot(workspace.level_velocity), 1.0);
     Eigen::Matrix<double, 18, 1> found;
     found << F_R_W.moment, F_R_W.force, workspace.memory_rate;

@@ -118,7 +118,7 @@ TEST(MeanDrift, OfAStandingColumnIsHavelocks) {
   EXPECT_NEAR(short_waves, 2.0 / 3.0, 0.02);
 }
 
-// The moment about the reference point is that of the force through the column's axis.
+// About the reference point the force through the column's axis makes the moment.
 TEST(MeanDrift, MomentIsThatOfTheForce) {
   const Vector3 axis(1.5, -2.0, 0.0);
   HydrodynamicDatabase database = standing_column(1.2, 0.7, axis);

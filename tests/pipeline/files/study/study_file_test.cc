@@ -127,7 +127,7 @@ TEST(StudyFile, SaysOneThingOfOneBadValue) {
     expect_one(two + "  - {of: [a, b], " + correlation + "}\n", "error");
 }
 
-// The unit of the first is that of all.
+// The unit of the first serves all.
 TEST(StudyFile, RefusesValuesOfSeveralDimensions) {
   EXPECT_THAT(complaints("members: 4\nvary: {a: {keys: [x], values: [8 t, 3 m, 9 t]}}\n"),
               HasSubstr("study.yaml:4:37: error: the values of a variable are not all of one "

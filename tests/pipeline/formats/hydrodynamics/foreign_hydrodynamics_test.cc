@@ -101,7 +101,7 @@ TEST(Bemio, BringsMeanDriftOfTheMethodThatTellsBodiesApart) {
   const HydrodynamicDatabase database = about_mass(with_drift(make_sample_database()));
   write_bemio("wec.h5", database);
   expect_near(database.mean_drift, read_bemio("wec.h5").mean_drift, two_roundings);
-  // Momentum far away is that of both bodies together.
+  // Momentum far away belongs to both bodies together.
   {
     const hdf5::Handle file(H5Fopen("wec.h5", H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
     for (const std::string body : {"/body1", "/body2"}) {
