@@ -259,7 +259,7 @@ namespace {
 
 /// Decks, meshes and CAD files, which are not YAML whatever stands in them.
 bool is_mesh_file(const fs::path& path) {
-  static constexpr std::array endings = {".bdf",  ".nas", ".dat", ".inp",  ".msh",
+  static constexpr std::array endings = {".bdf",  ".nas", ".dat", ".inp",  ".msh", ".unv",
                                          ".step", ".stp", ".igs", ".iges", ".brep"};
   return std::find(endings.begin(), endings.end(), structure::ending_of(path)) != endings.end();
 }

@@ -144,9 +144,10 @@ class MeshReader {
     const bool is_nastran = ending == ".bdf" || ending == ".nas" || ending == ".dat";
     const bool is_bare_file = is_bare(mesh_model_);
     if (!is_nastran && !is_bare_file && ending != ".inp") {
-      complain(fmt::format("\"{}\" is no file that is known by its ending", named.string()),
-               {"Nastran decks end in .bdf, .nas or .dat, Abaqus decks in .inp, meshes of Gmsh in "
-                ".msh, CAD surfaces in .step, .stp, .iges, .igs or .brep"});
+      complain(
+          fmt::format("\"{}\" is no file that is known by its ending", named.string()),
+          {"Nastran decks end in .bdf, .nas or .dat, Abaqus decks in .inp, meshes of Gmsh in "
+           ".msh, universal files in .unv, CAD surfaces in .step, .stp, .iges, .igs or .brep"});
       return false;
     }
     if (!check_sizes(structure::is_cad_file(named.string()))) return false;
@@ -397,13 +398,15 @@ Format<MeshModel> mesh_model_format() {
       "mesh",
       "A deck of Nastran or Abaqus: shells, beams, masses, links, springs with their properties. "
       "Its loads and supports are not those of a lift, and are left out; cards that are not used "
-      "are listed, and what cannot be honoured is an error with its line. Or a mesh of Gmsh, whose "
-      "physical groups are plates and bars, or surfaces and free curves of CAD, which are cut at "
+      "are listed, and what cannot be honoured is an error with its line. Or a mesh of Gmsh or "
+      "Salome, whose "
+      "groups are plates and bars, or surfaces and free curves of CAD, which are cut at "
       "their joints and meshed here; their properties are given by groups.");
   table
       .required("file", &MeshModel::file, text(),
                 "from the folder of this file on: Nastran (.bdf, .nas, .dat), Abaqus (.inp), Gmsh "
-                "(.msh), CAD surfaces (.step, .stp, .iges, .igs, .brep)")
+                "(.msh), universal files of Salome or I-DEAS (.unv), CAD surfaces (.step, .stp, "
+                ".iges, .igs, .brep)")
       .required("units", &MeshModel::units,
                 choice<std::string>({{"m-kg-N", "m-kg-N"},
                                      {"mm-t-N", "mm-t-N"},
@@ -451,7 +454,8 @@ Format<MeshModel> mesh_model_format() {
 
 bool is_bare(const MeshModel& mesh) {
   const std::string& file = mesh.file.value;
-  return structure::is_cad_file(file) || structure::ending_of(file) == ".msh";
+  return structure::is_cad_file(file) || structure::ending_of(file) == ".msh" ||
+         structure::ending_of(file) == ".unv";
 }
 
 void read_block_mesh(BlockModel& block, const fs::path& folder, Diagnostics& diagnostics,

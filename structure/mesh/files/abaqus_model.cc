@@ -220,4 +220,9 @@ std::map<std::string, std::vector<std::size_t>> add_to_gmsh(const AbaqusMesh& me
   return points;
 }
 
+std::vector<AbaqusFace> outer_faces_made_of(const AbaqusMesh& mesh,
+                                            const std::set<std::size_t>& nodes) {
+  return Faces(mesh).made_of(nodes);
+}
+
 }  // namespace blocklift::structure

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,5 +17,10 @@ namespace blocklift::structure {
 /// all of its nodes; else it is returned, as a set of points. A node set of the name of an element
 /// set is called "NAME nodes", a surface of the name of either "NAME surface".
 std::map<std::string, std::vector<std::size_t>> add_to_gmsh(const AbaqusMesh& mesh);
+
+/// The outer faces of the mesh all of whose nodes are in the set; none unless these faces have all of
+/// the set's nodes.
+std::vector<AbaqusFace> outer_faces_made_of(const AbaqusMesh& mesh,
+                                            const std::set<std::size_t>& nodes);
 
 }  // namespace blocklift::structure

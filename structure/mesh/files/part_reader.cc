@@ -23,6 +23,7 @@
 #include "structure/mesh/files/nastran_file.h"
 #include "structure/mesh/files/part_collector.h"
 #include "structure/mesh/files/plate_collector.h"
+#include "structure/mesh/files/universal_file.h"
 #include "structure/mesh/part_mesh_packet.h"
 
 namespace blocklift::structure {
@@ -78,7 +79,7 @@ std::size_t solid_count() {
   return count;
 }
 
-// Abaqus' and Nastran's solids by readers of our own, all else by Gmsh.
+// Abaqus' and Nastran's solids and universal files by readers of our own, all else by Gmsh.
 void open_file(const std::string& path, std::map<std::string, std::vector<std::size_t>>& points) {
   const std::string extension = ending_of(path);
   if (extension == ".inp") {
@@ -91,6 +92,10 @@ void open_file(const std::string& path, std::map<std::string, std::vector<std::s
       points = add_to_gmsh(solids);
       return;
     }
+  }
+  if (is_universal_file(path)) {
+    points = open_universal_file(path);
+    return;
   }
   require_known_nodes(path);
   require_closed_script(path);

@@ -49,8 +49,9 @@ struct PartReading {
   std::vector<PointChoice> points;
 };
 
-/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, .unv, ...), Abaqus' .inp by read_abaqus and
-/// the solids of Nastran's .bdf by read_nastran: a mesh as it is, a geometry after meshing it.
+/// Reads whatever Gmsh opens (.msh, .geo, .step, .brep, ...), Abaqus' .inp by read_abaqus, the
+/// solids of Nastran's .bdf by read_nastran and .unv by open_universal_file: a mesh as it is, a
+/// geometry after meshing it.
 ///
 /// Groups are the physical groups by their names, or "volume group 3" and so on where they have
 /// none; besides them each geometric entity is a group of its own: "volume 1", "surface 4", "curve

@@ -17,6 +17,7 @@
 #include "structure/mesh/files/surfaces/cell_collector.h"
 #include "structure/mesh/files/surfaces/deck_packet.h"
 #include "structure/mesh/files/surfaces/fragments.h"
+#include "structure/mesh/files/universal_file.h"
 
 namespace blocklift::structure {
 
@@ -48,10 +49,14 @@ class SurfaceReader {
 
  private:
   EntityRegions from_mesh() {
-    require_known_nodes(path_);
-    require_closed_script(path_);
     try {
-      gmsh::open(path_);
+      if (is_universal_file(path_)) {
+        open_universal_file(path_);
+      } else {
+        require_known_nodes(path_);
+        require_closed_script(path_);
+        gmsh::open(path_);
+      }
     } catch (const std::string& error) {
       throw ModelError("Gmsh cannot read the file; is it damaged? " + error);
     }
