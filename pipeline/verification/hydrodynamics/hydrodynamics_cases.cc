@@ -22,7 +22,8 @@ std::vector<VerificationCase> hydrodynamics_cases() {
           sphere_through_files(),
           bodies_at_a_joint(),
           moonpool(),
-          barges_side_by_side()};
+          barges_side_by_side(),
+          three_hulls()};
 }
 
 }  // namespace blocklift::pipeline

@@ -52,5 +52,7 @@ VerificationCase bodies_at_a_joint();
 VerificationCase moonpool();
 /// Two barges with a gap between them: forces, and the resonance of its water.
 VerificationCase barges_side_by_side();
+/// Two pontoons and a ship across their bows, a launch, by both methods.
+VerificationCase three_hulls();
 
 }  // namespace blocklift::pipeline
