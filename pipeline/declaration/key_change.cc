@@ -175,6 +175,11 @@ std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mar
     change.key = place.substr(colon + 1);
   }
   if (sign != std::string_view::npos) change.value = text.substr(sign + 1);
+  if (change.key.find("[0]") != std::string::npos) {
+    diagnostics.error(mark, fmt::format("\"{}\" has no place 0", change.key),
+                      {"places of a list are counted from 1: centre_of_mass[1] is the first"});
+    return std::nullopt;
+  }
   const auto steps = steps_of(change.key);
   if (steps && !steps->empty() && !change.value.empty()) return change;
   diagnostics.error(

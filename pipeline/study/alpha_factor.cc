@@ -70,11 +70,12 @@ AlphaRows read_alpha_rows(const std::filesystem::path& path) {
 }  // namespace
 
 AlphaFactor::AlphaFactor(std::vector<double> heights, std::vector<double> factors,
-                         double row_period, double planned_period)
+                         double row_period, double planned_period, double contingency)
     : heights_(std::move(heights)),
       factors_(std::move(factors)),
       row_period_(row_period),
-      planned_period_(planned_period) {}
+      planned_period_(planned_period),
+      contingency_(contingency) {}
 
 double AlphaFactor::at(double limiting_height) const {
   const auto next = static_cast<std::size_t>(std::ranges::upper_bound(heights_, limiting_height) -
@@ -112,7 +113,8 @@ AlphaFactor read_alpha_factor(const StudyFile& study) {
     heights.push_back(height);
     factors.push_back(factor);
   }
-  return {std::move(heights), std::move(factors), row->first, planned};
+  const double contingency = limits.contingency ? limits.contingency->value / hour : 0;
+  return {std::move(heights), std::move(factors), row->first, planned, contingency};
 }
 
 }  // namespace blocklift::pipeline

@@ -16,9 +16,10 @@ class AlphaFactor {
   AlphaFactor(double same = 1) : heights_{0}, factors_{same} {}
   /// @param heights of the row, m, ascending, one at least. @param factors one each.
   /// @param row_period the longest planned period that the row holds for, h. @param planned_period
-  /// that of the operation, h.
+  /// that of the operation, h, by which the row is chosen. @param contingency time for what goes
+  /// wrong, h, which the row does not count.
   AlphaFactor(std::vector<double> heights, std::vector<double> factors, double row_period,
-              double planned_period);
+              double planned_period, double contingency = 0);
 
   /// @param limiting_height of the operation in a sea, m.
   double at(double limiting_height) const;
@@ -26,12 +27,15 @@ class AlphaFactor {
   /// Of a table, h: the longest planned period that the row holds for.
   double row_period() const { return row_period_; }
   double planned_period() const { return planned_period_; }
+  double contingency() const { return contingency_; }
+  /// How long a window has to last, h: planned period and contingency (DNV-ST-N001).
+  double reference_period() const { return planned_period_ + contingency_; }
   /// "alpha 0.71", or "alpha from 0.65 to 0.79, by the height, of operations up to 24 h".
   std::string text() const;
 
  private:
   std::vector<double> heights_, factors_;
-  double row_period_ = 0, planned_period_ = 0;
+  double row_period_ = 0, planned_period_ = 0, contingency_ = 0;
 };
 
 /// The factor that the limits of a study ask for. A table is a CSV file beside it with the columns

@@ -42,15 +42,23 @@ std::string windows_text(const std::vector<Operability::Window>& windows) {
   return text;
 }
 
-/// The windows in which the whole planned operation finds place.
-std::string plan_text(const std::vector<Operability::Window>& windows, double planned) {
+/// "the 18 h of the operation, 12 h planned and 6 h of contingency".
+std::string reference_period_text(const AlphaFactor& alpha) {
+  if (alpha.contingency() > 0)
+    return fmt::format(
+        "the {:.6g} h of the operation, {:.6g} h planned and {:.6g} h of contingency",
+        alpha.reference_period(), alpha.planned_period(), alpha.contingency());
+  return fmt::format("the {:.6g} h that the operation is planned for", alpha.planned_period());
+}
+
+/// The windows in which the whole operation finds place.
+std::string plan_text(const std::vector<Operability::Window>& windows, const AlphaFactor& alpha) {
   std::vector<Operability::Window> long_enough;
   for (const Operability::Window& window : windows)
-    if (window.holds(planned)) long_enough.push_back(window);
-  if (long_enough.empty())
-    return fmt::format("no window lasts the {:.6g} h that the operation is planned for", planned);
-  return fmt::format("windows that last the {:.6g} h that the operation is planned for: {}",
-                     planned, windows_text(long_enough));
+    if (window.holds(alpha.reference_period())) long_enough.push_back(window);
+  const std::string period = reference_period_text(alpha);
+  if (long_enough.empty()) return fmt::format("no window lasts {}", period);
+  return fmt::format("windows that last {}: {}", period, windows_text(long_enough));
 }
 
 /// Shares are of a hundred or of one; counts of a thousand waves are allowed, too, and are told.
@@ -118,8 +126,7 @@ std::vector<std::string> sentences_of_forecast(const Operability& operability,
                   percent_text(operability.share), alpha.text(), beyond_text(operability));
   if (!operability.windows.empty()) first += "; windows: " + windows_text(operability.windows);
   std::vector<std::string> sentences{std::move(first)};
-  if (alpha.is_of_table())
-    sentences.push_back(plan_text(operability.windows, alpha.planned_period()));
+  if (alpha.is_of_table()) sentences.push_back(plan_text(operability.windows, alpha));
   if (!operability.windows.empty() && operability.windows.back().end == operability.last)
     sentences.push_back(fmt::format(
         "the last window reaches the end of the forecast, {:.6g} h: how long it lasts is "

@@ -146,7 +146,7 @@ Json operability_json(const Operability& operability, const AlphaFactor& alpha) 
   Json windows = Json::array(), holes = Json::array();
   for (const Operability::Window& window : operability.windows) {
     windows.push_back({{"begin_h", window.begin}, {"end_h", window.end}});
-    if (alpha.is_of_table()) windows.back()["holds_plan"] = window.holds(alpha.planned_period());
+    if (alpha.is_of_table()) windows.back()["holds_plan"] = window.holds(alpha.reference_period());
   }
   for (const Operability::Window& hole : operability.holes)
     holes.push_back({{"begin_h", hole.begin}, {"end_h", hole.end}});
@@ -173,10 +173,12 @@ Json limits_json(const StudyResults& results) {
       states.push_back(std::move(state));
     }
   Json json{{"sea_states", std::move(states)}};
-  if (results.alpha.is_of_table())
+  if (results.alpha.is_of_table()) {
     json["alpha_row_h"] = results.alpha.row_period();
-  else
+    json["reference_period_h"] = results.alpha.reference_period();
+  } else {
     json["alpha"] = results.alpha.at(0);
+  }
   if (results.in_scatter) json["scatter"] = operability_json(*results.in_scatter, results.alpha);
   if (results.in_forecast) json["forecast"] = operability_json(*results.in_forecast, results.alpha);
   return json;

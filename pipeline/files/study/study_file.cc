@@ -168,6 +168,9 @@ void check_alpha(const SeaLimits& limits, Reading& reading, const Mark& mark) {
     reading.error(mark, "alpha_table needs the planned_period of the operation");
   if (limits.planned_period && !limits.alpha_table)
     reading.error(limits.planned_period->mark, "planned_period goes with alpha_table");
+  if (limits.contingency && !(limits.planned_period && limits.forecast))
+    reading.error(limits.contingency->mark,
+                  "contingency goes with planned_period and a forecast, whose windows last both");
   if (limits.alpha_table && !limits.scatter && !limits.forecast)
     reading.error(limits.alpha_table->mark,
                   "alpha factors are of a scatter table or a forecast, and there is neither");
@@ -197,6 +200,10 @@ Format<SeaLimits> sea_limits_format() {
       .optional("planned_period", &SeaLimits::planned_period,
                 located(quantity(Dimension::time, Range::positive())),
                 "of the operation, by which the table is entered")
+      .optional("contingency", &SeaLimits::contingency,
+                located(quantity(Dimension::time, Range::positive())),
+                "time for what goes wrong: planned_period and this are the reference period "
+                "(DNV-ST-N001), which a window of the forecast has to last")
       .optional("scatter", &SeaLimits::scatter, located(text()),
                 "beside this file: CSV with the columns significant_height_m, peak_period_s, share "
                 "and, if headings vary, heading_deg")

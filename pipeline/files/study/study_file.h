@@ -65,8 +65,10 @@ struct SeaLimits {
   std::vector<QuantityLimit> quantities;
   /// Share of the limit that a forecast height may reach: 1 if there is neither this nor a table.
   std::optional<Located<double>> alpha;
-  std::optional<Located<std::string>> alpha_table;        ///< file beside the study
-  std::optional<Located<double>> planned_period;          ///< s, by which the table is entered
+  std::optional<Located<std::string>> alpha_table;  ///< file beside the study
+  std::optional<Located<double>> planned_period;    ///< s, by which the table is entered
+  /// s, added to it: a window has to last both. None is counted if it is left out.
+  std::optional<Located<double>> contingency;
   std::optional<Located<std::string>> scatter, forecast;  ///< files beside the study
   Mark place;
 };

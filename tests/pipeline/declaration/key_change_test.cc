@@ -121,9 +121,10 @@ TEST(KeyChange, SaysWhatIsThereInPlaceOfTheKey) {
 }
 
 TEST(KeyChange, IsRefusedWhereItSaysNothing) {
-  for (const char* text : {"", "mass", "mass=", "=3 t", "moves[0].by=1 m", "moves[x].by=1 m",
-                           "moves[1.by=1 m", "block:=3 t"})
+  for (const char* text :
+       {"", "mass", "mass=", "=3 t", "moves[x].by=1 m", "moves[1.by=1 m", "block:=3 t"})
     EXPECT_THAT(changed_by(text), HasSubstr("changes nothing")) << text;
+  EXPECT_THAT(changed_by("moves[0].by=1 m"), HasSubstr("places of a list are counted from 1"));
 }
 
 TEST(KeyChange, NamesAModelBeforeAColon) {

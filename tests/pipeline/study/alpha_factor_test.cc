@@ -20,12 +20,14 @@ const char* const table_head = "operation_period_h,significant_height_m,alpha\n"
 class AlphaTable : public ::testing::Test {
  protected:
   void write(const std::string& text) { folder_.write("alpha.csv", text); }
-  static AlphaFactor read(double planned_hours) {
+  static AlphaFactor read(double planned_hours, double contingency_hours = 0) {
     StudyFile study;
     study.file = "study.yaml";
     study.limits.emplace();
     study.limits->alpha_table = Located<std::string>{"alpha.csv", {}};
     study.limits->planned_period = Located<double>{planned_hours * an_hour, {}};
+    if (contingency_hours > 0)
+      study.limits->contingency = Located<double>{contingency_hours * an_hour, {}};
     return read_alpha_factor(study);
   }
   std::string refusal(const std::string& rows, double planned_hours = 20) {
@@ -58,6 +60,16 @@ TEST_F(AlphaTable, IsEnteredByPeriodAndHeight) {
   EXPECT_EQ(read(12).row_period(), 12);
   EXPECT_EQ(read(12.1).row_period(), 24);
   EXPECT_EQ(read(3).at(1), 0.7);
+}
+
+// 10 h and 6 h of contingency are a reference period of 16 h; the row is that of 10 h.
+TEST_F(AlphaTable, IsEnteredWithoutTheContingency) {
+  write(std::string(table_head) + "12,1,0.7\n24,1,0.6\n");
+  const AlphaFactor alpha = read(10, 6);
+  EXPECT_EQ(alpha.row_period(), 12);
+  EXPECT_EQ(alpha.at(1), 0.7);
+  EXPECT_NEAR(alpha.reference_period(), 16, 1e-12);
+  EXPECT_NEAR(read(10).reference_period(), 10, 1e-12);
 }
 
 TEST_F(AlphaTable, IsRefusedWithItsLine) {

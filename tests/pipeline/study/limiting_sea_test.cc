@@ -195,6 +195,25 @@ TEST_F(LinearLift, TellsTheWindowsThatHoldThePlan) {
   EXPECT_EQ(second_sentence(12.5), "no window lasts the 12.5 h that the operation is planned for");
 }
 
+// A window has to last plan and contingency: 12 h hold 8 h and 4 h, and no more.
+TEST_F(LinearLift, AWindowLastsTheContingencyToo) {
+  const LimitingSeas seas = find_limiting_seas(study_, design_, members_);
+  const std::vector<SeaState> forecast = {{1.5, 8, 0, 0, 0},
+                                          {1, 8, 0, 6, 6},
+                                          {1, 8, 0, 12, 12},
+                                          {1, 8, 0, 18, 18},
+                                          {1.5, 8, 0, 24, 24}};
+  const auto second_sentence = [&](double contingency) {
+    const AlphaFactor alpha({1, 2}, {0.6, 0.8}, 12, 8, contingency);
+    return sentences_of_forecast(find_operability(seas, forecast, alpha, true), alpha)[1];
+  };
+  EXPECT_EQ(second_sentence(4),
+            "windows that last the 12 h of the operation, 8 h planned and 4 h of contingency: 6 h "
+            "to 18 h");
+  EXPECT_EQ(second_sentence(6),
+            "no window lasts the 14 h of the operation, 8 h planned and 6 h of contingency");
+}
+
 // A calm sea that was not run, or beside a limit that is not known, is told as not workable: it
 // does not count as workable.
 TEST_F(LinearLift, ACalmSeaThatWasNotRunIsNotAllowed) {

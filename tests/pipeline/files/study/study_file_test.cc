@@ -161,6 +161,11 @@ TEST(StudyFile, RefusesSeaLimitsThatMakeNoSense) {
   EXPECT_THAT(of(table + "planned_period: 20 m, forecast: f.csv, " + load), HasSubstr("error"));
   EXPECT_THAT(of("height: Hs, period: Tp, planned_period: 20 h, forecast: f.csv, " + load),
               HasSubstr("planned_period goes with alpha_table"));
+  EXPECT_EQ(of(table + "planned_period: 20 h, contingency: 6 h, forecast: f.csv, " + load), "");
+  EXPECT_THAT(of(table + "planned_period: 20 h, contingency: 6 h, scatter: f.csv, " + load),
+              HasSubstr("contingency goes with planned_period and a forecast"));
+  EXPECT_THAT(of(table + "planned_period: 20 h, contingency: -6 h, forecast: f.csv, " + load),
+              HasSubstr("error"));
   EXPECT_THAT(complaints("design: grid\nfigures: [g_N]\nvary:\n" + seas +
                          "limits: {height: Hs, period: Tp, " + load + "}\n"),
               HasSubstr("the figure is limited, but not among figures"));
