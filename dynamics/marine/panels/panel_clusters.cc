@@ -141,9 +141,9 @@ bool make_rectangle(const PanelMesh& mesh, const Cover& alone, const Cover& pair
 /// Clusters that may be joined, and the length of the edges that they share, m.
 using Neighbours = std::pair<Pair, double>;
 
-/// Those that share the longest edges come first; of edges as long as each other, but for what files
-/// round, those of the first panels: a row is joined from its beginning, and an even one leaves none
-/// over.
+/// Those that share the longest edges come first; of edges as long as each other, but for what
+/// files round, those of the first panels: a row is joined from its beginning, and an even one
+/// leaves none over.
 std::vector<Neighbours> find_neighbours(const std::vector<SharedEdge>& edges, double largest,
                                         const PanelClusters& clusters,
                                         const std::vector<Cover>& covers) {

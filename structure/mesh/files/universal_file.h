@@ -20,8 +20,8 @@ bool is_universal_file(const std::string& path);
 /// Coordinates stay as they are: what unit they are in is for the caller to know, since Salome
 /// writes metres whatever was drawn.
 /// A group of nodes alone that are all nodes of some outer faces of solids is one of these faces.
-/// @return other groups of nodes alone, by name: the numbers of their nodes. One of the name of a group of
-///   elements is called "NAME nodes".
+/// @return other groups of nodes alone, by name: the numbers of their nodes. One of the name of a
+///   group of elements is called "NAME nodes".
 /// @throws ModelError with the line of the file: what is no number or lacks, kinds of elements that
 ///   are not known, numbers that are there twice, nodes and elements that do not exist, and
 ///   coordinates in other systems than the global one.

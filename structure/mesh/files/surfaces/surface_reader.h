@@ -17,8 +17,9 @@ struct SurfaceReading {
   bool leave_solids_out = false;
 };
 
-/// Reads a mesh of Gmsh (.msh), a universal file (.unv) or a geometry (STEP, IGES, BREP) into plates and bars that have no
-/// properties yet: shells and beams with section -1, and the names of their groups.
+/// Reads a mesh of Gmsh (.msh), a universal file (.unv) or a geometry (STEP, IGES, BREP) into plates
+/// and bars that have no properties yet: shells and beams with section -1, and the names of their
+/// groups.
 ///
 /// Surfaces of a geometry are cut at their joints and meshed; those of one group that lie upon one
 /// another count once. Curves that bound no surface are bars if their group is given a section:
