@@ -14,6 +14,7 @@
 #include "algebra/decompositions.h"
 #include "parallel/threads.h"
 #include "structure/formulation/shell.h"
+#include "structure/formulation/shell_law.h"
 #include "structure/index.h"
 #include "structure/mesh/fields/fields.h"
 #include "structure/mesh/fields/shell_edges.h"
@@ -27,22 +28,31 @@ namespace blocklift::structure {
 
 namespace {
 
-/// Membrane forces and moments: a column for each point, six rows for each motion.
+/// Membrane forces, moments, shear forces and drilling: a column for each point, shell_strains rows
+/// for each motion.
 using Resultants = Eigen::MatrixXd;
-using Law = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Law = Eigen::Matrix<double, shell_strains, shell_strains>;
+using AllStrains = Eigen::Matrix<double, shell_strains, 1>;
 using Motions = Eigen::Ref<const Eigen::MatrixXd>;
 
-/// Turns (11, 22, 12) of forces and moments from a cell's axes at an angle `a` to others into
-/// these; of a cell whose normal is against theirs moments change their sign.
+/// Turns (11, 22, 12) of forces and moments and (1, 2) of shear forces from a cell's axes at an
+/// angle `a` to others into these; of a cell whose normal is against theirs moments and shear
+/// forces change their sign. Drilling is nothing in a smooth motion, whatever it is in the cells.
 Law turn_by_angle(double a, bool is_flipped) {
   const double c = std::cos(a), s = std::sin(a);
   Eigen::Matrix3d turn;
   turn << c * c, s * s, -2 * c * s, s * s, c * c, 2 * c * s, c * s, -c * s, c * c - s * s;
-  if (is_flipped) turn.col(2) *= -1;  // the cell's second axis points the other way
+  Eigen::Matrix2d turn_of_shear;
+  turn_of_shear << c, -s, s, c;
+  if (is_flipped) {  // the cell's second axis points the other way
+    turn.col(2) *= -1;
+    turn_of_shear.col(1) *= -1;
+  }
+  const double sign = is_flipped ? -1 : 1;
   Law law = Law::Zero();
-  law.topLeftCorner<3, 3>() = turn;
-  law.bottomRightCorner<3, 3>() = (is_flipped ? -1 : 1) * turn;
+  law.block<3, 3>(membrane_11, membrane_11) = turn;
+  law.block<3, 3>(curvature_11, curvature_11) = sign * turn;
+  law.block<2, 2>(shear_1, shear_1) = sign * turn_of_shear;
   return law;
 }
 
@@ -144,17 +154,31 @@ class Axes {
 };
 
 /// Resultants at one point, a column for each motion.
-using AtPoint = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using AtPoint = Eigen::Matrix<double, shell_strains, Eigen::Dynamic>;
 
-/// Turns resultants at one point, six rows for each motion, into other axes.
+/// Turns resultants at one point, shell_strains rows for each motion, into other axes.
 void turn_into(const Law& turn, const Eigen::Ref<const Eigen::VectorXd>& resultants,
                AtPoint& turned) {
-  turned.noalias() = turn * resultants.reshaped(6, resultants.size() / 6);
+  turned.noalias() = turn * resultants.reshaped(shell_strains, resultants.size() / shell_strains);
 }
 
-Law law_of(const ElasticModel& model, const Shell& shell, const ShellPoint& point) {
-  return shell_stiffness_law(model.mesh(), shell, point.e_1, point.e_2, point.thickness)
-      .topLeftCorner<6, 6>();
+/// The law of a cell at one of its points, as its stiffness has it.
+Law law_of(const ElasticModel& model, int cell, const ShellPoint& point) {
+  const int shell = model.space().shells()[cell].shell;
+  Law law = shell_stiffness_law(model.mesh(), model.mesh().shells[shell], point.e_1, point.e_2,
+                                point.thickness);
+  if (model.space().is_facet(shell))
+    law(drilling, drilling) *= drilling_of_facets(model.space().degree());
+  return law;
+}
+
+/// Membrane and bending may be coupled by layers; shear and drilling stand for themselves.
+Law compliance_of(const Law& law) {
+  Law compliance = Law::Zero();
+  compliance.topLeftCorner<6, 6>() = algebra::inverse_of<6>(law.topLeftCorner<6, 6>());
+  compliance.block<2, 2>(shear_1, shear_1) = law.block<2, 2>(shear_1, shear_1).inverse();
+  compliance(drilling, drilling) = 1 / law(drilling, drilling);
+  return compliance;
 }
 
 /// Resultants of a cell at an operator's points, along its own axes.
@@ -164,16 +188,15 @@ Resultants resultants_of(const ElasticModel& model, ShellOperator& shell_operato
                          const CellHeat* heat) {
   shell_operator.reinit(cell);
   const Eigen::MatrixXd local = motions_of_cell(model.space(), cell, motions);
-  const Shell& shell = model.mesh().shells[model.space().shells()[cell].shell];
-  Resultants resultants(6 * motions.cols(),
+  Resultants resultants(shell_strains * motions.cols(),
                         static_cast<Eigen::Index>(shell_operator.points().size()));
   for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
     const ShellPoint& point = shell_operator.points()[q];
-    auto here = resultants.col(q).reshaped(6, motions.cols());
-    here = law_of(model, shell, point) * (point.strain.topRows<6>() * local);
+    auto here = resultants.col(q).reshaped(shell_strains, motions.cols());
+    here = law_of(model, cell, point) * (point.strain * local);
     if (heat != nullptr)
-      here -= heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)), point.e_1,
-                                 point.e_2, point.thickness);
+      here.topRows<6>() -= heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)),
+                                              point.e_1, point.e_2, point.thickness);
   }
   return resultants;
 }
@@ -200,11 +223,13 @@ Eigen::MatrixXd to_nodes(int degree) {
   return result;
 }
 
-/// |e|^2 and |s_h|^2 of cells or solids in motions, J.
+/// |e|^2, |s_h|^2 and |s|^2 of cells or solids in motions, J. That of the smooth field s is
+/// |s_h|^2 + |e|^2 wherever elements are no triangles: what a quadrangle's own field has beyond the
+/// smooth one, such as the bending of a cell in its plane, it mostly has rightly.
 struct SquaredNorms {
   SquaredNorms(Eigen::Index count, Eigen::Index motions)
-      : error(Eigen::MatrixXd::Zero(count, motions)), norm(Eigen::MatrixXd::Zero(count, motions)) {}
-  Eigen::MatrixXd error, norm;
+      : error(Eigen::MatrixXd::Zero(count, motions)), own(error), smooth(error) {}
+  Eigen::MatrixXd error, own, smooth;
 };
 
 SquaredNorms norms_of_solids(const Space& space, const Motions& motions, int threads,
@@ -223,16 +248,18 @@ SquaredNorms norms_of_solids(const Space& space, const Motions& motions, int thr
       };
     const SolidError error = estimate_solid_error(solids, points, displacement, threads, held);
     norms.error.col(m) = error.squared_error;
-    norms.norm.col(m) = error.squared_norm;
+    norms.own.col(m) = error.squared_norm;
   }
+  norms.smooth = norms.own + norms.error;
   return norms;
 }
 
 /// Cells that one thread computes at a time.
 int batch_of(int cells) { return std::max(32, cells / 64); }
 
-double relative_error(double error, double norm) {
-  return error + norm > 0 ? std::sqrt(error / (error + norm)) : 0;
+double relative_error(double error, double own, double smooth) {
+  const double larger = std::max(own, smooth);
+  return larger > 0 ? std::min(1.0, std::sqrt(error / larger)) : 0;
 }
 
 /// The recovered resultants at the points where nodes and fields meet.
@@ -240,7 +267,7 @@ Resultants recover(const ElasticModel& model, const Axes& axes, const Points& po
                    const Motions& motions, int threads, const CellHeat* heat) {
   const Space& space = model.space();
   const int cells = static_cast<int>(space.shells().size()), per_cell = space.nodes_per_shell();
-  Resultants at_nodes(6 * motions.cols(), static_cast<Eigen::Index>(per_cell) * cells);
+  Resultants at_nodes(shell_strains * motions.cols(), static_cast<Eigen::Index>(per_cell) * cells);
   const Eigen::MatrixXd carry = to_nodes(space.degree());
   const Eigen::Matrix2Xd places = square_rule(space.degree()).topRows<2>();
   parallel::in_batches(cells, batch_of(cells), threads, [&](int first, int count) {
@@ -249,11 +276,11 @@ Resultants recover(const ElasticModel& model, const Axes& axes, const Points& po
       at_nodes.middleCols(static_cast<Eigen::Index>(per_cell) * cell, per_cell) =
           resultants_of(model, accurate, places, cell, motions, heat) * carry;
   });
-  Resultants recovered = Resultants::Zero(6 * motions.cols(), points.count());
+  Resultants recovered = Resultants::Zero(shell_strains * motions.cols(), points.count());
   // Each point by one thread, its cells in their order: sums do not depend on the threads.
   parallel::in_batches(points.count(), batch_of(points.count()), threads,
                        [&](int first, int count) {
-                         AtPoint turned(6, motions.cols());
+                         AtPoint turned(shell_strains, motions.cols());
                          for (int point = first; point < first + count; ++point)
                            for (const int place : points.places(point)) {
                              turn_into(axes.to_point(place / per_cell, place % per_cell),
@@ -264,13 +291,33 @@ Resultants recover(const ElasticModel& model, const Axes& axes, const Points& po
   return recovered;
 }
 
-/// Adds what a point of a cell has to |e|^2 and |s_h|^2 of the motions.
+/// Shear forces that are in balance with the moments at a cell's nodes, q_a = d_b m_ab, in place of
+/// smooth ones. Triangles that lock are held by shear which is as smooth as it is wrong.
+void balance_shear(const ShellPoint& point, const Resultants& at_nodes,
+                   Eigen::Ref<Eigen::VectorXd> smooth) {
+  const Eigen::Index nodes = at_nodes.cols();
+  Eigen::VectorXd d_1(nodes), d_2(nodes);  // of the nodes' shape functions
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    d_1[i] = point.strain.block<1, 3>(curvature_11, 6 * i + 3).dot(point.e_2);
+    d_2[i] = -point.strain.block<1, 3>(curvature_22, 6 * i + 3).dot(point.e_1);
+  }
+  const Eigen::VectorXd by_1 = at_nodes * d_1, by_2 = at_nodes * d_2;
+  for (Eigen::Index first = 0; first < smooth.size(); first += shell_strains) {
+    smooth[first + shear_1] = by_1[first + curvature_11] + by_2[first + curvature_12];
+    smooth[first + shear_2] = by_1[first + curvature_12] + by_2[first + curvature_22];
+  }
+}
+
+/// Adds what a point of a cell has to the norms of the motions.
 void add_point(const Law& compliance, double area, const Eigen::Ref<const Eigen::VectorXd>& smooth,
                const Eigen::Ref<const Eigen::VectorXd>& s_h, int cell, SquaredNorms& norms) {
   for (Eigen::Index m = 0; m < norms.error.cols(); ++m) {
-    const Vector6 own = s_h.segment<6>(6 * m), difference = smooth.segment<6>(6 * m) - own;
+    const AllStrains own = s_h.segment<shell_strains>(shell_strains * m),
+                     mean = smooth.segment<shell_strains>(shell_strains * m),
+                     difference = mean - own;
     norms.error(cell, m) += area * difference.dot(compliance * difference);
-    norms.norm(cell, m) += area * own.dot(compliance * own);
+    norms.own(cell, m) += area * own.dot(compliance * own);
+    norms.smooth(cell, m) += area * mean.dot(compliance * mean);
   }
 }
 
@@ -286,16 +333,16 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Axes& axes, const P
     values.col(q) = space.shell_values(rule.col(q).head<2>());
   parallel::in_batches(cells, batch_of(cells), threads, [&](int first, int count) {
     ShellOperator own(space, rule.topRows<2>());
-    Resultants at_nodes(6 * motions.cols(), space.nodes_per_shell());
-    AtPoint turned(6, motions.cols());
+    Resultants at_nodes(shell_strains * motions.cols(), space.nodes_per_shell());
+    AtPoint turned(shell_strains, motions.cols());
     for (int cell = first; cell < first + count; ++cell) {
       const Resultants s_h = resultants_of(model, own, rule.topRows<2>(), cell, motions, heat);
       for (int i = 0; i < space.nodes_per_shell(); ++i) {
         turn_into(axes.to_cell(cell, i), recovered.col(points.of(cell, i)), turned);
         at_nodes.col(i) = turned.reshaped();
       }
-      const Resultants smooth = at_nodes * values;
       const Shell& shell = model.mesh().shells[space.shells()[cell].shell];
+      Resultants smooth = at_nodes * values;
       const bool is_layered = model.mesh().section_of(shell).laminate >= 0;
       Law compliance = Law::Zero();
       double thickness = 0;  // that it is of
@@ -304,10 +351,13 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Axes& axes, const P
         // One material is the same seen along any axes.
         if (is_layered || point.thickness != thickness) {
           thickness = point.thickness;
-          compliance = algebra::inverse_of<6>(law_of(model, shell, point));
+          compliance = compliance_of(law_of(model, cell, point));
         }
+        if (shell.is_triangle()) balance_shear(point, at_nodes, smooth.col(q));
         add_point(compliance, rule(2, q) * point.area, smooth.col(q), s_h.col(q), cell, norms);
       }
+      if (!shell.is_triangle())
+        norms.smooth.row(cell) = norms.own.row(cell) + norms.error.row(cell);
     }
   });
   return norms;
@@ -331,7 +381,8 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Motions& motions, i
     const SquaredNorms some = norms_of_cells(model, axes, points, motions.middleCols(first, count),
                                              threads, of_these ? &*of_these : nullptr);
     norms.error.middleCols(first, count) = some.error;
-    norms.norm.middleCols(first, count) = some.norm;
+    norms.own.middleCols(first, count) = some.own;
+    norms.smooth.middleCols(first, count) = some.smooth;
   }
   return norms;
 }
@@ -346,12 +397,13 @@ BlockError sum_up(const ElasticModel& model, const SquaredNorms& cells, const Sq
                   Eigen::Index motion) {
   const Space& space = model.space();
   const Mesh& mesh = model.mesh();
-  std::vector<double> e(mesh.groups.size(), 0), s(mesh.groups.size(), 0);
+  std::vector<double> e(mesh.groups.size(), 0), own(e), smooth(e);
   const auto add = [&](const SquaredNorms& norms, const auto& region_of) {
     for (int i = 0; i < norms.error.rows(); ++i) {
       const std::size_t group = at(mesh.regions[region_of(i)].group);
       e[group] += norms.error(i, motion);
-      s[group] += norms.norm(i, motion);
+      own[group] += norms.own(i, motion);
+      smooth[group] += norms.smooth(i, motion);
     }
   };
   const auto region_of_cell = [&](int cell) {
@@ -362,9 +414,12 @@ BlockError sum_up(const ElasticModel& model, const SquaredNorms& cells, const Sq
 
   const auto cell_errors = cells.error.col(motion), solid_errors = solids.error.col(motion);
   BlockError result;
-  result.relative = relative_error(cell_errors.sum() + solid_errors.sum(),
-                                   cells.norm.col(motion).sum() + solids.norm.col(motion).sum());
-  for (std::size_t g = 0; g < e.size(); ++g) result.of_groups.push_back(relative_error(e[g], s[g]));
+  result.relative =
+      relative_error(cell_errors.sum() + solid_errors.sum(),
+                     cells.own.col(motion).sum() + solids.own.col(motion).sum(),
+                     cells.smooth.col(motion).sum() + solids.smooth.col(motion).sum());
+  for (std::size_t g = 0; g < e.size(); ++g)
+    result.of_groups.push_back(relative_error(e[g], own[g], smooth[g]));
   Eigen::Index worst = 0;
   double largest = 0;
   if (cell_errors.size() > 0) {

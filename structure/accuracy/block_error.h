@@ -10,7 +10,7 @@
 
 namespace blocklift::structure {
 
-/// Stress error of a block's motion by recovery, in the energy norm of membrane and bending.
+/// Stress error of a block's motion by recovery, in the energy norm of all its strains.
 ///
 /// Membrane forces and moments of each shell cell at its p x p Gauss points, where elements of
 /// degree p are most accurate (Barlow 1976), are carried to its nodes by the polynomials through
@@ -19,10 +19,15 @@ namespace blocklift::structure {
 /// difference to the elements' own resultants, |e|^2 = int e : law^-1 : e dA; the law of layers is
 /// their own. Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng. 24, 337-357, with the
 /// local smoothing of Hinton and Campbell (1974).
+/// Shear forces are recovered alike, in triangles by their balance with the recovered moments; the
+/// recovered drilling is nothing.
 /// That of solids is SolidError's. Bars have none: their elements of degree 3 hold what evenly
 /// spread and end loads do.
 struct BlockError {
-  double relative = 0;  ///< |e| over the square root of |e|^2 + |s_h|^2, of the whole block
+  /// |e| over the square root of |e|^2 + |s_h|^2, of the whole block; of triangles over the larger
+  /// of |s_h| and of the norm of what is recovered: triangles that lock have much that is no part
+  /// of it.
+  double relative = 0;
   /// The same of each group of cells, in the order of Mesh::groups.
   std::vector<double> of_groups;
   /// The region that holds the cell or solid with the largest |e|; empty: there is none.
