@@ -162,16 +162,6 @@ void turn_into(const Law& turn, const Eigen::Ref<const Eigen::VectorXd>& resulta
   turned.noalias() = turn * resultants.reshaped(shell_strains, resultants.size() / shell_strains);
 }
 
-/// The law of a cell at one of its points, as its stiffness has it.
-Law law_of(const ElasticModel& model, int cell, const ShellPoint& point) {
-  const int shell = model.space().shells()[cell].shell;
-  Law law = shell_stiffness_law(model.mesh(), model.mesh().shells[shell], point.e_1, point.e_2,
-                                point.thickness);
-  if (model.space().is_facet(shell))
-    law(drilling, drilling) *= drilling_of_facets(model.space().degree());
-  return law;
-}
-
 /// Membrane and bending may be coupled by layers; shear and drilling stand for themselves.
 Law compliance_of(const Law& law) {
   Law compliance = Law::Zero();
@@ -193,7 +183,8 @@ Resultants resultants_of(const ElasticModel& model, ShellOperator& shell_operato
   for (std::size_t q = 0; q < shell_operator.points().size(); ++q) {
     const ShellPoint& point = shell_operator.points()[q];
     auto here = resultants.col(q).reshaped(shell_strains, motions.cols());
-    here = law_of(model, cell, point) * (point.strain * local);
+    here = law_of_cell(model.space(), cell, point.e_1, point.e_2, point.thickness) *
+           (point.strain * local);
     if (heat != nullptr)
       here.topRows<6>() -= heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)),
                                               point.e_1, point.e_2, point.thickness);
@@ -351,7 +342,8 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Axes& axes, const P
         // One material is the same seen along any axes.
         if (is_layered || point.thickness != thickness) {
           thickness = point.thickness;
-          compliance = compliance_of(law_of(model, cell, point));
+          compliance =
+              compliance_of(law_of_cell(space, cell, point.e_1, point.e_2, point.thickness));
         }
         if (shell.is_triangle()) balance_shear(point, at_nodes, smooth.col(q));
         add_point(compliance, rule(2, q) * point.area, smooth.col(q), s_h.col(q), cell, norms);

@@ -529,7 +529,6 @@ const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   const Shell& shell = space_.mesh().shells[space_.shells()[cell].shell];
   operator_.reinit(cell);
   const std::vector<ShellPoint>& points = operator_.points();
-  const bool is_facet = space_.is_facet(space_.shells()[cell].shell);
   const bool is_uneven = shell.taper >= 0 || space_.mesh().section_of(shell).laminate >= 0;
   Eigen::Matrix<double, shell_strains, shell_strains> root;
   const Eigen::Index columns = points.front().strain.cols();
@@ -538,9 +537,7 @@ const Eigen::MatrixXd& ShellStiffness::operator()(int cell) {
   for (std::size_t q = 0; q < points.size(); ++q) {
     // An even plate of one material has one law, whatever its axes.
     if (q == 0 || is_uneven) {
-      root = shell_stiffness_law(space_.mesh(), shell, points[q].e_1, points[q].e_2,
-                                 points[q].thickness);
-      if (is_facet) root(drilling, drilling) *= drilling_of_facets(space_.degree());
+      root = law_of_cell(space_, cell, points[q].e_1, points[q].e_2, points[q].thickness);
       root = root.llt().matrixU().toDenseMatrix();
     }
     rooted_.middleRows<shell_strains>(shell_strains * static_cast<Eigen::Index>(q)).noalias() =

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "structure/formulation/shell.h"
+#include "structure/space/space.h"
 
 namespace blocklift::structure {
 
@@ -12,10 +12,26 @@ namespace {
 /// stiff in torsion, a hundredth 0.1 %.
 constexpr double drilling_share = 0.01;
 
-}  // namespace
-
-// All of G t makes a hemisphere of 16 x 16 bilinear facets 3 % too stiff.
+/// How many times the drilling stiffness of other plates facets of curved plating have. All of G t
+/// makes a hemisphere of 16 x 16 bilinear facets 3 % too stiff.
 double drilling_of_facets(int degree) { return (degree == 1 ? 0.1 : 1) / drilling_share; }
+
+/// The share of its transverse shear stiffness that a cell of degree 1 has (law_of_cell). Where a
+/// triangle is divided, the cells away from its point are none.
+double shear_of_cell(const Mesh& mesh, const ShellCell& cell, double thickness) {
+  constexpr double alpha = 0.2;
+  const Shell& shell = mesh.shells[cell.shell];
+  if (!shell.is_triangle() || cell.origin.y() + cell.size < 1 - 1e-9) return 1;
+  const Vector3& corner = mesh.vertices[shell.vertices[0]];
+  const double twice_area = cell.size * cell.size *
+                            (mesh.vertices[shell.vertices[1]] - corner)
+                                .cross(mesh.vertices[shell.vertices[2]] - corner)
+                                .norm();
+  const double square = thickness * thickness;
+  return square / (square + alpha * twice_area);
+}
+
+}  // namespace
 
 Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Material& material,
                                                                         double thickness) {
@@ -58,6 +74,20 @@ Eigen::Matrix<double, shell_strains, shell_strains> shell_stiffness_law(const Me
         2 * c * s, c * c - s * s;
   turn.block<2, 2>(shear_1, shear_1) << c, s, -s, c;
   return turn.transpose() * law * turn;
+}
+
+Eigen::Matrix<double, shell_strains, shell_strains> law_of_cell(const Space& space, int cell,
+                                                                const Vector3& e_1,
+                                                                const Vector3& e_2,
+                                                                double thickness) {
+  const ShellCell& place = space.shells()[cell];
+  const Mesh& mesh = space.mesh();
+  Eigen::Matrix<double, shell_strains, shell_strains> law =
+      shell_stiffness_law(mesh, mesh.shells[place.shell], e_1, e_2, thickness);
+  if (space.is_facet(place.shell)) law(drilling, drilling) *= drilling_of_facets(space.degree());
+  if (space.degree() == 1)
+    law.block<2, 2>(shear_1, shear_1) *= shear_of_cell(mesh, place, thickness);
+  return law;
 }
 
 }  // namespace blocklift::structure

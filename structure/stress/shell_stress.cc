@@ -7,6 +7,7 @@
 
 #include "algebra/products.h"
 #include "parallel/threads.h"
+#include "structure/formulation/shell_law.h"
 
 namespace blocklift::structure {
 
@@ -63,7 +64,7 @@ Eigen::MatrixXd ShellStress::of_all(int cell, const Eigen::Ref<const Eigen::Matr
     const double thickness = points()[q].thickness;
     // Forces and moments as an even plate of the thickness bears them; of layers, their mean.
     Eigen::Matrix<double, shell_strains, Eigen::Dynamic> forces =
-        shell_stiffness_law(mesh, shell, points()[q].e_1, points()[q].e_2, thickness) * strain;
+        law_of_cell(space_, cell, points()[q].e_1, points()[q].e_2, thickness) * strain;
     if (heat != nullptr)
       forces.topRows<6>() -= heat->shell_forces(cell, places.col(static_cast<Eigen::Index>(q)),
                                                 points()[q].e_1, points()[q].e_2, thickness);
