@@ -162,11 +162,14 @@ void turn_into(const Law& turn, const Eigen::Ref<const Eigen::VectorXd>& resulta
   turned.noalias() = turn * resultants.reshaped(shell_strains, resultants.size() / shell_strains);
 }
 
-/// Membrane and bending may be coupled by layers; shear and drilling stand for themselves.
-Law compliance_of(const Law& law) {
+/// Membrane and bending may be coupled by layers; shear and drilling stand for themselves. Shear
+/// counts in triangles alone: quadrangles are right in it but where a load makes it jump, which a
+/// mean over the jump would tell as their error.
+Law compliance_of(const Law& law, bool is_triangle) {
   Law compliance = Law::Zero();
   compliance.topLeftCorner<6, 6>() = algebra::inverse_of<6>(law.topLeftCorner<6, 6>());
-  compliance.block<2, 2>(shear_1, shear_1) = law.block<2, 2>(shear_1, shear_1).inverse();
+  if (is_triangle)
+    compliance.block<2, 2>(shear_1, shear_1) = law.block<2, 2>(shear_1, shear_1).inverse();
   compliance(drilling, drilling) = 1 / law(drilling, drilling);
   return compliance;
 }
@@ -342,8 +345,8 @@ SquaredNorms norms_of_cells(const ElasticModel& model, const Axes& axes, const P
         // One material is the same seen along any axes.
         if (is_layered || point.thickness != thickness) {
           thickness = point.thickness;
-          compliance =
-              compliance_of(law_of_cell(space, cell, point.e_1, point.e_2, point.thickness));
+          compliance = compliance_of(
+              law_of_cell(space, cell, point.e_1, point.e_2, point.thickness), shell.is_triangle());
         }
         if (shell.is_triangle()) balance_shear(point, at_nodes, smooth.col(q));
         add_point(compliance, rule(2, q) * point.area, smooth.col(q), s_h.col(q), cell, norms);

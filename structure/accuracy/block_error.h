@@ -19,8 +19,8 @@ namespace blocklift::structure {
 /// difference to the elements' own resultants, |e|^2 = int e : law^-1 : e dA; the law of layers is
 /// their own. Source: Zienkiewicz and Zhu (1987), Int. J. Numer. Methods Eng. 24, 337-357, with the
 /// local smoothing of Hinton and Campbell (1974).
-/// Shear forces are recovered alike, in triangles by their balance with the recovered moments; the
-/// recovered drilling is nothing.
+/// The recovered drilling is nothing. Of triangles transverse shear counts, too, recovered by its
+/// balance with the recovered moments.
 /// That of solids is SolidError's. Bars have none: their elements of degree 3 hold what evenly
 /// spread and end loads do.
 struct BlockError {

@@ -46,12 +46,13 @@ double error_of_ring(int degree, int order, int elements, bool is_whole) {
 // Flat facets that meet at 22.5 degrees are the same elements of degree 1 as those of curved
 // shells, which are one field of plating: so is what is said of them. Deflections are 10 % too
 // small there. Facets that were looked at each for itself would say next to nothing. They have more
-// of the drilling term than curved shells do, which makes 0.2 % of the estimate.
+// of the drilling term than curved shells do. Its energy is an error, too, since a smooth motion has
+// none: it makes 2.2 % of the estimate.
 TEST(ErrorOfCurvedPlating, FacetsAreComparedAcrossTheirKinks) {
   const double of_facets = error_of_ring(1, 1, 16, false),
                of_curved = error_of_ring(1, 2, 16, false);
   EXPECT_GT(of_facets, 0.2);
-  EXPECT_NEAR(of_facets, of_curved, 0.01 * of_curved);
+  EXPECT_NEAR(of_facets, of_curved, 0.025 * of_curved);
 }
 
 // A closed ring has the error of its quarter: no direction is along the plating all the way round,

@@ -24,7 +24,7 @@ TEST(ErrorOfTriangles, DrillingThatHoldsFacetsIsPartOfIt) {
         const double turn = std::numbers::pi / 2 * x, across = width * (y - 0.5);
         return {length * x, across * std::sin(turn), across * std::cos(turn)};
       },
-      24, 4, 0.0032, {"unit", 29e6, 0.22, 0, 1});
+      24, 4, 0.0032, {"unit", 29e6, 0.22, 1, 1});
   examples::divide_into_triangles(mesh, true);
   const ElasticModel model(std::move(mesh), {1, {}});
   std::vector<FixedUnknown> fixed;

@@ -121,7 +121,7 @@ TEST_F(UniversalFiles, GroupsTellPlatesApart) {
       {{44, {1, 2, 5, 4}}, {94, {2, 3, 6, 5}}, {44, {1, 2, 8, 7}}, {21, {7, 8}}},
       {{"deck", 8, {1, 2}}, {"web", 8, {3}}, {"frames", 8, {4}}}));
   SurfaceReading reading;
-  reading.units = unit_system("m");
+  reading.units = unit_system("m-kg-N");
   reading.given.bars = {"frames"};
   const Deck deck = read_surfaces(file, reading);
   EXPECT_THAT(deck.groups_without_thickness, ElementsAre("deck", "web"));
