@@ -279,8 +279,10 @@ TEST(Heat, ADifferenceAcrossABarBendsIt) {
   const std::string across = "TEMPRB,5,1,20.,20.,500.,500.\nTEMPRB,5,2,20.,20.,500.,500.\n";
   const HotCase loose(test::nastran(hot_case_control + hot_bar("") + "SPC1,1,123456,1\n" + across));
   EXPECT_LT(loose.first().stress.peak_von_mises.value, 1e-7 * hot_stress);
-  EXPECT_NEAR(loose.moved(2).y(), -curvature * 2, 1e-8 * curvature);
-  EXPECT_NEAR(loose.moved(2).z(), 0, 1e-8 * curvature);
+  // The kernels of OpenBLAS round it by 0.5e-8 to 1.5e-8 of itself (Sandybridge, SkylakeX), others
+  // by less: 1e-8 of the curvature held for some of them alone.
+  EXPECT_NEAR(loose.moved(2).y(), -curvature * 2, 1e-7 * curvature);
+  EXPECT_NEAR(loose.moved(2).z(), 0, 1e-7 * curvature);
   const HotCase held(
       test::nastran(hot_case_control + hot_bar("") + "SPC1,1,123456,1,3\n" + across));
   EXPECT_NEAR(held.first().stress.peak_von_mises.value, hot_stress / 2, 1e-6 * hot_stress);
