@@ -1,14 +1,29 @@
 #include "algebra/decompositions.h"
 
-#include <cmath>
+#include <type_traits>
 
 #include <Eigen/Dense>
 
 namespace blocklift::algebra {
 
+namespace {
+
+// Small sizes share one instantiation, which needs no memory of the heap. Each would take the
+// compiler 3 to 6 s more.
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+// What a decomposition of a matrix of this size works on. Principal stresses are asked for at
+// millions of places, so that size 3 has its own.
+template <int size>
+using WorkingMatrix =
+    std::conditional_t<size == Eigen::Dynamic, Eigen::MatrixXd,
+                       std::conditional_t<size == 3, Eigen::Matrix3d, SmallMatrix>>;
+
+}  // namespace
+
 template <int size>
 ColumnVector<size> symmetric_eigenvalues(const SquareMatrix<size>& matrix) {
-  return Eigen::SelfAdjointEigenSolver<SquareMatrix<size>>(matrix, Eigen::EigenvaluesOnly)
+  return Eigen::SelfAdjointEigenSolver<WorkingMatrix<size>>(matrix, Eigen::EigenvaluesOnly)
       .eigenvalues();
 }
 template ColumnVector<2> symmetric_eigenvalues(const SquareMatrix<2>&);
@@ -18,7 +33,7 @@ template Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd&);
 
 template <int size>
 SymmetricEigensystem<size> symmetric_eigensystem(const SquareMatrix<size>& matrix) {
-  const Eigen::SelfAdjointEigenSolver<SquareMatrix<size>> solver(matrix);
+  const Eigen::SelfAdjointEigenSolver<WorkingMatrix<size>> solver(matrix);
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 template SymmetricEigensystem<2> symmetric_eigensystem(const SquareMatrix<2>&);
@@ -41,7 +56,10 @@ template Eigen::MatrixXd inverse_of(const Eigen::MatrixXd&);
 
 template <int size>
 ColumnVector<size> solve_symmetric(const SquareMatrix<size>& A, const ColumnVector<size>& b) {
-  return A.ldlt().solve(b);
+  using Matrix = std::conditional_t<size == Eigen::Dynamic, Eigen::MatrixXd, SmallMatrix>;
+  using Vector =
+      Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, Matrix::MaxRowsAtCompileTime, 1>;
+  return Eigen::LDLT<Matrix>(A).solve(Vector(b));
 }
 template ColumnVector<2> solve_symmetric(const SquareMatrix<2>&, const ColumnVector<2>&);
 template ColumnVector<3> solve_symmetric(const SquareMatrix<3>&, const ColumnVector<3>&);
@@ -65,68 +83,6 @@ void solve_positive_definite_in_place(Eigen::Ref<Eigen::MatrixXd> A,
 
 Eigen::MatrixXd solve_positive_definite(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
   return A.llt().solve(B);
-}
-
-Eigen::MatrixXd least_squares(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-  return A.completeOrthogonalDecomposition().solve(B);
-}
-
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
-                              double threshold) {
-  Eigen::JacobiSVD<Eigen::MatrixXd> solver(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  solver.setThreshold(threshold);
-  return solver.solve(b);
-}
-
-Eigen::MatrixXd least_squares_by_pivots(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
-                                        double threshold) {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(A.rows(), A.cols());
-  solver.setThreshold(threshold);
-  solver.compute(A);
-  return solver.solve(B);
-}
-
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
-  return matrix.completeOrthogonalDecomposition().pseudoInverse();
-}
-
-Eigen::Index numerical_rank(const Eigen::MatrixXd& matrix, double threshold) {
-  Eigen::FullPivLU<Eigen::MatrixXd> solver(matrix);
-  solver.setThreshold(threshold);
-  return solver.rank();
-}
-
-Eigen::MatrixXd left_null_space(const Eigen::MatrixXd& matrix, double threshold) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(matrix);
-  solver.setThreshold(threshold);
-  const Eigen::MatrixXd Q = solver.householderQ();
-  return Q.rightCols(matrix.rows() - solver.rank());
-}
-
-Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd& matrix) {
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(matrix).householderQ() *
-         Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
-}
-
-PivotedColumns pivoted_columns(const Eigen::MatrixXd& matrix) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(matrix);
-  const auto reaches = solver.matrixR().diagonal().cwiseAbs();
-  return {solver.colsPermutation().indices(), solver.rank(), reaches[0],
-          reaches[reaches.size() - 1]};
-}
-
-LeftSingularVectors left_singular_vectors(const Eigen::MatrixXd& matrix) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> solver(matrix, Eigen::ComputeThinU);
-  return {solver.singularValues(), solver.matrixU()};
-}
-
-SingularVectors singular_vectors(const Eigen::MatrixXd& matrix) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> solver(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  return {solver.singularValues(), solver.matrixU(), solver.matrixV()};
-}
-
-double smallest_singular_value(const SquareMatrix<6>& matrix) {
-  return Eigen::JacobiSVD<SquareMatrix<6>>(matrix).singularValues()[5];
 }
 
 }  // namespace blocklift::algebra
