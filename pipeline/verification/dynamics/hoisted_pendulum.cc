@@ -9,7 +9,8 @@ namespace blocklift::pipeline {
 // 10 t on 20 m of rope (EA 40 MN, damping time 5 ms) swing from 0.3 rad while 8 m are wound up
 // within limits of 1 m/s, 1 m/s2 and 1 m/s3, which takes 10 s. The reference solves
 //   r'' = r theta'^2 + g cos theta - T/m,   theta'' = -(2 r' theta' + g sin theta) / r
-// with T of the rope's law by an eighth-order Runge-Kutta method at 1e-13 (SciPy's DOP853).
+// with T of the rope's law by an eighth-order Runge-Kutta method at 1e-13 (SciPy's DOP853);
+// tests/verification/references/hoisted_pendulum.py computes it anew at order 16.
 VerificationCase hoisted_pendulum() {
   return {.name = "hoisted-pendulum",
           .stage = "dynamics",
