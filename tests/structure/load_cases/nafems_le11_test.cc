@@ -103,7 +103,8 @@ class HotBodyOfRevolution {
   std::string nodes_, elements_, text_;
 };
 
-// Elements of the same kind and division by a program of its own gave -100.96 MPa with n = 1 and
+// Elements of the same kind and division by a program of its own, which is
+// tests/verification/references/hot_body_of_revolution.py, give -100.96 MPa with n = 1 and
 // -103.30 MPa with n = 2. Source: NAFEMS (1990), The standard NAFEMS benchmarks, LE11: -105 MPa.
 TEST(NafemsLe11, AxialStressAtTheInnerFoot) {
   for (const auto& [n, expected] : {std::pair(1, -100.96e6), std::pair(2, -103.30e6)}) {
