@@ -1,0 +1,131 @@
+// One problem of panels with one identity and one cache, whoever asks for its database.
+#include "pipeline/hydrodynamics/panel_cache.h"
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "dynamics/marine/hull/hull_shapes.h"
+#include "pipeline/build/build_mechanism.h"
+#include "pipeline/hydrodynamics/hydrodynamic_problem.h"
+#include "tests/pipeline/temporary_folder.h"
+
+namespace blocklift::pipeline {
+namespace {
+
+std::shared_ptr<const dynamics::Hull> box_of(double length) {
+  return std::make_shared<const dynamics::Hull>(
+      dynamics::make_barge({.length = length, .breadth = 4, .depth = 2}, {4, 2, 1, 1}, "box"));
+}
+
+PanelProblem some_problem() {
+  PanelProblem problem;
+  problem.bodies = {{"box", box_of(8), dynamics::Pose::translation({0, 0, -1}), {0, 0, 1}}};
+  problem.frequencies = {1.2, 1.8};
+  problem.headings = {0.0, 0.5};
+  problem.lids = {{{-1, 2}, {1, 4}, 0.1}};
+  return problem;
+}
+
+TEST(PanelProblem, WhateverDiffersInItMakesAnotherIdentity) {
+  using Change = std::function<void(PanelProblem&)>;
+  const std::vector<Change> changes = {
+      [](PanelProblem& p) { p.bodies[0].name = "other"; },
+      [](PanelProblem& p) { p.bodies[0].hull = box_of(8.001); },
+      [](PanelProblem& p) { p.bodies[0].X_DB.p.z() = -1.001; },
+      [](PanelProblem& p) { p.bodies[0].X_DB.R = dynamics::rotation_about(Vector3(0, 0, 1), 0.1); },
+      [](PanelProblem& p) { p.bodies[0].p_BoR_B.z() = 1.5; },
+      [](PanelProblem& p) { p.bodies.push_back(p.bodies[0]); },
+      [](PanelProblem& p) { p.water.density = 1000; },
+      [](PanelProblem& p) { p.water.gravity = 9.81; },
+      [](PanelProblem& p) { p.water.depth = 20; },
+      [](PanelProblem& p) { p.frequencies[1] = 1.9; },
+      [](PanelProblem& p) { p.frequencies.push_back(1.9); },
+      [](PanelProblem& p) { p.headings[1] = 0.6; },
+      [](PanelProblem& p) { p.headings.clear(); },
+      [](PanelProblem& p) { p.method = dynamics::PanelMethod::green_function; },
+      [](PanelProblem& p) { p.lids[0].low.x() = -1.5; },
+      [](PanelProblem& p) { p.lids[0].high.y() = 5; },
+      [](PanelProblem& p) { p.lids[0].rate = 0.2; },
+      [](PanelProblem& p) { p.lids.clear(); },
+      [](PanelProblem& p) { p.symmetry = false; },
+      [](PanelProblem& p) { p.far_field = true; }};
+  std::set<std::string> identities = {identity_of(some_problem())};
+  for (const Change& change : changes) {
+    PanelProblem problem = some_problem();
+    change(problem);
+    identities.insert(identity_of(problem));
+  }
+  EXPECT_EQ(identities.size(), changes.size() + 1);
+  // The same hull read again, and zeros of either sign.
+  PanelProblem same = some_problem();
+  same.bodies[0].hull = box_of(8);
+  same.bodies[0].X_DB.p.x() = -0.0;
+  EXPECT_EQ(identity_of(same), identity_of(some_problem()));
+}
+
+/// A barge whose centre of mass lies in the water line over its origin, where a lift has its
+/// reference point.
+class PanelsOfFiles : public ::testing::Test {
+ protected:
+  PanelsOfFiles() {
+    folder_.write("vessels/barge.yaml", R"(kind: vessel
+hull: {barge: {length: 40 m, breadth: 16 m, depth: 8 m}}
+panel_size: 4 m
+mass: 2296 t
+centre_of_mass: [0 m, 0 m, 3.5 m]
+radii_of_gyration: [6 m, 12 m, 12 m]
+)");
+  }
+
+  /// As `hydro` is asked for it.
+  HydrodynamicProblem of_hydro(const std::string& hydrodynamics = {}) const {
+    folder_.write("hydro.yaml",
+                  "kind: vessels\nvessels:\n"
+                  "  B1: {vessel: vessels/barge, position: [0 m, 0 m], draughts: [3.5 m]}\n"
+                  "hydrodynamics:\n"
+                  "  frequencies: {lowest: 0.4 rad/s, highest: 1.2 rad/s, count: 5}\n" +
+                      hydrodynamics);
+    Diagnostics diagnostics;
+    auto problem = read_hydrodynamic_problem("hydro.yaml", ModelLibrary({}), diagnostics);
+    EXPECT_TRUE(problem) << diagnostics.to_text();
+    return problem.value_or(HydrodynamicProblem());
+  }
+
+  /// As a mechanism has it, and a lift likewise.
+  RadiationProblem of_mechanism(const std::string& radiation = {}) const {
+    folder_.write("mechanism.yaml",
+                  "mechanism: afloat\nsea:\n  radiation: {lowest_frequency: 0.4 rad/s, "
+                  "highest_frequency: 1.2 rad/s, frequencies: 5" +
+                      radiation +
+                      "}\nvessels:\n"
+                      "  B1: {model: vessels/barge, position: [30 m, -4 m], draught: 3.5 m}\n"
+                      "simulate: {duration: 1 s}\n");
+    Diagnostics diagnostics;
+    ModelLibrary library({});
+    const auto file = read_mechanism("mechanism.yaml", library, diagnostics);
+    EXPECT_TRUE(file) << diagnostics.to_text();
+    return file ? radiation_problem(*file) : RadiationProblem();
+  }
+
+  test::TemporaryFolder folder_;  // the working directory
+};
+
+TEST_F(PanelsOfFiles, HydroAndLiftsAskForOneProblem) {
+  const PanelProblem lift = of_mechanism();
+  EXPECT_EQ(identity_of(prepare_state(of_hydro(), 0).panels), identity_of(lift));
+  EXPECT_NE(identity_of(prepare_state(of_hydro("  symmetry: false\n"), 0).panels),
+            identity_of(lift));
+  EXPECT_NE(identity_of(prepare_state(of_hydro("  mean_drift: true\n"), 0).panels),
+            identity_of(lift));
+  const std::string method = "method: green function";
+  EXPECT_EQ(identity_of(prepare_state(of_hydro("  " + method + "\n"), 0).panels),
+            identity_of(of_mechanism(", " + method)));
+}
+
+}  // namespace
+}  // namespace blocklift::pipeline
