@@ -24,6 +24,7 @@
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
+#include "pipeline/hydrodynamics/panel_cache.h"
 #include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
@@ -138,9 +139,26 @@ std::vector<HydrodynamicState> prepare(const HydrodynamicProblem& problem) {
 HydrodynamicFile compute(const HydrodynamicProblem& problem,
                          const std::vector<HydrodynamicState>& states) {
   for (const HydrodynamicState& state : states) print_panels(state);
-  ProgressBar bar("hydrodynamics");
-  return compute_hydrodynamics(
-      problem, states, [&](double fraction, const std::string& what) { bar.show(fraction, what); });
+  std::vector<std::string> said;
+  HydrodynamicFile file;
+  {
+    ProgressBar bar("hydrodynamics");
+    double done = 0.0;
+    file = find_hydrodynamics(
+        problem, states,
+        [&](double fraction, const std::string& what) {
+          done = fraction;
+          bar.show(fraction, what);
+        },
+        [&](const std::string& what) {
+          log_entry(what);
+          said.push_back(what);
+          bar.show(done, what);
+        });
+  }
+  if (is_quiet()) return file;
+  for (const std::string& what : said) print_wrapped(what);
+  return file;
 }
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what,
@@ -194,7 +212,7 @@ int compute_vessel(const HydroOptions& options) {
   std::vector<Eigen::MatrixXd> masses;
   for (const HydrodynamicState& state : states) masses.push_back(state.mass);
   HydrodynamicFile file;
-  const bool known = read_identity(output) == identity_of(*problem, states);
+  const bool known = !options.anew && read_identity(output) == identity_of(*problem, states);
   if (known) {
     file = read_hydrodynamic_file(output);
   } else {
@@ -370,6 +388,7 @@ int convert(const HydroOptions& options) {
 }  // namespace
 
 int hydro(const HydroOptions& options) {
+  if (options.anew) forbid_cache();
   require_wamit(options);
   if (options.import) return convert(options);
   if (options.vessel && !options.export_format) return compute_vessel(options);

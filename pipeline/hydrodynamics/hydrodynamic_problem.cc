@@ -228,12 +228,43 @@ HydrodynamicFile make_file(
           dynamics::make_series(problem.lowered_body(), std::move(draughts), std::move(databases))};
 }
 
+WavesLost find_waves_lost(const HydrodynamicState& state) {
+  if (!may_lose_waves(state.panels)) return {};
+  return find_lost_coupling(*state.model, state.groups, state.panels.frequencies.back());
+}
+
+/// The bodies at the draught of a state, for people.
+std::string name_of(const HydrodynamicState& state) {
+  std::vector<std::string> names;
+  for (const PanelProblem::Body& body : state.panels.bodies) names.push_back(body.name);
+  return fmt::format("{} at a draught of {:.3f} m", list_of_names(names), state.draught);
+}
+
 }  // namespace
 
 HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
                                        const std::vector<HydrodynamicState>& states,
                                        const HydrodynamicProgress& progress) {
   return make_file(problem, states, progress, compute_panels);
+}
+
+HydrodynamicFile find_hydrodynamics(const HydrodynamicProblem& problem,
+                                    const std::vector<HydrodynamicState>& states,
+                                    const HydrodynamicProgress& progress,
+                                    const std::function<void(const std::string&)>& say) {
+  return make_file(problem, states, progress, [&](const HydrodynamicState& state) {
+    const std::string name = name_of(state);
+    const DatabaseMaker maker{name,
+                              [&] {
+                                return FoundDatabase{compute_panels(state), find_waves_lost(state)};
+                              },
+                              [&] { return find_waves_lost(state); }};
+    return find_database(state.panels, maker,
+                         [&](const std::string& what) {
+                           if (say) say(name + ": " + what);
+                         })
+        .database;
+  });
 }
 
 }  // namespace blocklift::pipeline

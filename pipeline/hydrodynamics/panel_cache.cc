@@ -53,6 +53,8 @@ fs::path cache_folder() {
   return {};
 }
 
+void forbid_cache() { ::setenv("BLOCKLIFT_CACHE", "", 1); }
+
 std::string identity_of(const PanelProblem& problem) {
   ContentHash hash;
   hash.add(std::int64_t{dynamics::panel_method_version});

@@ -14,6 +14,10 @@ namespace blocklift::pipeline {
 /// BLOCKLIFT_CACHE is empty: nothing is kept then.
 std::filesystem::path cache_folder();
 
+/// From now on nothing is taken from the cache or put there, by this process and those that it
+/// begins: BLOCKLIFT_CACHE is empty.
+void forbid_cache();
+
 /// What tells databases apart: a hash of all that is in a problem. Equal problems have one database
 /// in the cache, whoever asks for it.
 std::string identity_of(const PanelProblem& problem);

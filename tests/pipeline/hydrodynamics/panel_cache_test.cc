@@ -7,15 +7,22 @@
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "pipeline/build/build_mechanism.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
+#include "pipeline/hydrodynamics/radiation_cache.h"
+#include "tests/pipeline/hydrodynamics/own_cache.h"
 #include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
 namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::shared_ptr<const dynamics::Hull> box_of(double length) {
   return std::make_shared<const dynamics::Hull>(
@@ -112,6 +119,7 @@ radii_of_gyration: [6 m, 12 m, 12 m]
     return file ? radiation_problem(*file) : RadiationProblem();
   }
 
+  test::OwnCache cache_;
   test::TemporaryFolder folder_;  // the working directory
 };
 
@@ -125,6 +133,85 @@ TEST_F(PanelsOfFiles, HydroAndLiftsAskForOneProblem) {
   const std::string method = "method: green function";
   EXPECT_EQ(identity_of(prepare_state(of_hydro("  " + method + "\n"), 0).panels),
             identity_of(of_mechanism(", " + method)));
+}
+
+void expect_same(const HydrodynamicFile& one, const HydrodynamicFile& other) {
+  EXPECT_EQ(one.identity, other.identity);
+  EXPECT_EQ(one.series.draughts, other.series.draughts);
+  ASSERT_EQ(one.series.databases.size(), other.series.databases.size());
+  for (std::size_t k = 0; k < one.series.databases.size(); ++k) {
+    const dynamics::HydrodynamicDatabase& a = one.series.databases[k];
+    const dynamics::HydrodynamicDatabase& b = other.series.databases[k];
+    EXPECT_EQ(a.body_names, b.body_names);
+    EXPECT_EQ(a.reference_points, b.reference_points);
+    EXPECT_EQ(a.displaced_volumes, b.displaced_volumes);
+    EXPECT_EQ(a.centres_of_buoyancy, b.centres_of_buoyancy);
+    EXPECT_EQ(a.centres_of_mass, b.centres_of_mass);
+    EXPECT_EQ(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
+    EXPECT_EQ(a.infinite_added_mass, b.infinite_added_mass);
+    EXPECT_EQ(a.time_step, b.time_step);
+    EXPECT_EQ(a.retardation, b.retardation);
+    EXPECT_EQ(a.added_mass, b.added_mass);
+    EXPECT_EQ(a.damping, b.damping);
+    EXPECT_EQ(a.froude_krylov, b.froude_krylov);
+    EXPECT_EQ(a.diffraction, b.diffraction);
+    EXPECT_EQ(a.change_from_coarser, b.change_from_coarser);
+    EXPECT_EQ(a.excitation_change_from_coarser, b.excitation_change_from_coarser);
+    EXPECT_EQ(a.cut_off_by_end, b.cut_off_by_end);
+    EXPECT_EQ(a.mean_drift, b.mean_drift);
+  }
+}
+
+/// The file of a problem, and what is said meanwhile.
+HydrodynamicFile find(const HydrodynamicProblem& problem, std::vector<std::string>& said) {
+  said.clear();
+  return find_hydrodynamics(problem, {prepare_state(problem, 0)}, {},
+                            [&](const std::string& what) { said.push_back(what); });
+}
+
+TEST_F(PanelsOfFiles, WhatIsKeptIsWhatIsComputed) {
+  HydrodynamicProblem problem = of_hydro("  mean_drift: true\n  headings: [0 deg, 90 deg]\n");
+  const HydrodynamicFile computed = compute_hydrodynamics(problem, {prepare_state(problem, 0)});
+  EXPECT_THAT(cache_.entries(), IsEmpty());
+  std::vector<std::string> said;
+  expect_same(find(problem, said), computed);
+  EXPECT_THAT(said, IsEmpty());
+  expect_same(find(problem, said), computed);
+  EXPECT_THAT(said, ElementsAre(HasSubstr("B1 at a draught of 3.500 m: from the cache, ")));
+  // Another mass in the same panels: only what follows from it differs.
+  problem.bodies[0].radii_of_gyration.y() = 10.0;
+  const HydrodynamicFile other = find(problem, said);
+  EXPECT_EQ(said.size(), 1U);
+  EXPECT_NE(other.identity, computed.identity);
+  EXPECT_EQ(other.series.databases[0].added_mass, computed.series.databases[0].added_mass);
+  EXPECT_NE(other.series.databases[0].mean_drift, computed.series.databases[0].mean_drift);
+  EXPECT_EQ(cache_.entries().size(), 1U);
+}
+
+TEST_F(PanelsOfFiles, WhatALiftHasComputedServesHydroAndTheReverse) {
+  std::vector<std::string> said;
+  const FoundRadiation lift = find_radiation(of_mechanism(), {});
+  const HydrodynamicFile file = find(of_hydro(), said);
+  EXPECT_THAT(said, ElementsAre(HasSubstr("from the cache")));
+  EXPECT_EQ(file.series.databases[0].retardation, lift.series->databases[0].retardation);
+  const std::string method = "method: green function";
+  const HydrodynamicFile hulls = find(of_hydro("  " + method + "\n"), said);
+  EXPECT_THAT(said, IsEmpty());
+  const FoundRadiation again = find_radiation(
+      of_mechanism(", " + method), [&](const std::string& what) { said.push_back(what); });
+  ASSERT_FALSE(said.empty());
+  EXPECT_THAT(said.front(), HasSubstr("from the cache"));
+  EXPECT_EQ(again.series->databases[0].added_mass, hulls.series.databases[0].added_mass);
+}
+
+TEST_F(PanelsOfFiles, NothingIsKeptWhereTheCacheIsForbidden) {
+  forbid_cache();
+  std::vector<std::string> said;
+  for (int run = 0; run < 2; ++run) {
+    find(of_hydro(), said);
+    EXPECT_THAT(said, IsEmpty());
+  }
+  EXPECT_THAT(cache_.entries(), IsEmpty());
 }
 
 }  // namespace
