@@ -145,12 +145,13 @@ RadiationProblem MarineBuilder::radiation_problem() const {
     if (counts(vessel)) middle += Vector3(p.x(), p.y(), 0) / count;
   }
   for (const Radiating& vessel : vessels) {
+    if (!vessel.draughts.empty() && !problem.lowered)
+      problem.lowered = {problem.bodies.size(), vessel.draughts};
     problem.bodies.push_back({vessel.name,
-                              vessel.vessel,
+                              {vessel.vessel, &vessel.vessel->hull},
                               {vessel.X_WB.R, vessel.X_WB.p - middle},
-                              vessel.X_BR.p,
-                              vessel.draughts,
-                              vessel.given_body});
+                              vessel.X_BR.p});
+    problem.given_bodies.push_back(vessel.given_body);
   }
   if (vessels.front().given) {
     problem.given = vessels.front().given;
@@ -183,9 +184,9 @@ RadiationProblem MarineBuilder::radiation_problem() const {
       });
   // A body that is lowered, the load perhaps, floats nowhere: beside a named database it is refused
   // when that is taken (take_given_database).
-  if (drifts && problem.lowered_body() < 0 &&
-      (!problem.given || (has_waves() && !is_on_own_stiffness)))
+  if (drifts && !problem.lowered && (!problem.given || (has_waves() && !is_on_own_stiffness)))
     problem.drifting = free_vessels(problem);
+  problem.far_field = problem.drifting && !problem.given;
   problem.direct =
       std::any_of(parts_.vessels.begin(), parts_.vessels.end(), [](const given::Vessel& vessel) {
         return vessel.radiation.value == RadiationMethod::direct;
@@ -374,7 +375,7 @@ RadiationProblem::FreeVessels MarineBuilder::free_vessels(const RadiationProblem
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(modes, modes);
   RadiationProblem::FreeVessels all{none, none, none};
   Eigen::Index first = 0;
-  for (const RadiationProblem::Body& body : problem.bodies) {
+  for (const PanelProblem::Body& body : problem.bodies) {
     const auto vessel =
         std::find_if(parts_.vessels.begin(), parts_.vessels.end(),
                      [&](const given::Vessel& one) { return one.name.value == body.name; });
@@ -388,7 +389,7 @@ RadiationProblem::FreeVessels MarineBuilder::free_vessels(const RadiationProblem
 }
 
 RadiationProblem::FreeVessels MarineBuilder::free_vessel(const given::Vessel& vessel,
-                                                         const RadiationProblem::Body& body) const {
+                                                         const PanelProblem::Body& body) const {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const VesselModel& model = vessel.model->model;
   const dynamics::Pose& X_WB = start(vessel.name.value);

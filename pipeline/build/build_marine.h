@@ -95,7 +95,7 @@ class MarineBuilder {
   RadiationProblem::FreeVessels free_vessels(const RadiationProblem& problem) const;
   /// One as it floats, with what stands on it at its own centre of mass.
   RadiationProblem::FreeVessels free_vessel(const given::Vessel& vessel,
-                                            const RadiationProblem::Body& body) const;
+                                            const PanelProblem::Body& body) const;
   void add_lines(const BodyOf& point, dynamics::ForceElements& elements) const;
   /// A body that makes waves, at rest.
   struct Radiating {

@@ -46,9 +46,8 @@ std::string doubt_about_keel(const std::string& name, const dynamics::Hull& hull
 
 std::string doubt_about_keels(const RadiationProblem& problem) {
   if (problem.given) return {};
-  for (const RadiationProblem::Body& body : problem.bodies) {
-    std::string doubt =
-        doubt_about_keel(body.name, body.vessel->hull, body.X_DB, problem.water.depth);
+  for (const PanelProblem::Body& body : problem.bodies) {
+    std::string doubt = doubt_about_keel(body.name, *body.hull, body.X_DB, problem.water.depth);
     if (!doubt.empty()) return doubt;
   }
   return {};

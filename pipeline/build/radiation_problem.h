@@ -6,42 +6,35 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/marine/green/panel_method.h"
 #include "dynamics/marine/radiation/memory_state_space.h"
 #include "dynamics/marine/radiation/radiation.h"
+#include "pipeline/build/panel_problem.h"
 #include "pipeline/files/environment/marine_parts.h"
 
 namespace blocklift::pipeline {
 
-/// Vessels whose radiation is to be computed, as they lie at the start: the input of the panel
-/// method.
+/// The water about the vessels of a case as they lie at the start: a problem for the panel method,
+/// and what the case asks of it besides.
 ///
 /// The database's world D has its origin midway between the vessels in the calm surface and the
 /// axes of W, so that it does not depend on where the vessels lie together. One that is lowered
-/// counts for the middle only if there is no other.
-struct RadiationProblem {
-  struct Body {
-    std::string name;
-    std::shared_ptr<const Vessel> vessel;
-    dynamics::Pose X_DB;                ///< at rest, upright
-    Vector3 p_BoR_B = Vector3::Zero();  ///< reference point: in the water line above Bo, m
-    /// Of one that is lowered: from its lowest point, ascending, m; X_DB is that of the last.
-    std::vector<double> draughts = {};
-    int given_body = 0;  ///< which body of `given` it is
+/// counts for the middle only if there is no other. Bodies lie upright; their reference points are
+/// in the water line above Bo, or those of the database that the case names.
+struct RadiationProblem : PanelProblem {
+  /// A body that is lowered; it stands at its deepest draught among the bodies.
+  struct Lowered {
+    std::size_t body = 0;
+    std::vector<double> draughts;  ///< from its lowest point, ascending, m
   };
-  std::vector<Body> bodies;
+  std::optional<Lowered> lowered = std::nullopt;
   /// A database that the case names, in place of one to be computed; null: there is none. D is then
   /// its world.
   std::shared_ptr<const dynamics::HydrodynamicDatabase> given = nullptr;
-  dynamics::Water water;
-  std::vector<double> frequencies;  ///< rad/s, ascending
-  std::vector<double> headings;     ///< rad, a whole turn
-  dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
-  std::vector<dynamics::DampingLid> lids = {};  ///< in D
-  Mark place;                                   ///< of what the file says about radiation
+  std::vector<int> given_bodies;  ///< which body of `given` each of the bodies is
+  Mark place;                     ///< of what the file says about radiation
   /// Where mean drift is asked for: all bodies floating freely, 6N x 6N about their reference
   /// points along the axes of D; a single body, but for one of `given`. None: no drift, or no
-  /// waves in which that of `given` would matter.
+  /// waves in which that of `given` would matter. What is computed then has a far field.
   struct FreeVessels {
     Eigen::MatrixXd mass, stiffness, damping;
   };
@@ -52,15 +45,12 @@ struct RadiationProblem {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< of D in W, m
   /// The case's waves, where `given` may have to be divided for them; null: there are none.
   std::shared_ptr<const dynamics::WaveField> field = nullptr;
-
-  /// Index of the body with draughts; none: -1.
-  int lowered_body() const;
 };
 
 /// The same without the body that is lowered.
-RadiationProblem without_lowered(RadiationProblem problem);
-/// The same with the lowered body at a draught (m), as a problem of bodies that stay.
-RadiationProblem at_draught(RadiationProblem problem, double draught);
+PanelProblem without_lowered(const RadiationProblem& problem);
+/// The same with the lowered body at a draught (m).
+PanelProblem at_draught(const RadiationProblem& problem, double draught);
 
 /// The water's surface about the vessels, to be marched beside them.
 struct MarchedWater {
@@ -72,19 +62,6 @@ struct MarchedWater {
 /// The surface of a problem that is direct; none for others.
 /// @throws dynamics::ModelError, dynamics::SimulationError as its meshes and DirectRadiation do.
 MarchedWater make_marched_water(const RadiationProblem& problem);
-
-/// The panels of a problem whose bodies stay; none on the surface where the method has none.
-/// @throws dynamics::ModelError as meshes and dynamics::PanelModel do.
-dynamics::PanelModel make_panel_model(const RadiationProblem& problem);
-
-/// Computes the database of a problem by its method, with the model of its panels and the groups of
-/// bodies far from each other in it (dynamics::find_distant_groups).
-/// @param progress told the fraction that is done and what is being done; may be empty.
-/// @throws dynamics::ModelError, dynamics::SimulationError as compute_by_method.
-dynamics::HydrodynamicDatabase compute_radiation(
-    const RadiationProblem& problem, const dynamics::PanelModel& model,
-    const std::vector<dynamics::BodyGroup>& groups,
-    const std::function<void(double, const char*)>& progress = {});
 
 /// How closely the memory of vessels' water is fitted: to 0.5 % of its peak, or to 2 or 10 % where
 /// water that swings between hulls would take too many states.

@@ -24,6 +24,7 @@
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
+#include "pipeline/hydrodynamics/panel_cache.h"
 #include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
@@ -39,7 +40,7 @@ fs::path page_of(fs::path database) { return database.replace_extension(".html")
 
 fs::path output_of(const HydroOptions& options, const HydrodynamicProblem& problem) {
   if (options.output) return *options.output;
-  return fs::path("results") / (problem.bodies[0].hull.name() + ".h5");
+  return fs::path("results") / (problem.bodies[0].hull->name() + ".h5");
 }
 
 void print_panels(const HydrodynamicState& state) {
@@ -68,7 +69,7 @@ void print_panels(const HydrodynamicState& state) {
 }
 
 double displaced_mass(const HydrodynamicBody& body, const dynamics::Pose& X_WB, double density) {
-  return density * calc_hydrostatics(dynamics::HullClusters(body.hull), X_WB).volume;
+  return density * calc_hydrostatics(dynamics::HullClusters(*body.hull), X_WB).volume;
 }
 
 /// Before anything is meshed: a hull in millimetres mostly asks for too many panels, and one that
@@ -77,8 +78,8 @@ void say_doubts_about_sizes(const HydrodynamicProblem& problem) {
   for (const HydrodynamicBody& body : problem.bodies) {
     const std::string who = "vessel " + body.name;
     for (const std::string& doubt :
-         {doubt_about_size(who, body.hull),
-          doubt_about_lightness(who, body.hull, body.body.mass, problem.water.density)}) {
+         {doubt_about_size(who, *body.hull),
+          doubt_about_lightness(who, *body.hull, body.body.mass, problem.water.density)}) {
       if (!doubt.empty()) say_warning(doubt);
     }
   }
@@ -104,7 +105,7 @@ void say_doubts_about_hulls(const HydrodynamicProblem& problem,
                             const std::vector<HydrodynamicState>& states) {
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     const HydrodynamicBody& body = problem.bodies[b];
-    const dynamics::Pose& X_WB = states.back().poses[b];
+    const dynamics::Pose& X_WB = states.back().panels.bodies[b].X_DB;
     const std::string mass =
         body.as_meshed
             ? doubt_about_mass(body.name, displaced_mass(body, X_WB, problem.water.density),
@@ -112,7 +113,7 @@ void say_doubts_about_hulls(const HydrodynamicProblem& problem,
             : std::string();
     for (const std::string& doubt :
          {mass, doubt_about_inclination(body.name, X_WB.R),
-          doubt_about_keel(body.name, body.hull, X_WB, problem.water.depth)}) {
+          doubt_about_keel(body.name, *body.hull, X_WB, problem.water.depth)}) {
       if (!doubt.empty()) say_warning(doubt);
     }
   }
@@ -138,9 +139,26 @@ std::vector<HydrodynamicState> prepare(const HydrodynamicProblem& problem) {
 HydrodynamicFile compute(const HydrodynamicProblem& problem,
                          const std::vector<HydrodynamicState>& states) {
   for (const HydrodynamicState& state : states) print_panels(state);
-  ProgressBar bar("hydrodynamics");
-  return compute_hydrodynamics(
-      problem, states, [&](double fraction, const std::string& what) { bar.show(fraction, what); });
+  std::vector<std::string> said;
+  HydrodynamicFile file;
+  {
+    ProgressBar bar("hydrodynamics");
+    double done = 0.0;
+    file = find_hydrodynamics(
+        problem, states,
+        [&](double fraction, const std::string& what) {
+          done = fraction;
+          bar.show(fraction, what);
+        },
+        [&](const std::string& what) {
+          log_entry(what);
+          said.push_back(what);
+          bar.show(done, what);
+        });
+  }
+  if (is_quiet()) return file;
+  for (const std::string& what : said) print_wrapped(what);
+  return file;
 }
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what,
@@ -194,7 +212,7 @@ int compute_vessel(const HydroOptions& options) {
   std::vector<Eigen::MatrixXd> masses;
   for (const HydrodynamicState& state : states) masses.push_back(state.mass);
   HydrodynamicFile file;
-  const bool known = read_identity(output) == identity_of(*problem);
+  const bool known = !options.anew && read_identity(output) == identity_of(*problem, states);
   if (known) {
     file = read_hydrodynamic_file(output);
   } else {
@@ -370,6 +388,7 @@ int convert(const HydroOptions& options) {
 }  // namespace
 
 int hydro(const HydroOptions& options) {
+  if (options.anew) forbid_cache();
   require_wamit(options);
   if (options.import) return convert(options);
   if (options.vessel && !options.export_format) return compute_vessel(options);

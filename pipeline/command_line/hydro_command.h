@@ -13,6 +13,7 @@ struct HydroOptions {
   std::optional<std::string> export_format;  ///< bemio, wamit
   std::optional<std::string> output;
   std::optional<double> memory_limit;  ///< GB
+  bool anew = false;                   ///< nothing is taken that was computed before
   std::optional<double> wamit_length;  ///< WAMIT's ULEN, of what is read and written, m; none: 1 m
   /// WAMIT's XBODY of each body, that its files do not tell: x,y[,z[,heading]], m, degrees
   std::vector<std::string> bodies_at;

@@ -28,6 +28,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/schema/schema.h"
 #include "pipeline/formats/hdf5_exit.h"
+#include "pipeline/hydrodynamics/panel_cache.h"
 #include "pipeline/processes/exit_code.h"
 #include "pipeline/processes/processor.h"
 #include "pipeline/templates/new_case.h"
@@ -46,6 +47,13 @@ void add_allow_outside(CLI::App& command) {
   command.add_flag_callback("--allow-outside", blocklift::structure::allow_files_outside,
                             "let the input name files outside its folder and the models; scripts "
                             "of Gmsh may do anything");
+}
+
+/// Of each command that may compute the radiation of vessels.
+void add_no_cache(CLI::App& command) {
+  command.add_flag_callback("--no-cache", forbid_cache,
+                            "compute the water about vessels anew: take nothing from the cache, "
+                            "and put nothing there");
 }
 
 void add_set(CLI::App& command, std::vector<std::string>& changes) {
@@ -75,6 +83,7 @@ void add_assess(CLI::App& app, int& code) {
   auto set = std::make_shared<std::vector<std::string>>();
   add_set(*command, *set);
   add_limits(*command);
+  add_no_cache(*command);
   add_allow_outside(*command);
   command->callback([path, output, decks, expect, set, &code] {
     code = assess_case(*path, *output, *decks, *expect, *set);
@@ -176,6 +185,9 @@ void add_hydro(CLI::App& app, int& code) {
       ->add_option("--water-depth", options->water_depth,
                    "for WAMIT's files, m (deep if not given)")
       ->check(CLI::PositiveNumber);
+  command->add_flag("--no-cache", options->anew,
+                    "compute anew: take nothing from the cache or the output's file, and put "
+                    "nothing into the cache");
   add_limits(*command, false);
   add_allow_outside(*command);
   command->callback([options, &code] { code = hydro(*options); });
@@ -290,6 +302,7 @@ void add_simulate(CLI::App& app, int& code) {
   command->add_flag("--csv", options->csv, "write a CSV file beside the HDF5 one");
   add_set(*command, options->set);
   add_limits(*command);
+  add_no_cache(*command);
   add_allow_outside(*command);
   command->callback([options, &code] { code = simulate_file(*options); });
 }

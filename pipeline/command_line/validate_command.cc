@@ -166,7 +166,7 @@ std::optional<std::string> validate(const fs::path& named, ModelLibrary& library
     if (!problem) return std::nullopt;
     std::size_t panels = 0;
     for (const HydrodynamicBody& body : problem->bodies) {
-      panels += static_cast<std::size_t>(body.hull.panel_count());
+      panels += static_cast<std::size_t>(body.hull->panel_count());
     }
     return if_sound(
         fmt::format("{} with {}", count(problem->bodies.size(), "vessel"), count(panels, "panel")));

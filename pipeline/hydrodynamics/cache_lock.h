@@ -2,6 +2,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
 
 namespace blocklift::pipeline {
 
@@ -23,5 +26,27 @@ class CacheLock {
  private:
   int file_ = -1;
 };
+
+/// What `read` finds of an entry of the cache, or what `compute` makes and `write` puts there. What
+/// another run is making is waited for.
+/// @param read gives an optional: none if the entry is not there, or of no use.
+/// @param wait called before another run is waited for.
+template <class Read, class Compute, class Write>
+auto take_or_make(const std::filesystem::path& file, const Read& read,
+                  const std::function<void()>& wait, const Compute& compute, const Write& write) {
+  if (auto known = read()) return std::move(*known);
+  std::error_code ignored;
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  const CacheLock lock(file, wait);
+  // The other run may have been waited for.
+  if (auto known = read()) return std::move(*known);
+  auto made = compute();
+  try {
+    write(made);
+  } catch (const std::runtime_error&) {
+    // What cannot be kept is made again.
+  }
+  return made;
+}
 
 }  // namespace blocklift::pipeline

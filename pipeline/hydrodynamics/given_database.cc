@@ -31,12 +31,13 @@ double size_of(const dynamics::Hull& hull) {
 /// Does the hull lie where the database's body does, which does not tell its centre of buoyancy?
 /// Its stiffness tells the middle of its water plane; without one, its origin must at least be near
 /// the reference point, where there are several.
-void require_same_water_plane(const RadiationProblem& problem, const RadiationProblem::Body& body,
+void require_same_water_plane(const RadiationProblem& problem, std::size_t b,
                               const dynamics::Hydrostatics& rest) {
   const HydrodynamicDatabase& database = *problem.given;
-  const auto index = static_cast<std::size_t>(body.given_body);
+  const PanelProblem::Body& body = problem.bodies[b];
+  const auto index = static_cast<std::size_t>(problem.given_bodies[b]);
   const Eigen::Vector2d reference = database.reference_points[index].head<2>();
-  const double size = size_of(body.vessel->hull);
+  const double size = size_of(*body.hull);
   const auto fail = [&](const Eigen::Vector2d& difference, const char* what) {
     refuse(problem.place,
            fmt::format("{} of vessel {} lies ({:.4g}, {:.4g}) m from where the database has that "
@@ -46,7 +47,7 @@ void require_same_water_plane(const RadiationProblem& problem, const RadiationPr
            "must lie over the database's origin, several vessels where it has them in its own "
            "world, WAMIT's where hydro --import was told by --body-at");
   };
-  const Eigen::Index heave = modes_per_body * Eigen::Index{body.given_body} + 2;
+  const Eigen::Index heave = modes_per_body * Eigen::Index{problem.given_bodies[b]} + 2;
   if (database.hydrostatic_stiffness.size() > 0 &&
       database.hydrostatic_stiffness(heave, heave) > 0.0 && rest.water_plane_area > 0.0) {
     const auto C = database.hydrostatic_stiffness.block<1, 3>(heave, heave);
@@ -63,10 +64,11 @@ void require_same_water_plane(const RadiationProblem& problem, const RadiationPr
 }
 
 /// Is the hull, as it lies at rest, that of the database's body?
-void require_same_hull(const RadiationProblem& problem, const RadiationProblem::Body& body) {
+void require_same_hull(const RadiationProblem& problem, std::size_t b) {
   const HydrodynamicDatabase& database = *problem.given;
-  const auto index = static_cast<std::size_t>(body.given_body);
-  const dynamics::Hull& hull = body.vessel->hull;
+  const PanelProblem::Body& body = problem.bodies[b];
+  const auto index = static_cast<std::size_t>(problem.given_bodies[b]);
+  const dynamics::Hull& hull = *body.hull;
   const dynamics::Hydrostatics rest = calc_hydrostatics(dynamics::HullClusters(hull), body.X_DB);
   const double volume = database.displaced_volumes[index];
   if (volume > 0.0 && std::abs(rest.volume - volume) > largest_difference * volume) {
@@ -77,7 +79,7 @@ void require_same_hull(const RadiationProblem& problem, const RadiationProblem::
            "the database is of another vessel, or the vessel floats at another draught");
   }
   if (database.centres_of_buoyancy.empty()) {
-    require_same_water_plane(problem, body, rest);
+    require_same_water_plane(problem, b, rest);
     return;
   }
   const Vector3 difference = body.X_DB.p + rest.p_BoC_W() - database.centres_of_buoyancy[index];
@@ -94,9 +96,9 @@ void require_same_hull(const RadiationProblem& problem, const RadiationProblem::
 /// Modes of the database (rows) in the order of the problem's bodies.
 std::vector<Eigen::Index> modes_in_order(const RadiationProblem& problem) {
   std::vector<Eigen::Index> modes;
-  for (const RadiationProblem::Body& body : problem.bodies) {
+  for (const int body : problem.given_bodies) {
     for (Eigen::Index m = 0; m < modes_per_body; ++m) {
-      modes.push_back(modes_per_body * Eigen::Index{body.given_body} + m);
+      modes.push_back(modes_per_body * Eigen::Index{body} + m);
     }
   }
   return modes;
@@ -106,9 +108,7 @@ template <class Value>
 std::vector<Value> in_order(const RadiationProblem& problem, const std::vector<Value>& values) {
   std::vector<Value> result;
   if (values.empty()) return result;
-  for (const RadiationProblem::Body& body : problem.bodies) {
-    result.push_back(values[body.given_body]);
-  }
+  for (const int body : problem.given_bodies) result.push_back(values[body]);
   return result;
 }
 
@@ -162,9 +162,9 @@ void divide_excitation(const RadiationProblem& problem, HydrodynamicDatabase& da
   const dynamics::WaveField waves = waves_of(problem, database);
   Eigen::Index first = 0;
   for (std::size_t b = 0; b < problem.bodies.size(); ++b, first += modes_per_body) {
-    const RadiationProblem::Body& body = problem.bodies[b];
-    const dynamics::RestingWaveForce incident(dynamics::WaveSurface(body.vessel->hull, waves),
-                                              body.X_DB, body.X_DB.apply(body.p_BoR_B));
+    const PanelProblem::Body& body = problem.bodies[b];
+    const dynamics::RestingWaveForce incident(dynamics::WaveSurface(*body.hull, waves), body.X_DB,
+                                              body.X_DB.apply(body.p_BoR_B));
     for (std::size_t k = 0; k < database.frequencies.size(); ++k) {
       for (Eigen::Index h = 0; h < database.froude_krylov[k].cols(); ++h) {
         const Eigen::Matrix<Complex, 6, 1> force =
@@ -179,13 +179,13 @@ void divide_excitation(const RadiationProblem& problem, HydrodynamicDatabase& da
 }  // namespace
 
 HydrodynamicDatabase take_given_database(const RadiationProblem& problem) {
-  if (problem.lowered_body() >= 0) {
+  if (problem.lowered) {
     refuse(problem.place,
            fmt::format("{} is lowered into the water of vessels that name a database",
-                       problem.bodies[problem.lowered_body()].name),
+                       problem.bodies[problem.lowered->body].name),
            "a database of one draught does not hold it: leave out its draughts, or the database");
   }
-  for (const RadiationProblem::Body& body : problem.bodies) require_same_hull(problem, body);
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) require_same_hull(problem, b);
   HydrodynamicDatabase database = ordered(problem);
   if (is_whole(database)) divide_excitation(problem, database);
   return database;

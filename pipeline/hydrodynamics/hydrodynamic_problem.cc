@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "dynamics/errors.h"
-#include "dynamics/marine/panels/mirrored_bodies.h"
-#include "dynamics/marine/panels/wetted_body.h"
 #include "dynamics/marine/radiation/mean_drift.h"
 #include "dynamics/marine/radiation/response_amplitude.h"
 #include "pipeline/files/vessel/hull_places.h"
 #include "pipeline/formats/hydrodynamics/hull_hash.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
-#include "pipeline/hydrodynamics/method_hash.h"
+#include "pipeline/hydrodynamics/panel_cache.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
@@ -41,11 +38,11 @@ Pose pose_at_rest(const HydrodynamicBody& body, std::size_t index) {
   if (body.as_meshed) return X_WB;
   if (!body.draughts.empty()) {
     const double draught = body.draughts[std::min(index, body.draughts.size() - 1)];
-    X_WB.p.z() = -draught - body.hull.bounds()[0].z();
+    X_WB.p.z() = -draught - body.hull->bounds()[0].z();
     return X_WB;
   }
   const dynamics::FloatingPosition floating =
-      find_floating_position(dynamics::HullClusters(body.hull), body.body, R_WB);
+      find_floating_position(dynamics::HullClusters(*body.hull), body.body, R_WB);
   X_WB.R = floating.X_WB.R;
   X_WB.p.z() = floating.X_WB.p.z();
   // What is left of the iteration must not hide a plane of symmetry: turns below 1e-8 are none.
@@ -53,27 +50,39 @@ Pose pose_at_rest(const HydrodynamicBody& body, std::size_t index) {
   return X_WB;
 }
 
-std::vector<dynamics::WettedBody> wetted_bodies(const HydrodynamicProblem& problem,
-                                                const std::vector<Pose>& poses) {
-  std::vector<dynamics::WettedBody> bodies;
-  std::vector<std::vector<Vector3>> vertices_W;
-  for (std::size_t b = 0; b < poses.size(); ++b) {
-    const HydrodynamicBody& body = problem.bodies[b];
-    bodies.push_back(make_wetted_body(body.hull, poses[b], body.body.p_BoBcm_B));
-    bodies.back().name = body.name;
-    std::vector<Vector3>& vertices = vertices_W.emplace_back();
-    for (const Vector3& vertex : body.hull.vertices()) vertices.push_back(poses[b].apply(vertex));
+PanelProblem panel_problem(const HydrodynamicProblem& problem, std::size_t index) {
+  PanelProblem panels;
+  panels.water = problem.water;
+  panels.frequencies = problem.frequencies;
+  panels.headings = problem.headings;
+  panels.method = problem.method;
+  panels.lids = problem.lids;
+  panels.symmetry = problem.symmetry;
+  panels.far_field = problem.mean_drift;
+  for (const HydrodynamicBody& body : problem.bodies) {
+    panels.bodies.push_back({body.name, body.hull, pose_at_rest(body, index), body.body.p_BoBcm_B});
   }
-  if (problem.symmetry) mirror_bodies(vertices_W, bodies);
-  return bodies;
+  return panels;
+}
+
+Eigen::MatrixXd mass_matrix(const HydrodynamicProblem& problem, const PanelProblem& panels) {
+  const auto modes = static_cast<Eigen::Index>(dynamics::modes_per_body * problem.bodies.size());
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(modes, modes);
+  for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
+    const HydrodynamicBody& body = problem.bodies[b];
+    const Eigen::Index first = dynamics::modes_per_body * static_cast<Eigen::Index>(b);
+    mass.block<6, 6>(first, first) =
+        dynamics::make_mass_matrix(body.body.mass, body.radii_of_gyration, panels.bodies[b].X_DB.R);
+  }
+  return mass;
 }
 
 /// Above the water and below, which the water lines alone do not tell.
-void require_apart(const HydrodynamicProblem& problem, const std::vector<Pose>& poses) {
+void require_apart(const HydrodynamicProblem& problem, const PanelProblem& panels) {
   std::vector<PlacedHull> hulls;
-  for (std::size_t b = 0; b < poses.size(); ++b) {
-    const HydrodynamicBody& body = problem.bodies[b];
-    hulls.push_back({"vessel " + body.name, body.place, &body.hull, poses[b]});
+  for (std::size_t b = 0; b < panels.bodies.size(); ++b) {
+    const PanelProblem::Body& body = panels.bodies[b];
+    hulls.push_back({"vessel " + body.name, problem.bodies[b].place, body.hull.get(), body.X_DB});
   }
   Diagnostics diagnostics;
   check_hulls_apart(hulls, diagnostics);
@@ -115,49 +124,23 @@ std::size_t HydrodynamicProblem::state_count() const {
 
 HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t index) {
   HydrodynamicState state;
-  const auto modes = static_cast<Eigen::Index>(dynamics::modes_per_body * problem.bodies.size());
-  state.mass = Eigen::MatrixXd::Zero(modes, modes);
-  for (const HydrodynamicBody& body : problem.bodies) {
-    const Pose X_WB = pose_at_rest(body, index);
-    const Eigen::Index first =
-        dynamics::modes_per_body * static_cast<Eigen::Index>(state.poses.size());
-    state.mass.block<6, 6>(first, first) =
-        dynamics::make_mass_matrix(body.body.mass, body.radii_of_gyration, X_WB.R);
-    state.poses.push_back(X_WB);
-  }
-  require_apart(problem, state.poses);
-  const auto lowered = static_cast<std::size_t>(problem.lowered_body());
-  state.draught = -lowest_point(problem.bodies[lowered].hull, state.poses[lowered]);
-  std::vector<dynamics::WettedBody> bodies = wetted_bodies(problem, state.poses);
-  const auto lines = find_water_lines(bodies);
-  const auto length = [&](double frequency) {
-    return 2.0 * std::numbers::pi / dynamics::calc_wave_number(frequency, problem.water);
-  };
-  const dynamics::Symmetry symmetry =
-      problem.symmetry ? keep_symmetry(find_symmetry(bodies), problem.lids) : dynamics::Symmetry{};
+  state.panels = panel_problem(problem, index);
+  state.mass = mass_matrix(problem, state.panels);
+  require_apart(problem, state.panels);
+  const PanelProblem::Body& lowered =
+      state.panels.bodies[static_cast<std::size_t>(problem.lowered_body())];
+  state.draught = -lowest_point(*lowered.hull, lowered.X_DB);
+  state.model = std::make_shared<const dynamics::PanelModel>(make_panel_model(state.panels));
   const bool with_surface = problem.method == dynamics::PanelMethod::marched_surface;
-  dynamics::SurfaceMesh surface;
-  surface.mesh.symmetry = symmetry;
-  if (with_surface) {
-    surface = make_surface_mesh(
-        lines, dynamics::surface_settings(lines, length(problem.frequencies.back()),
-                                          length(problem.frequencies.front())));
-  }
-  if (with_surface && surface.mesh.panels.empty()) {
+  if (with_surface && state.model->surface_mesh().size() == 0) {
     throw dynamics::ModelError(
         fmt::format("at a draught of {:.6g} m no hull reaches the water's surface, and a hull that "
                     "makes waves is due; give a draught below the hull's depth, or method: green "
                     "function, which computes hulls wholly under water, too",
                     state.draught));
   }
-  state.model = std::make_shared<const dynamics::PanelModel>(std::move(bodies), surface,
-                                                             problem.water, symmetry);
   if (with_surface) state.groups = find_distant_groups(*state.model, problem.frequencies.back());
-  state.settings.frequencies = problem.frequencies;
-  state.settings.headings = problem.headings;
-  state.settings.lids = problem.lids;
-  state.settings.with_coarser = true;
-  state.settings.with_far_field = problem.mean_drift;
+  state.settings = database_settings(state.panels);
   state.settings.rankine.memory_limit = problem.memory_limit;
   require_panels(problem, *state.model);
   state.bytes = bytes_by_method(problem.method, *state.model, state.settings);
@@ -166,48 +149,39 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   return state;
 }
 
-std::string identity_of(const HydrodynamicProblem& problem) {
+std::string identity_of(const HydrodynamicProblem& problem,
+                        const std::vector<HydrodynamicState>& states) {
   ContentHash hash;
-  hash.add(std::int64_t{dynamics::panel_method_version});
   hash.add(std::string_view(program_version));
-  if (problem.bodies.size() > 1) hash.add(std::int64_t{dynamics::distant_groups_version});
-  hash.add(problem.water.density);
-  hash.add(problem.water.gravity);
-  hash.add(problem.water.depth);
-  hash.add(problem.frequencies);
-  hash.add(problem.headings);
-  add(hash, problem.method);
-  hash.add(static_cast<std::int64_t>(problem.symmetry));
   hash.add(std::int64_t{problem.mean_drift ? dynamics::mean_drift_version : 0});
-  for (const dynamics::DampingLid& lid : problem.lids) {
-    hash.add(std::span(lid.low.data(), 2));
-    hash.add(std::span(lid.high.data(), 2));
-    hash.add(lid.rate);
-  }
-  for (const HydrodynamicBody& body : problem.bodies) {
-    hash.add(std::string_view(body.name));
-    hash.add(body.body.mass);
-    add(hash, body.body.p_BoBcm_B);
-    add(hash, body.radii_of_gyration);
-    hash.add(std::span(body.position.data(), 2));
-    hash.add(body.heading);
-    hash.add(body.draughts);
-    hash.add(static_cast<std::int64_t>(body.as_meshed));
-    add(hash, body.hull);
+  hash.add(std::int64_t{problem.lowered_body()});
+  for (const HydrodynamicBody& body : problem.bodies) add(hash, body.body.p_BoBcm_B);
+  for (const HydrodynamicState& state : states) {
+    hash.add(identity_of(state.panels));
+    hash.add(state.draught);
+    hash.add(
+        std::span<const double>(state.mass.data(), static_cast<std::size_t>(state.mass.size())));
   }
   return hash.digits();
 }
 
-dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
-                                             const HydrodynamicState& state) {
-  dynamics::HydrodynamicDatabase database =
-      compute_by_method(problem.method, *state.model, state.groups, state.settings);
+namespace {
+
+dynamics::HydrodynamicDatabase compute_panels(const HydrodynamicState& state) {
+  return compute_by_method(state.panels.method, *state.model, state.groups, state.settings);
+}
+
+/// Puts to what the panel method finds what follows from masses: hydrostatics and mean drift.
+void add_masses(const HydrodynamicProblem& problem, const HydrodynamicState& state,
+                dynamics::HydrodynamicDatabase& database) {
   const Eigen::Index modes = database.mode_count();
   database.hydrostatic_stiffness = Eigen::MatrixXd::Zero(modes, modes);
+  database.centres_of_buoyancy.clear();
+  database.centres_of_mass.clear();
   for (std::size_t b = 0; b < problem.bodies.size(); ++b) {
     const HydrodynamicBody& body = problem.bodies[b];
-    const Pose& X_WB = state.poses[b];
-    const dynamics::Hydrostatics rest = calc_hydrostatics(dynamics::HullClusters(body.hull), X_WB);
+    const Pose& X_WB = state.panels.bodies[b].X_DB;
+    const dynamics::Hydrostatics rest = calc_hydrostatics(dynamics::HullClusters(*body.hull), X_WB);
     const Vector3 p_BoBcm_W = X_WB.R * body.body.p_BoBcm_B;
     database.displaced_volumes[b] = rest.volume;
     database.centres_of_buoyancy.push_back(X_WB.p + rest.p_BoC_W());
@@ -221,12 +195,13 @@ dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
     database.mean_drift = calc_mean_drift(database, calc_response_amplitudes(database, state.mass),
                                           {}, !problem.lids.empty());
   }
-  return database;
 }
 
-HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
-                                       const std::vector<HydrodynamicState>& states,
-                                       const HydrodynamicProgress& progress) {
+/// What `compute` makes of the panels of each state, its progress told, with what follows besides.
+HydrodynamicFile make_file(
+    const HydrodynamicProblem& problem, const std::vector<HydrodynamicState>& states,
+    const HydrodynamicProgress& progress,
+    const std::function<dynamics::HydrodynamicDatabase(const HydrodynamicState&)>& compute) {
   std::vector<double> draughts;
   std::vector<dynamics::HydrodynamicDatabase> databases;
   for (HydrodynamicState state : states) {
@@ -235,7 +210,9 @@ HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
       if (progress) progress((done + fraction) / static_cast<double>(states.size()), what);
     };
     draughts.push_back(state.draught);
-    databases.push_back(compute_state(problem, state));
+    dynamics::HydrodynamicDatabase database = compute(state);
+    add_masses(problem, state, database);
+    databases.push_back(std::move(database));
   }
   std::string origin = fmt::format("computed by blocklift {}", program_version);
   if (problem.method == dynamics::PanelMethod::green_function) {
@@ -247,8 +224,47 @@ HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
       break;
     }
   }
-  return {identity_of(problem), std::move(origin),
+  return {identity_of(problem, states), std::move(origin),
           dynamics::make_series(problem.lowered_body(), std::move(draughts), std::move(databases))};
+}
+
+WavesLost find_waves_lost(const HydrodynamicState& state) {
+  if (!may_lose_waves(state.panels)) return {};
+  return find_lost_coupling(*state.model, state.groups, state.panels.frequencies.back());
+}
+
+/// The bodies at the draught of a state, for people.
+std::string name_of(const HydrodynamicState& state) {
+  std::vector<std::string> names;
+  for (const PanelProblem::Body& body : state.panels.bodies) names.push_back(body.name);
+  return fmt::format("{} at a draught of {:.3f} m", list_of_names(names), state.draught);
+}
+
+}  // namespace
+
+HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
+                                       const std::vector<HydrodynamicState>& states,
+                                       const HydrodynamicProgress& progress) {
+  return make_file(problem, states, progress, compute_panels);
+}
+
+HydrodynamicFile find_hydrodynamics(const HydrodynamicProblem& problem,
+                                    const std::vector<HydrodynamicState>& states,
+                                    const HydrodynamicProgress& progress,
+                                    const std::function<void(const std::string&)>& say) {
+  return make_file(problem, states, progress, [&](const HydrodynamicState& state) {
+    const std::string name = name_of(state);
+    const DatabaseMaker maker{name,
+                              [&] {
+                                return FoundDatabase{compute_panels(state), find_waves_lost(state)};
+                              },
+                              [&] { return find_waves_lost(state); }};
+    return find_database(state.panels, maker,
+                         [&](const std::string& what) {
+                           if (say) say(name + ": " + what);
+                         })
+        .database;
+  });
 }
 
 }  // namespace blocklift::pipeline

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/marine/green/panel_method.h"
+#include "pipeline/build/panel_problem.h"
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/files/vessel/vessel_model.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
@@ -17,7 +17,8 @@ namespace blocklift::pipeline {
 /// A body whose hydrodynamics are to be computed.
 struct HydrodynamicBody {
   std::string name;
-  dynamics::Hull hull;          ///< with the panels to compute with, in its own frame
+  std::shared_ptr<const dynamics::Hull>
+      hull;                     ///< with the panels to compute with, in its own frame
   dynamics::FloatingBody body;  ///< mass and its centre; the water's density
   Vector3 radii_of_gyration = Vector3::Zero();         ///< about the centre of mass, m
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< of Bo in the world, m
@@ -58,9 +59,9 @@ std::optional<HydrodynamicProblem> read_hydrodynamic_problem(const std::filesyst
 
 /// One draught of a problem, meshed and ready.
 struct HydrodynamicState {
-  double draught = 0.0;               ///< of the lowered body, m
-  std::vector<dynamics::Pose> poses;  ///< X_WB of the bodies at rest
-  Eigen::MatrixXd mass;               ///< 6N x 6N about the centres of mass
+  double draught = 0.0;  ///< of the lowered body, m
+  PanelProblem panels;   ///< about the centres of mass; D is W
+  Eigen::MatrixXd mass;  ///< 6N x 6N about the centres of mass
   std::shared_ptr<const dynamics::PanelModel> model;
   /// Of bodies far from each other, or one of all; none where the method needs none.
   std::vector<dynamics::BodyGroup> groups;
@@ -75,19 +76,26 @@ struct HydrodynamicState {
 ///   figures.
 HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t index);
 
-/// Fingerprint of a problem: equal if and only if nothing that the database follows from differs.
-std::string identity_of(const HydrodynamicProblem& problem);
-
-/// Computes the database of a state, hydrostatics included.
-dynamics::HydrodynamicDatabase compute_state(const HydrodynamicProblem& problem,
-                                             const HydrodynamicState& state);
+/// Fingerprint of a problem and its states: equal if and only if nothing that the file follows from
+/// differs. It is that of the panels of each state, with masses and what is made of them.
+std::string identity_of(const HydrodynamicProblem& problem,
+                        const std::vector<HydrodynamicState>& states);
 
 /// Share done (0 to 1) and what is being done.
 using HydrodynamicProgress = std::function<void(double, const std::string&)>;
 
-/// Computes all draughts.
+/// Computes all draughts, hydrostatics included.
 HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
                                        const std::vector<HydrodynamicState>& states,
                                        const HydrodynamicProgress& progress = {});
+
+/// The same, in which what the panel method finds is taken from the cache where it lies there, and
+/// put there where it does not (find_database): to the last bit the numbers of the run that computed
+/// them.
+/// @param say called with a sentence about each draught that is in the cache, or waited for.
+HydrodynamicFile find_hydrodynamics(const HydrodynamicProblem& problem,
+                                    const std::vector<HydrodynamicState>& states,
+                                    const HydrodynamicProgress& progress,
+                                    const std::function<void(const std::string&)>& say);
 
 }  // namespace blocklift::pipeline

@@ -1,23 +1,14 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "pipeline/build/build_marine.h"
+#include "pipeline/hydrodynamics/panel_cache.h"
 
 namespace blocklift::pipeline {
-
-/// Where computed databases are kept: the folder that BLOCKLIFT_CACHE names, or `blocklift` in that
-/// of XDG_CACHE_HOME, or `.cache/blocklift` in the user's home. Empty if none of these is set:
-/// nothing is kept then.
-std::filesystem::path cache_folder();
-
-/// What tells databases apart: a hash of hulls, poses, water, frequencies and headings. Of bodies
-/// that stay.
-std::string identity_of(const RadiationProblem& problem);
 
 /// What tells fitted memories apart: a hash of the retardation functions and of how closely they
 /// are fitted.
@@ -40,10 +31,8 @@ struct FoundRadiation {
 };
 
 /// The database of a problem, or, where a body is lowered, one for each of its draughts after that
-/// of the others alone (dynamics::with_dry_body): from the cache if they lie there, else computed
-/// and put there. What another run is computing is waited for and taken from there (CacheLock). A
-/// cache that cannot be written is no error: databases are computed again next time. Their memories
-/// are found with them (find_memories, memory_fit_of_vessels).
+/// of the others alone (dynamics::with_dry_body): from the cache or computed (find_database). Their
+/// memories are found with them (find_memories, memory_fit_of_vessels).
 /// @param report called with a sentence about what is done, and with each doubt after "warning: ";
 ///   may be empty.
 /// @param progress told the fraction that is done and of which bodies, while databases are

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "dynamics/errors.h"
@@ -28,15 +29,14 @@ std::optional<HydrodynamicBody> read_body(const fs::path& file, std::optional<do
   body.radii_of_gyration = vessel->model.radii_of_gyration;
   body.as_meshed = settings.as_meshed;
   body.place = vessel->model.place;
-  body.hull = std::move(vessel->hull);
-  body.name = body.hull.name();
+  dynamics::Hull hull = std::move(vessel->hull);
+  body.name = hull.name();
   if (panel_size && *panel_size != vessel->model.panel_size) {
     const std::size_t before = diagnostics.error_count();
     try {
-      const std::string name = body.hull.name();
-      body.hull = make_vessel_hull(vessel->model, file.parent_path(), *panel_size);
-      body.hull.set_name(name);
-      for (const auto& defect : dynamics::diagnose(body.hull, {.largest_warp = 0.5})) {
+      hull = make_vessel_hull(vessel->model, file.parent_path(), *panel_size);
+      hull.set_name(body.name);
+      for (const auto& defect : dynamics::diagnose(hull, {.largest_warp = 0.5})) {
         diagnostics.error(vessel->model.place, defect.message);
       }
     } catch (const std::runtime_error& error) {
@@ -44,7 +44,13 @@ std::optional<HydrodynamicBody> read_body(const fs::path& file, std::optional<do
     }
     if (diagnostics.error_count() > before) return std::nullopt;
   }
+  body.hull = std::make_shared<const dynamics::Hull>(std::move(hull));
   return body;
+}
+
+std::shared_ptr<const dynamics::Hull> with_name(dynamics::Hull hull, const std::string& name) {
+  hull.set_name(name);
+  return std::make_shared<const dynamics::Hull>(std::move(hull));
 }
 
 void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& problem) {
@@ -129,7 +135,7 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
     if (!body) continue;
     body->name = placed.name.value;
     body->place = placed.name.mark;
-    body->hull.set_name(body->name);
+    body->hull = with_name(*body->hull, body->name);
     body->position = {placed.value.position[0], placed.value.position[1]};
     body->heading = placed.value.heading;
     body->draughts = placed.value.draughts;

@@ -9,6 +9,7 @@
 
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "tests/pipeline/command_line/run_blocklift.h"
+#include "tests/pipeline/hydrodynamics/own_cache.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -50,7 +51,8 @@ class HydroCommand : public ::testing::Test {
     return outcome.err;
   }
 
-  test::TemporaryFolder folder_;
+  test::OwnCache cache_;
+  test::TemporaryFolder folder_;  // the working directory
 };
 
 TEST_F(HydroCommand, ComputesOnceAndConverts) {
@@ -78,6 +80,27 @@ TEST_F(HydroCommand, ComputesOnceAndConverts) {
   const Outcome unknown = run("--import wec.1 --water-depth 20 --export bemio -o no.h5");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, AllOf(HasSubstr("disp_vol"), HasSubstr("export to wamit")));
+}
+
+// What the panels give is kept, and its file written again from there, to the last bit.
+TEST_F(HydroCommand, TakesFromTheCacheWhatItComputedBefore) {
+  folder_.write("pontoon/vessel.yaml", pontoon + "  draughts: [1 m, 1.5 m]\n");
+  const Outcome first = run("pontoon -o first.h5");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, Not(HasSubstr("from the cache")));
+  EXPECT_EQ(cache_.entries().size(), 2U);
+  const Outcome second = run("pontoon -o second.h5");
+  EXPECT_THAT(second.out, AllOf(HasSubstr("pontoon at a draught of 1.000 m: from the cache,"),
+                                HasSubstr("pontoon at a draught of 1.500 m: from the cache,"),
+                                HasSubstr("database: second.h5")));
+  EXPECT_TRUE(test::text_of_file("first.h5") == test::text_of_file("second.h5"));
+  // One more draught is all that is computed.
+  folder_.write("pontoon/vessel.yaml", pontoon + "  draughts: [1 m, 1.2 m, 1.5 m]\n");
+  EXPECT_THAT(run("pontoon -o more.h5").out,
+              AllOf(HasSubstr("1.500 m: from the cache"), Not(HasSubstr("1.200 m: from"))));
+  const Outcome anew = run("pontoon -o more.h5 --no-cache");
+  EXPECT_THAT(anew.out, AllOf(HasSubstr("database: more.h5"), Not(HasSubstr("from the cache"))));
+  EXPECT_EQ(cache_.entries().size(), 3U);
 }
 
 // Both methods agree but for their panels' errors, and one's database is not taken for the other's.

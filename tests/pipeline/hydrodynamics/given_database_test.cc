@@ -49,14 +49,14 @@ HydrodynamicDatabase two_barges() {
 }
 
 RadiationProblem problem_with(const HydrodynamicDatabase& database) {
-  const auto vessel = std::make_shared<Vessel>();
-  vessel->hull =
-      dynamics::make_barge({.length = 40, .breadth = 20, .depth = 6}, {16, 8, 6, 2}, "barge");
+  const auto hull = std::make_shared<const dynamics::Hull>(
+      dynamics::make_barge({.length = 40, .breadth = 20, .depth = 6}, {16, 8, 6, 2}, "barge"));
   RadiationProblem problem;
   problem.given = std::make_shared<const HydrodynamicDatabase>(database);
   problem.water = database.water;
-  problem.bodies = {{"left", vessel, Pose::translation({0, 30, -2}), {0, 0, 3}, {}, 1},
-                    {"right", vessel, Pose::translation({0, -30, -2}), {0, 0, 3}, {}, 0}};
+  problem.bodies = {{"left", hull, Pose::translation({0, 30, -2}), {0, 0, 3}},
+                    {"right", hull, Pose::translation({0, -30, -2}), {0, 0, 3}}};
+  problem.given_bodies = {1, 0};
   return problem;
 }
 
@@ -163,7 +163,7 @@ TEST(GivenDatabase, RefusesThatOfAnotherVessel) {
   elsewhere.centres_of_buoyancy[0].y() = -40;
   EXPECT_THAT(complaint(elsewhere), HasSubstr("centre of buoyancy of vessel right lies (0, 10, "));
   RadiationProblem lowered = problem_with(two_barges());
-  lowered.bodies[0].draughts = {1.0, 2.0};
+  lowered.lowered = {0, {1.0, 2.0}};
   EXPECT_THROW(take_given_database(lowered), InputError);
 }
 

@@ -53,10 +53,11 @@ TEST_F(HydrodynamicProblemOfFile, ASingleVesselLiesInItsOwnFrame) {
   }
   HydrodynamicProblem same = *turned;
   same.headings = upright->headings;
-  EXPECT_EQ(identity_of(same), identity_of(*upright));
+  EXPECT_EQ(identity_of(same, {prepare_state(same, 0)}),
+            identity_of(*upright, {prepare_state(*upright, 0)}));
   // The mass matrix of the printed periods is along the hull's own axes.
   EXPECT_EQ(prepare_state(*turned, 0).mass, prepare_state(*upright, 0).mass);
-  EXPECT_NEAR(prepare_state(*turned, 0).poses[0].p.x(), 0.0, 1e-12);
+  EXPECT_NEAR(prepare_state(*turned, 0).panels.bodies[0].X_DB.p.x(), 0.0, 1e-12);
 }
 
 // As a case that computes for itself: what lies between two headings is interpolated.

@@ -14,7 +14,7 @@
 #include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
-#include "tests/pipeline/temporary_folder.h"
+#include "tests/pipeline/hydrodynamics/own_cache.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -24,36 +24,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 namespace fs = std::filesystem;
-
-/// The cache is a folder of its own while this lives.
-class OwnCache {
- public:
-  OwnCache() {
-    if (const char* before = std::getenv("BLOCKLIFT_CACHE")) before_ = before;
-    ::setenv("BLOCKLIFT_CACHE", folder_.path().c_str(), 1);
-  }
-  ~OwnCache() {
-    if (before_.empty()) {
-      ::unsetenv("BLOCKLIFT_CACHE");
-    } else {
-      ::setenv("BLOCKLIFT_CACHE", before_.c_str(), 1);
-    }
-  }
-  OwnCache(const OwnCache&) = delete;
-  OwnCache& operator=(const OwnCache&) = delete;
-
-  std::vector<fs::path> entries() const {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) {
-      if (entry.path().extension() == ".h5") files.push_back(entry.path());
-    }
-    return files;
-  }
-
- private:
-  test::TemporaryFolder folder_;
-  std::string before_;
-};
 
 /// A dry body, and one whose heave is damped.
 std::vector<dynamics::HydrodynamicDatabase> dry_and_wet(double period) {
@@ -86,7 +56,7 @@ Found find(const std::vector<dynamics::HydrodynamicDatabase>& databases,
 }
 
 TEST(MemoryCache, TheSecondRunHasTheSameNumbersFromTheCache) {
-  const OwnCache cache;
+  const test::OwnCache cache;
   const Found first = find(dry_and_wet(3.0)), second = find(dry_and_wet(3.0));
   EXPECT_THAT(first.said, ElementsAre(HasSubstr("fitting")));
   EXPECT_THAT(second.said, ElementsAre(HasSubstr("from ")));
@@ -103,7 +73,7 @@ TEST(MemoryCache, TheSecondRunHasTheSameNumbersFromTheCache) {
 }
 
 TEST(MemoryCache, OtherRetardationOrAnotherFitIsAnotherEntry) {
-  const OwnCache cache;
+  const test::OwnCache cache;
   find(dry_and_wet(3.0));
   EXPECT_THAT(find(dry_and_wet(3.001)).said, ElementsAre(HasSubstr("fitting")));
   EXPECT_THAT(find(dry_and_wet(3.0), {.tolerance = 1e-2}).said, ElementsAre(HasSubstr("fitting")));
@@ -111,7 +81,7 @@ TEST(MemoryCache, OtherRetardationOrAnotherFitIsAnotherEntry) {
 }
 
 TEST(MemoryCache, ADamagedEntryIsFittedAgain) {
-  const OwnCache cache;
+  const test::OwnCache cache;
   find(dry_and_wet(3.0));
   ASSERT_EQ(cache.entries().size(), 1U);
   fs::resize_file(cache.entries()[0], 700);
@@ -121,10 +91,13 @@ TEST(MemoryCache, ADamagedEntryIsFittedAgain) {
 
 /// Panels of 2 m down a side of half a metre and of one.
 RadiationProblem lowered_box() {
-  const auto vessel = std::make_shared<Vessel>();
-  vessel->hull = dynamics::make_barge({.length = 8, .breadth = 4, .depth = 2}, {4, 2, 1, 1}, "box");
   RadiationProblem problem;
-  problem.bodies = {{"box", vessel, dynamics::Pose::translation({0, 0, -1}), {0, 0, 1}, {0.5, 1}}};
+  problem.bodies = {{"box",
+                     std::make_shared<const dynamics::Hull>(dynamics::make_barge(
+                         {.length = 8, .breadth = 4, .depth = 2}, {4, 2, 1, 1}, "box")),
+                     dynamics::Pose::translation({0, 0, -1}),
+                     {0, 0, 1}}};
+  problem.lowered = {0, {0.5, 1}};
   problem.frequencies = {1.2, 1.8};
   for (int quarter = 0; quarter < 4; ++quarter)
     problem.headings.push_back(0.5 * std::numbers::pi * quarter);
@@ -134,7 +107,7 @@ RadiationProblem lowered_box() {
 // A lift that finds its database in the cache is to be believed no more than the first that
 // computed it; of several draughts the worst is said, once.
 TEST(RadiationCache, DoubtsAreThoseOfTheFirstRun) {
-  const OwnCache cache;
+  const test::OwnCache cache;
   std::vector<std::string> said;
   const auto listen = [&](const std::string& what) { said.push_back(what); };
   const FoundRadiation computed = find_radiation(lowered_box(), listen);
@@ -155,9 +128,9 @@ TEST(RadiationCache, DoubtsAreThoseOfTheFirstRun) {
 // What the surface's mesh tells of the waves between bodies lies in the database's own file, so
 // that it is not meshed again.
 TEST(RadiationCache, KeepsWhichWavesAreLost) {
-  const OwnCache cache;
+  const test::OwnCache cache;
   RadiationProblem problem = lowered_box();
-  problem.bodies.front().draughts.clear();
+  problem.lowered.reset();
   problem.bodies.push_back(problem.bodies.front());
   problem.bodies.front().X_DB.p.y() = -4;
   problem.bodies.back().X_DB.p.y() = 4;
@@ -194,9 +167,9 @@ TEST(RadiationCache, KeepsWhichWavesAreLost) {
 
 /// What this program computes is of its own conventions, and what is spoilt is told.
 TEST(RadiationCache, WhatIsComputedHasItsConventions) {
-  const OwnCache cache;
+  const test::OwnCache cache;
   RadiationProblem problem = lowered_box();
-  problem.bodies.front().draughts.clear();
+  problem.lowered.reset();
   problem.frequencies = {0.6, 0.9, 1.2, 1.5, 1.8, 2.1};
   problem.headings.clear();
   for (int h = 0; h < 12; ++h) problem.headings.push_back(std::numbers::pi / 6 * h);

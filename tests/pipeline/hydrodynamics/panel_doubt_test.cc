@@ -93,12 +93,11 @@ TEST(DoubtAboutKeel, IsOfPanelsWiderThanTheWaterUnderThem) {
 }
 
 TEST(DoubtAboutKeel, IsOfHullsThatPanelsCompute) {
-  const auto vessel = std::make_shared<Vessel>();
-  vessel->hull =
-      dynamics::make_barge({.length = 40, .breadth = 16, .depth = 8}, {10, 4, 2, 1}, "barge");
+  const auto hull = std::make_shared<const dynamics::Hull>(
+      dynamics::make_barge({.length = 40, .breadth = 16, .depth = 8}, {10, 4, 2, 1}, "barge"));
   RadiationProblem problem;
   problem.water.depth = 5.0;
-  problem.bodies = {{"pontoon", vessel, dynamics::Pose::translation({0, 0, -4})}};
+  problem.bodies = {{"pontoon", hull, dynamics::Pose::translation({0, 0, -4})}};
   EXPECT_THAT(doubt_about_keels(problem), HasSubstr("keel of pontoon"));
   problem.given = std::make_shared<const dynamics::HydrodynamicDatabase>();
   EXPECT_THAT(doubt_about_keels(problem), IsEmpty());

@@ -329,6 +329,7 @@ TEST(MarineParts, DriftAsksForTheFarField) {
   const MechanismFile file = sound(with(floating, "damping:", "drift: newman, damping:"));
   const RadiationProblem problem = radiation_problem(file);
   ASSERT_TRUE(problem.drifting);
+  EXPECT_TRUE(problem.far_field);
   const Eigen::MatrixXd& mass = problem.drifting->mass;
   EXPECT_NEAR(mass(0, 0), 1722e3, 1.0);
   // The centre of mass lies 0.9 m above the reference point: surge there with a turn about y.

@@ -110,14 +110,14 @@ TEST(MarineParts, LoweredLoadSharesTheWaterOfTheVessels) {
   ASSERT_EQ(lift_complaints(text, lift_case), "");
   const RadiationProblem problem = radiation_problem(*lift_case);
   ASSERT_EQ(problem.bodies.size(), 2U);
-  EXPECT_EQ(problem.lowered_body(), 1);
+  ASSERT_TRUE(problem.lowered);
+  EXPECT_EQ(problem.lowered->body, 1U);
   EXPECT_EQ(problem.bodies[1].name, "load");
   // B1 alone is the middle.
   EXPECT_LT((problem.bodies[1].X_DB.p - Vector3(35, 3, -0.7)).norm(), 1e-12);
   EXPECT_NEAR(problem.bodies[1].X_DB.R(1, 0), 1, 1e-12);
   EXPECT_EQ(without_lowered(problem).bodies.size(), 1U);
-  const RadiationProblem shallow = at_draught(problem, 0.4);
-  EXPECT_EQ(shallow.lowered_body(), -1);
+  const PanelProblem shallow = at_draught(problem, 0.4);
   EXPECT_NEAR(shallow.bodies[1].X_DB.p.z(), -0.4, 1e-12);
 
   dynamics::HydrodynamicSeries series{1, {0.0, 0.4, 0.7}, {}};
