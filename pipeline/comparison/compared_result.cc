@@ -174,6 +174,29 @@ void tell_apart(const std::vector<fs::path>& paths, std::vector<ComparedResult>&
       results[i].name = paths[i].lexically_normal().string();
 }
 
+bool are_one_place(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error);
+}
+
+/// Two cases of one name have one folder of results: the lift of one would stand for both. A case
+/// beside its own folder is no mistake.
+void refuse_shared_results(const std::vector<fs::path>& paths,
+                           const std::vector<ComparedResult>& results, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < results.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const fs::path& folder = results[i].folder;
+      if (folder != results[k].folder || are_one_place(paths[i], paths[k]) ||
+          are_one_place(paths[i], folder) || are_one_place(paths[k], folder))
+        continue;
+      complain(diagnostics, paths[i],
+               fmt::format("{} stands for this and for {}", folder.string(), shown_path(paths[k])),
+               {"give the cases names of their own, or assess them into folders of their own with "
+                "--output and name these"});
+      break;
+    }
+}
+
 }  // namespace
 
 bool is_same_value(const std::string& value, const std::string& other) {
@@ -191,6 +214,7 @@ std::vector<ComparedResult> read_compared_results(const std::vector<fs::path>& p
   std::vector<ComparedResult> results;
   for (const fs::path& path : paths)
     if (auto result = read_result(path, diagnostics)) results.push_back(std::move(*result));
+  if (!diagnostics.has_errors()) refuse_shared_results(paths, results, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   tell_apart(paths, results);
   return results;
