@@ -33,6 +33,7 @@ constexpr const char* style =
     ".bar{position:absolute;top:.1em;height:.6em;background:#2f6db3}.bar.minus{background:#c2571a}"
     "td{font-variant-numeric:tabular-nums}"
     ".words td,.words th{text-align:left}"
+    ".tornado td+td{white-space:nowrap}.tornado .range{width:11em}"
     ".note{color:#5a6675}.scroll{overflow-x:auto}.even{table-layout:fixed}"
     "@media (prefers-color-scheme:dark){body{color:#e3e8ee;background:#14191f}"
     "th,td{border-color:#38424d}svg{background:#fff}.note{color:#a9b4c0}}";

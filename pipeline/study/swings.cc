@@ -51,8 +51,7 @@ bool are_told_apart(const VaryingInputs& inputs) {
 
 /// How many standard errors an interval of 95 % reaches to each side.
 double reach_of_interval(Eigen::Index freedoms) {
-  return freedoms > 0 ? OT::Student(static_cast<double>(freedoms)).computeQuantile(0.975)[0]
-                      : not_found;
+  return freedoms > 0 ? OT::DistFunc::qStudent(static_cast<double>(freedoms), 0.975) : not_found;
 }
 
 }  // namespace

@@ -114,6 +114,23 @@ TEST(Swings, HaveTheIntervalOfAStraightLine) {
   EXPECT_NEAR(swings.linear_share, 24.0 / 30, 1e-12);
 }
 
+// One freedom is left of three members: Student's quantile is that of Cauchy's law, 12.706. Nothing
+// is said on the terminal of what such a law lacks.
+TEST(Swings, OfThreeMembersHaveAWideIntervalInSilence) {
+  StudyFile study;
+  study.design = StudyDesign::grid;
+  StudyVariable variable;
+  variable.name = {"x", {}};
+  for (const double value : {-1.0, 0.0, 1.0}) variable.values.push_back({{value, {}}, {}});
+  study.variables = {variable};
+  const Eigen::MatrixXd design = Eigen::Vector3d(-1, 0, 1);
+  ::testing::internal::CaptureStderr();
+  const Swings swings = find_swings(study, design, {-1, -2, 3}, {0, 1, 2});  // 2 x and 1, -2, 1
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  EXPECT_NEAR(swings.of[0].value, 4, 1e-12);
+  EXPECT_NEAR(swings.of[0].high - 4, 2 * 12.706205 * std::sqrt(3), 1e-4);
+}
+
 TEST(Swings, AreNotKnownWhereMembersDoNotTellInputsApart) {
   const StudyFile study = two_masses(StudyDesign::random, 2);
   Eigen::MatrixXd design(4, 2);
