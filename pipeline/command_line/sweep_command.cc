@@ -341,7 +341,7 @@ int sweep_alone_or_first(const SweepOptions& options) {
   const bool is_written = worst && write_whole(options, folder, worst->number);
   print_study(results, folder, is_written ? std::optional<int>(worst->number) : std::nullopt);
   if (is_written || !worst)
-    return has_too_many_failures(results) ? exit_code::run_failed : exit_code::done;
+    return failure_of_run(results).empty() ? exit_code::done : exit_code::run_failed;
   throw std::runtime_error(fmt::format(
       "the report of member {}, the worst, could not be written; all else of the study is",
       worst->number));

@@ -11,6 +11,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/results_folder.h"
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results/run_identity.h"
@@ -113,6 +114,33 @@ bool is_same_part(const std::string& a, const std::string& b) {
              rounding * std::max(std::abs(one->value), std::abs(other->value));
 }
 
+/// What files beside a case that may be a model of it say; none of a model from elsewhere.
+std::vector<std::string> texts_beside(const fs::path& folder, const std::string& model) {
+  std::vector<std::string> texts;
+  for (const char* ending :
+       {"", ".yaml", "/block.yaml", "/crane.yaml", "/rope.yaml", "/standard.yaml"}) {
+    const fs::path file = folder / (model + ending);
+    std::error_code error;
+    if (fs::is_regular_file(file, error)) texts.push_back(read_file(file));
+  }
+  return texts;
+}
+
+/// The first file of a case, itself or a model beside it, that says other than its result was
+/// computed from; empty if there is none.
+std::string find_changed_file(const ComparedResult& result, const Document& document,
+                              const fs::path& folder) {
+  if (result.input.empty() || !say_the_same(result.input[0].yaml, document.text)) return "the case";
+  for (const InputText& input : result.input) {
+    if (input.name.empty()) continue;
+    const std::vector<std::string> texts = texts_beside(folder, input.name);
+    const auto is_it = [&](const std::string& text) { return say_the_same(input.yaml, text); };
+    if (!texts.empty() && std::ranges::none_of(texts, is_it))
+      return "the case's model " + input.name;
+  }
+  return "";
+}
+
 /// The results that a case was assessed into.
 std::optional<ComparedResult> read_case(const fs::path& file, Diagnostics& diagnostics) {
   const std::optional<Document> document = load_document(file, diagnostics);
@@ -131,11 +159,13 @@ std::optional<ComparedResult> read_case(const fs::path& file, Diagnostics& diagn
     return std::nullopt;
   }
   std::optional<ComparedResult> result = read_folder(folder, diagnostics);
-  if (result && (result->input.empty() || !say_the_same(result->input[0].yaml, document->text))) {
-    complain(
-        diagnostics, file,
-        fmt::format("the case was changed after its results in {} were computed", folder.string()),
-        {how + ", or name the folder to take the results as they are"});
+  if (!result) return std::nullopt;
+  const std::string changed = find_changed_file(*result, *document, file.parent_path());
+  if (!changed.empty()) {
+    complain(diagnostics, file,
+             fmt::format("{} was changed after its results in {} were computed", changed,
+                         folder.string()),
+             {how + ", or name the folder to take the results as they are"});
     return std::nullopt;
   }
   return result;
@@ -174,6 +204,29 @@ void tell_apart(const std::vector<fs::path>& paths, std::vector<ComparedResult>&
       results[i].name = paths[i].lexically_normal().string();
 }
 
+bool are_one_place(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error);
+}
+
+/// Two cases of one name have one folder of results: the lift of one would stand for both. A case
+/// beside its own folder is no mistake.
+void refuse_shared_results(const std::vector<fs::path>& paths,
+                           const std::vector<ComparedResult>& results, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < results.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const fs::path& folder = results[i].folder;
+      if (folder != results[k].folder || are_one_place(paths[i], paths[k]) ||
+          are_one_place(paths[i], folder) || are_one_place(paths[k], folder))
+        continue;
+      complain(diagnostics, paths[i],
+               fmt::format("{} stands for this and for {}", folder.string(), shown_path(paths[k])),
+               {"give the cases names of their own, or assess them into folders of their own with "
+                "--output and name these"});
+      break;
+    }
+}
+
 }  // namespace
 
 bool is_same_value(const std::string& value, const std::string& other) {
@@ -191,6 +244,7 @@ std::vector<ComparedResult> read_compared_results(const std::vector<fs::path>& p
   std::vector<ComparedResult> results;
   for (const fs::path& path : paths)
     if (auto result = read_result(path, diagnostics)) results.push_back(std::move(*result));
+  if (!diagnostics.has_errors()) refuse_shared_results(paths, results, diagnostics);
   if (diagnostics.has_errors()) throw InputError(diagnostics);
   tell_apart(paths, results);
   return results;

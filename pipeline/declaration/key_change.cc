@@ -13,28 +13,28 @@ namespace {
 /// A step of a key's path: a name, or a place in a list from 1 on.
 struct KeyStep {
   std::string name;
-  std::size_t place = 0;
+  std::optional<std::size_t> place;
 };
 
-/// "moves[2].by" in steps; none if the brackets are wrong.
+/// "moves[2].by" in steps; none if the brackets are wrong. A place may be 0, which no list has.
 std::optional<std::vector<KeyStep>> steps_of(std::string_view key) {
   std::vector<KeyStep> steps;
   while (!key.empty()) {
     if (key.front() == '[') {
       const std::size_t end = key.find(']');
-      KeyStep step;
+      std::size_t number = 0;
       const char* last = key.data() + std::min(end, key.size());
-      const auto [stop, error] = std::from_chars(key.data() + 1, last, step.place);
-      if (end == std::string_view::npos || error != std::errc() || stop != last || step.place == 0)
+      const auto [stop, error] = std::from_chars(key.data() + 1, last, number);
+      if (end == std::string_view::npos || error != std::errc() || stop != last)
         return std::nullopt;
-      steps.push_back(step);
+      steps.push_back({"", number});
       key.remove_prefix(end + 1);
       if (!key.empty() && key.front() == '.') key.remove_prefix(1);
       continue;
     }
     const std::string_view name = key.substr(0, key.find_first_of(".["));
     if (name.empty()) return std::nullopt;
-    steps.push_back({std::string(name), 0});
+    steps.push_back({std::string(name), std::nullopt});
     key.remove_prefix(name.size());
     if (!key.empty() && key.front() == '.') key.remove_prefix(1);
   }
@@ -52,9 +52,9 @@ std::vector<std::string> keys_of(const YAML::Node& table) {
 bool descend(const KeyStep& step, const std::string& way, const KeyChange& change,
              const Document& document, YAML::Node& node, Diagnostics& diagnostics) {
   const std::string place = way.empty() ? *document.file : *document.file + ": " + way;
-  if (step.place > 0) {
-    if (node.IsSequence() && step.place <= node.size()) {
-      node.reset(node[step.place - 1]);
+  if (step.place) {
+    if (node.IsSequence() && *step.place <= node.size()) {
+      node.reset(node[*step.place - 1]);
       return true;
     }
     diagnostics.error(change.mark, fmt::format("there is no {} to change", change.key),
@@ -85,7 +85,7 @@ std::optional<YAML::Node> node_to_change(const KeyChange& change, const Document
   std::string way;
   for (const KeyStep& step : steps_of(change.key).value_or(std::vector<KeyStep>{})) {
     if (!descend(step, way, change, document, node, diagnostics)) return std::nullopt;
-    way += step.place > 0 ? fmt::format("[{}]", step.place) : (way.empty() ? "" : ".") + step.name;
+    way += step.place ? fmt::format("[{}]", *step.place) : (way.empty() ? "" : ".") + step.name;
   }
   if (node.IsScalar() || node.IsNull()) return node;
   diagnostics.error(change.mark, fmt::format("{} is a {}; a key with one value can be changed",
@@ -175,12 +175,12 @@ std::optional<KeyChange> parse_key_change(std::string_view text, const Mark& mar
     change.key = place.substr(colon + 1);
   }
   if (sign != std::string_view::npos) change.value = text.substr(sign + 1);
-  if (change.key.find("[0]") != std::string::npos) {
+  const auto steps = steps_of(change.key);
+  if (steps && std::ranges::any_of(*steps, [](const KeyStep& step) { return step.place == 0U; })) {
     diagnostics.error(mark, fmt::format("\"{}\" has no place 0", change.key),
                       {"places of a list are counted from 1: centre_of_mass[1] is the first"});
     return std::nullopt;
   }
-  const auto steps = steps_of(change.key);
   if (steps && !steps->empty() && !change.value.empty()) return change;
   diagnostics.error(
       mark, fmt::format("\"{}\" changes nothing", text),

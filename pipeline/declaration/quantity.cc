@@ -371,7 +371,11 @@ double parse_number(std::string_view given) {
 }
 
 std::string format_quantity(double in_si, Dimension dimension) {
-  if (dimension == Dimension::ratio) return fmt::format("{:.6g}", in_si);
+  if (dimension == Dimension::ratio) {
+    // A count keeps its digits: "1000000", not "1e+06".
+    const bool is_count = in_si == std::trunc(in_si) && std::abs(in_si) < 1e15;
+    return is_count ? fmt::format("{:.0f}", in_si) : fmt::format("{:.6g}", in_si);
+  }
   const DimensionText& text = text_of(dimension);
   const std::string unit = text.example.substr(text.example.find(' ') + 1);
   const double in_its_unit = in_si / parse_quantity("1 " + unit, dimension);

@@ -44,6 +44,19 @@ auto count_keys(const YAML::Node& root, const Keys& keys) {
                        [&](const char* key) { return static_cast<bool>(root[key]); });
 }
 
+/// The kind that a document says, or else that of a lift case.
+FileKind kind_of_root(const YAML::Node& root) {
+  if (!root.IsMap()) return FileKind::lift_case;
+  if (root["mechanism"]) return FileKind::mechanism;
+  if (root["part"]) return FileKind::part;
+  if (root["study"]) return FileKind::study;
+  const YAML::Node node = root["kind"];
+  const std::string kind = node && node.IsScalar() ? node.Scalar() : std::string();
+  for (const auto& [name, of_model] : kinds_of_models)
+    if (kind == name) return of_model;
+  return FileKind::lift_case;
+}
+
 bool begins_as_xml(const fs::path& path) {
   std::ifstream stream(path);
   std::string word;
@@ -82,29 +95,23 @@ FileKind kind_of_file(const fs::path& path) {
   if (path.extension() == ".csv") return FileKind::rigging;
   Diagnostics ignored;  // the reader of the file says the same again
   const std::optional<Document> document = load_document(path, ignored);
-  if (!document || !document->root.IsMap()) return FileKind::lift_case;
-  if (document->root["mechanism"]) return FileKind::mechanism;
-  if (document->root["part"]) return FileKind::part;
-  if (document->root["study"]) return FileKind::study;
-  const YAML::Node node = document->root["kind"];
-  const std::string kind = node && node.IsScalar() ? node.Scalar() : std::string();
-  for (const auto& [name, of_model] : kinds_of_models)
-    if (kind == name) return of_model;
-  return FileKind::lift_case;
+  return document ? kind_of_root(document->root) : FileKind::lift_case;
 }
 
 bool complain_about_untold_kind(const fs::path& path, Diagnostics& diagnostics) {
-  const fs::path file = input_file(path);
-  if (kind_of_file(file) != FileKind::lift_case) return false;
   Diagnostics ignored;  // the reader of the file says the same again
-  const std::optional<Document> document = load_document(file, ignored);
-  if (!document || !document->root.IsMap()) return false;
-  const YAML::Node& root = document->root;
+  const std::optional<Document> document = load_document(input_file(path), ignored);
+  return document && complain_about_untold_kind(*document, diagnostics);
+}
+
+bool complain_about_untold_kind(const Document& document, Diagnostics& diagnostics) {
+  const YAML::Node& root = document.root;
+  if (!root.IsMap() || kind_of_root(root) != FileKind::lift_case) return false;
   if (count_keys(root, keys_of_cases) > 0) return false;
   if (const YAML::Node kind = root["kind"]; kind && kind.IsScalar()) {
     std::vector<std::string> names;
     for (const auto& [name, of_model] : kinds_of_models) names.emplace_back(name);
-    diagnostics.error(document->mark_of(kind),
+    diagnostics.error(document.mark_of(kind),
                       fmt::format("kind \"{}\" is not known", kind.Scalar()),
                       {names_hint("the kinds of models are", names, kind.Scalar())});
     return true;
@@ -116,7 +123,7 @@ bool complain_about_untold_kind(const fs::path& path, Diagnostics& diagnostics) 
   if (of_block == 0 && of_part == 0) return false;
   const bool is_block = of_block >= of_part;
   diagnostics.error(
-      document->mark_of(root),
+      document.mark_of(root),
       is_block ? "this is a block by its keys, and does not say so"
                : "this is a part by its keys, and has no name",
       {is_block ? "begin the file with \"kind: block\"" : "begin the file with \"part: NAME\""});

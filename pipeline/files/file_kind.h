@@ -7,6 +7,8 @@
 
 namespace blocklift::pipeline {
 
+struct Document;
+
 /// What an input file is, by what it begins with.
 enum class FileKind {
   lift_case,
@@ -44,5 +46,7 @@ FileKind kind_of_file(const std::filesystem::path& path);
 /// @returns whether it complained; false, too, of a file that cannot be read or has keys of a lift
 /// case.
 bool complain_about_untold_kind(const std::filesystem::path& path, Diagnostics& diagnostics);
+/// The same of a file that was read already.
+bool complain_about_untold_kind(const Document& document, Diagnostics& diagnostics);
 
 }  // namespace blocklift::pipeline

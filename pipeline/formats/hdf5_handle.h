@@ -59,6 +59,16 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
+/// Of what HDF5 says of a file that it could not read or write, beside buffers and offsets, the
+/// system's own words: "No space left on device".
+inline std::string reason_in_words(const std::string& description) {
+  constexpr std::string_view before = "error message = '";
+  const std::size_t begin = description.find(before);
+  if (begin == std::string::npos) return description;
+  const std::size_t end = description.find('\'', begin + before.size());
+  return description.substr(begin + before.size(), end - begin - before.size());
+}
+
 /// The innermost reason on HDF5's error stack, empty if there is none; clears the stack.
 inline std::string take_reason() {
   std::string reason;
@@ -69,7 +79,7 @@ inline std::string take_reason() {
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &reason);
   H5Eclear2(H5E_DEFAULT);
-  return reason;
+  return reason_in_words(reason);
 }
 
 }  // namespace blocklift::pipeline::hdf5

@@ -128,7 +128,8 @@ py::list sweep(const std::string& path, const std::string& folder, const std::st
     const Member whole = run_member(results.study, results.design.row(shown->number), shown->number,
                                     blocks, shown->folder);
     if (!whole.failure.empty()) throw std::runtime_error(whole.failure);
-    if (has_too_many_failures(results)) throw std::runtime_error(survivors_warning(results));
+    if (const std::string failure = failure_of_run(results); !failure.empty())
+      throw std::runtime_error(failure);
   });
   py::list list;
   for (const std::string& doubt : doubts) list.append(doubt);

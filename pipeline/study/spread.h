@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "pipeline/study/swings.h"
+
 namespace blocklift::pipeline {
 
 /// A quantile of a sample with the interval that holds that of the population at 95 %.
@@ -46,6 +48,7 @@ struct Spread {
   std::vector<ExtremeFit> extremes;  ///< none of fewer than 30 values, or of values all alike
   /// With each variable (Spearman); zero of what does not vary.
   Eigen::VectorXd rank_correlation;
+  Swings swings = {};  ///< with each variable; none of a search, which is no sample
 
   double worst() const { return worse_when_smaller ? smallest : largest; }
   int member_of_worst() const {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -164,6 +166,21 @@ Eigen::MatrixXd make_design(const StudyFile& study) {
     }
   }
   return design;
+}
+
+std::pair<double, double> middle_range(const StudyVariable& variable) {
+  constexpr double outside = 0.05;
+  if (variable.law || !variable.between.empty()) {
+    const OT::Distribution law = distribution_of(variable);
+    return {law.computeQuantile(outside)[0], law.computeQuantile(1 - outside)[0]};
+  }
+  std::vector<double> values;
+  for (const Located<Measure>& value : variable.values) values.push_back(value.value.value);
+  std::ranges::sort(values);
+  // The first that at least a twentieth of the values do not pass, and its like from above.
+  const auto count = static_cast<double>(values.size());
+  const auto below = static_cast<std::size_t>(std::ceil(outside * count - 1e-9)) - 1;
+  return {values[below], values[values.size() - 1 - below]};
 }
 
 std::string unit_text(const StudyVariable& variable) { return unit_of(exponents_of(variable)); }

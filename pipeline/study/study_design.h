@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <utility>
+
 #include <Eigen/Core>
 
 #include "pipeline/files/study/study_file.h"
@@ -20,6 +23,10 @@ std::string value_text(const StudyVariable& variable, double value, int digits =
 
 /// The dimension's unit of a variable's values, as UDUNITS reads it; empty for plain numbers.
 std::string unit_text(const StudyVariable& variable);
+
+/// The values of a variable between which the middle 90 % of all members lie, in SI units: of its
+/// law, or of its listed values, each as likely as the others.
+std::pair<double, double> middle_range(const StudyVariable& variable);
 
 /// Sobol' indices of a figure: how much of its variance each variable has by itself, and with all
 /// others together. With y of sample A, of B, and of A with the variable's column of B (E), less

@@ -31,8 +31,9 @@ constexpr const char* style =
     ".range{display:inline-block;position:relative;width:16em;height:.8em;"
     "background:linear-gradient(#888,#888) center/1px 100% no-repeat}"
     ".bar{position:absolute;top:.1em;height:.6em;background:#2f6db3}.bar.minus{background:#c2571a}"
-    ".figure{display:inline-block;width:3.4em}td{font-variant-numeric:tabular-nums}"
+    "td{font-variant-numeric:tabular-nums}"
     ".words td,.words th{text-align:left}"
+    ".tornado td+td{white-space:nowrap}.tornado .range{width:11em}"
     ".note{color:#5a6675}.scroll{overflow-x:auto}.even{table-layout:fixed}"
     "@media (prefers-color-scheme:dark){body{color:#e3e8ee;background:#14191f}"
     "th,td{border-color:#38424d}svg{background:#fff}.note{color:#a9b4c0}}";
@@ -255,29 +256,48 @@ std::string what_varies(const StudyFile& study) {
 }
 
 /// From the middle to the right for what is positive, to the left for what is negative.
+/// @param share of half the width.
 std::string bar(double share) {
   const double percent = 50 * std::min(1.0, std::abs(share));
   return fmt::format(
       "<span class=\"range\"><span class=\"bar{}\" style=\"left:{:.1f}%;width:{:.1f}%\"></span>"
-      "</span> <span class=\"figure\">{:+.2f}</span>",
-      share < 0 ? " minus" : "", share < 0 ? 50 - percent : 50.0, percent, share);
+      "</span>",
+      share < 0 ? " minus" : "", share < 0 ? 50 - percent : 50.0, percent);
 }
 
-/// Variables of a figure, the strongest first.
+/// "+12.3 (11.8 to 12.8)"; of a grid, which is no sample, without the interval.
+std::string swing_text(const StudyResults& results, const Swing& swing, double scale) {
+  if (!std::isfinite(swing.value)) return "not known";
+  const double value = scale * swing.value;
+  return (value > 0 ? "+" : "") + (results.is_sample()
+                                       ? with_interval(value, scale * swing.low, scale * swing.high)
+                                       : format_figure(value));
+}
+
+/// Inputs of a figure, the largest swing on top.
 std::string tornado(const StudyResults& results, const Spread& spread) {
-  std::vector<std::size_t> order(results.study.variables.size());
-  for (std::size_t v = 0; v < order.size(); ++v) order[v] = v;
-  const auto strength = [&](std::size_t v) { return std::abs(spread.rank_correlation[v]); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return strength(a) > strength(b); });
+  const std::vector<std::size_t> order = spread.swings.by_size();
+  const double largest = std::abs(spread.swings.of[order.front()].value);
+  const double scale = results.shown(spread.path).scale;
   std::string text =
-      "<table>\n" + cells({name_with_unit(results, spread.path), "rank correlation"}, "th");
-  for (const std::size_t v : order)
-    text +=
-        cells({escape_html(results.study.variables[v].name.value), bar(spread.rank_correlation[v])},
-              "td");
-  text += "</table>\n";
-  if (!spread.varies) text += "<p class=\"note\">It is the same in all lifts.</p>\n";
+      "<div class=\"scroll\"><table class=\"tornado\">\n" +
+      cells({name_with_unit(results, spread.path), "from", "to", "", "swing", "rank correlation"},
+            "th");
+  for (const std::size_t v : order) {
+    const StudyVariable& variable = results.study.variables[v];
+    const Swing& swing = spread.swings.of[v];
+    text += cells({escape_html(variable.name.value), value_text(variable, swing.from, 4),
+                   value_text(variable, swing.to, 4),
+                   bar(largest > 0 && std::isfinite(swing.value) ? swing.value / largest : 0),
+                   swing_text(results, swing, scale),
+                   fmt::format("{:+.2f}", spread.rank_correlation[static_cast<Eigen::Index>(v)])},
+                  "td");
+  }
+  text += "</table></div>\n";
+  if (!spread.varies) return text + "<p class=\"note\">It is the same in all lifts.</p>\n";
+  if (std::isfinite(spread.swings.linear_share))
+    text += fmt::format("<p class=\"note\">Straight lines explain {:.1f} % of its variance.</p>\n",
+                        100 * spread.swings.linear_share);
   return text;
 }
 
@@ -395,7 +415,7 @@ std::string by_chance(const StudyResults& results) {
         return member.failure.empty() && member.number < results.independent();
       }));
   if (!results.is_sample() || count < 4) return "";
-  return fmt::format(" With {:g} lifts what lies within ±{:.2f} may be chance.", count,
+  return fmt::format(" With {:.0f} lifts what lies within ±{:.2f} may be chance.", count,
                      std::min(1.0, 1.96 / std::sqrt(count - 1)));
 }
 
@@ -426,8 +446,10 @@ std::string study_page(const StudyResults& results) {
     page += leading_of_grid(results);
   page += sensitivities(results);
   page +=
-      "<h2>What they depend on</h2>\n<p class=\"note\">Rank correlation (Spearman) of each "
-      "figure with each value that varies." +
+      "<h2>What they depend on</h2>\n<p class=\"note\">Swing: how far a figure goes while one "
+      "value goes through the middle 90 % of what it takes and the others stay, by straight lines "
+      "through all lifts (least squares); in brackets the interval of 95 %. Beside it the rank "
+      "correlation (Spearman)." +
       by_chance(results) + "</p>\n";
   for (const std::size_t i : results.leading) page += tornado(results, results.spreads[i]);
   return page + what_varies(study) + all_figures(results) + "</body></html>\n";

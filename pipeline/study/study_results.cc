@@ -17,7 +17,6 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/preparation.h"
 #include "pipeline/formats/results_store.h"
-#include "pipeline/terminal/text_table.h"
 
 namespace blocklift::pipeline {
 namespace {
@@ -95,6 +94,15 @@ Json spread_json(const StudyFile& study, const Spread& spread) {
                         {"p_value", fit.p_value}});
   for (std::size_t v = 0; v < study.variables.size(); ++v)
     correlations[study.variables[v].name.value] = spread.rank_correlation[v];
+  Json swings = Json::object();
+  for (const std::size_t v : spread.swings.by_size()) {
+    const Swing& swing = spread.swings.of[v];
+    swings[study.variables[v].name.value] = {{"from", swing.from},
+                                             {"to", swing.to},
+                                             {"swing", number_or_null(swing.value)},
+                                             {"low", number_or_null(swing.low)},
+                                             {"high", number_or_null(swing.high)}};
+  }
   return {{"name", spread.path},
           {"worse_when", spread.worse_when_smaller ? "smaller" : "larger"},
           {"mean", spread.mean},
@@ -107,7 +115,9 @@ Json spread_json(const StudyFile& study, const Spread& spread) {
           {"member_of_worst", spread.member_of_worst()},
           {"quantiles", std::move(quantiles)},
           {"extremes", std::move(extremes)},
-          {"rank_correlation", std::move(correlations)}};
+          {"rank_correlation", std::move(correlations)},
+          {"swings", std::move(swings)},
+          {"linear_share", number_or_null(spread.swings.linear_share)}};
 }
 
 Json sensitivity_json(const StudyFile& study, const Sensitivity& sensitivity) {
@@ -163,12 +173,14 @@ Json limits_json(const StudyResults& results) {
   for (std::size_t p = 0; p < seas.periods.size(); ++p)
     for (std::size_t h = 0; h < seas.headings.size(); ++h) {
       const std::size_t cell = p * seas.headings.size() + h;
+      const LimitingHeight& limit = seas.heights[cell];
+      const bool is_known = limit.kind != LimitKind::unknown;
       Json state{{"peak_period_s", seas.periods[p]},
                  {"heading_rad", seas.headings[h]},
-                 {"significant_height_m", seas.heights[cell].height},
-                 {"known_as", name_of(seas.heights[cell].kind)},
+                 {"significant_height_m", is_known ? Json(limit.height) : Json(nullptr)},
+                 {"known_as", name_of(limit.kind)},
                  {"governed_by", seas.governing[cell]},
-                 {"alpha", results.alpha.at(seas.heights[cell].height)}};
+                 {"alpha", is_known ? Json(results.alpha.at(limit.height)) : Json(nullptr)}};
       if (seas.failed[cell] >= 0) state["failed_member"] = seas.failed[cell];
       states.push_back(std::move(state));
     }
@@ -371,6 +383,9 @@ Spread spread_of(const StudyResults& results, const std::string& path) {
   const bool is_all = drawn.size() == numbers.size();
   Spread spread = find_spread(path, is_all ? all : results.sample_of(path), drawn, results.design,
                               results.is_worse_when_smaller(path));
+  if (results.study.design != StudyDesign::search)
+    spread.swings =
+        find_swings(results.study, results.design, is_all ? all : results.sample_of(path), drawn);
   const auto smallest = std::min_element(all.begin(), all.end());
   const auto largest = std::max_element(all.begin(), all.end());
   spread.smallest = *smallest;
@@ -483,10 +498,18 @@ std::vector<std::string> study_warnings(const StudyResults& results) {
   return warnings;
 }
 
-bool has_too_many_failures(const StudyResults& results) {
+std::string failure_of_run(const StudyResults& results) {
   constexpr double largest_share = 0.05;
-  return !survivors_warning(results).empty() &&
-         results.failed() > largest_share * static_cast<double>(results.members.size());
+  const int failed = results.failed();
+  if (results.is_sample())
+    return failed > largest_share * static_cast<double>(results.members.size())
+               ? survivors_warning(results)
+               : "";
+  if (failed == 0 || results.limits || results.study.design == StudyDesign::search) return "";
+  const auto first =
+      std::ranges::find_if(results.members, [](const Member& one) { return !one.failure.empty(); });
+  return fmt::format("{} of {} members of the grid failed; the first, member {}: {}", failed,
+                     results.members.size(), first->number, first->failure);
 }
 
 std::vector<std::string> limiting_sentences(const StudyResults& results) {
@@ -498,44 +521,6 @@ std::vector<std::string> limiting_sentences(const StudyResults& results) {
     std::ranges::move(sentences_of_forecast(*results.in_forecast, results.alpha),
                       std::back_inserter(sentences));
   return sentences;
-}
-
-std::string study_text(const StudyResults& results) {
-  if (results.limits) {
-    std::string text = limiting_text(*results.limits);
-    for (const std::string& sentence : limiting_sentences(results))
-      text += wrapped_sentence(sentence);
-    return text;
-  }
-  const bool is_sample = results.is_sample();
-  std::vector<TableColumn> columns{{"figure"}, {"", 0}, {"mean", 1}, {"deviation", 1}};
-  if (is_sample) columns.push_back({"95 %", 1});
-  columns.insert(columns.end(), {{"worst", 1}, {"member", 6}});
-  TextTable table(std::move(columns));
-  bool is_too_small = false;
-  for (const std::size_t i : results.leading) {
-    const Spread& spread = results.spreads[i];
-    const ShownFigure figure = results.shown(spread.path);
-    const auto shown = [&](double value, int digits) {
-      return format_figure(figure.scale * value, digits);
-    };
-    std::vector<TextTable::Cell> row{figure.name, figure.unit, shown(spread.mean, 4),
-                                     shown(spread.deviation, 3)};
-    const Quantile& quantile = spread.quantile_of_better(0.95);
-    if (is_sample) row.emplace_back(shown(quantile.value, 4));
-    row.emplace_back(shown(spread.worst(), 4));
-    row.emplace_back(std::to_string(spread.member_of_worst()));
-    table.add_row(std::move(row));
-    is_too_small |=
-        is_sample && !std::isfinite(spread.worse_when_smaller ? quantile.low : quantile.high);
-  }
-  std::string text = table.text();
-  if (is_too_small)
-    text += wrapped_sentence(
-        fmt::format("so few lifts say little of their 95 % values: that of all such lifts may be "
-                    "worse than the worst here; {} lifts or more give it an interval",
-                    fewest_for_interval(0.95)));
-  return text;
 }
 
 void write_study(const StudyResults& results, const std::filesystem::path& folder) {

@@ -80,8 +80,10 @@ std::vector<std::string> left_out_warnings(const StudyResults& results);
 /// All that is doubtful about a study, in sentences: each member that failed, and what both of
 /// these say.
 std::vector<std::string> study_warnings(const StudyResults& results);
-/// Did more than 5 % of a sample's members fail? Their run is taken as failed then.
-bool has_too_many_failures(const StudyResults& results);
+/// Why the whole run is taken as failed: more than 5 % of a sample's members failed, or one of a
+/// grid, each of which was asked for. Empty where it is not: the limits of seas take account of
+/// members that failed, and a search passes them by.
+std::string failure_of_run(const StudyResults& results);
 
 /// What a study of limiting seas says beside its table, for terminal and page: what is not known,
 /// how much of scatter table and forecast is workable.

@@ -226,9 +226,9 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
   const std::size_t errors_before = diagnostics.error_count();
   library.begin_case();
   const fs::path file = case_file(path, diagnostics);
-  if (file.empty() || complain_about_untold_kind(file, diagnostics)) return std::nullopt;
+  if (file.empty()) return std::nullopt;
   const std::optional<Document> document = library.read_case(file, diagnostics);
-  if (!document) return std::nullopt;
+  if (!document || complain_about_untold_kind(*document, diagnostics)) return std::nullopt;
 
   LiftCase lift_case;
   lift_case.file = file;
@@ -253,13 +253,13 @@ std::optional<LiftCase> read_lift_case(const fs::path& path, ModelLibrary& libra
 }
 
 LiftCase read_lift_case(const fs::path& path, std::vector<KeyChange> changes) {
-  refuse_other_kinds(path);
   Diagnostics diagnostics;
   ModelLibrary library = ModelLibrary::of_installation();
   library.set_changes(std::move(changes));
   std::optional<LiftCase> lift_case = read_lift_case(path, library, diagnostics);
-  if (!lift_case) throw InputError(diagnostics);
-  return std::move(*lift_case);
+  if (lift_case) return std::move(*lift_case);
+  refuse_other_kinds(path);
+  throw InputError(diagnostics);
 }
 
 }  // namespace blocklift::pipeline

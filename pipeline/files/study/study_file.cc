@@ -229,6 +229,33 @@ void check_keys(const StudyFile& study, Reading& reading) {
     }
 }
 
+/// A figure that is named twice is a slip: another one, or another value, may have been meant.
+void check_figures_are_named_once(const std::vector<const Located<std::string>*>& figures,
+                                  const char* where, Reading& reading) {
+  std::map<std::string_view, int> lines;
+  for (const Located<std::string>* figure : figures) {
+    const auto [first, is_new] = lines.try_emplace(figure->value, figure->mark.line);
+    if (!is_new)
+      reading.error(figure->mark, fmt::format("{} is {} already, in line {}", figure->value, where,
+                                              first->second));
+  }
+}
+
+void check_figures(const StudyFile& study, Reading& reading) {
+  std::vector<const Located<std::string>*> figures, limited, at_most, at_least;
+  for (const Located<std::string>& figure : study.figures) figures.push_back(&figure);
+  check_figures_are_named_once(figures, "among figures", reading);
+  if (study.limits)
+    for (const QuantityLimit& quantity : study.limits->quantities)
+      limited.push_back(&quantity.figure);
+  check_figures_are_named_once(limited, "limited", reading);
+  // A figure may well have a bound on either side.
+  for (const FigureBound& bound : study.subject_to)
+    (bound.at_most ? at_most : at_least).push_back(&bound.figure);
+  check_figures_are_named_once(at_most, "bounded by at_most", reading);
+  check_figures_are_named_once(at_least, "bounded by at_least", reading);
+}
+
 /// The variable that a limit names, if it can be that.
 void check_named_variable(const StudyFile& study, const std::optional<Located<std::string>>& name,
                           const Exponents& exponents, Reading& reading) {
@@ -427,6 +454,7 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
     reading.error(mark, "the number of members is missing");
   if (study.variables.empty()) reading.error(mark, "nothing varies");
   check_keys(study, reading);
+  check_figures(study, reading);
   check_limits(study, reading);
   check_search(study, reading, mark);
   check_correlations(study, reading);
@@ -440,7 +468,7 @@ void check_study(const StudyFile& study, Reading& reading, const Mark& mark) {
   }
   if (is_grid && size > most_members)
     reading.error(mark,
-                  fmt::format("the grid has {:g} members; {} are allowed", size, most_members));
+                  fmt::format("the grid has {:.0f} members; {} are allowed", size, most_members));
 }
 
 }  // namespace

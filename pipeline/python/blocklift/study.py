@@ -49,7 +49,8 @@ class Study:
         table = pandas.DataFrame(self.summary["figures"])
         if table.empty:  # no figure that all members have
             return table
-        return table.set_index("name").drop(columns=["quantiles", "extremes", "rank_correlation"])
+        nested = ["quantiles", "extremes", "rank_correlation", "swings"]
+        return table.set_index("name").drop(columns=nested, errors="ignore")
 
     @property
     def worst(self) -> Result:
@@ -83,6 +84,22 @@ class Study:
         return table
 
     @property
+    def swings(self) -> pandas.DataFrame:
+        """How far each figure goes, in its unit, while one variable goes through the middle 90 % of
+        its values and the others stay, by straight lines: swing, with low and high, its interval
+        of 95 %, and from and to, the variable's values, SI units. A row a figure and variable, the
+        largest swing of a figure first; empty of a search."""
+        import pandas
+
+        rows = [{"figure": figure["name"], "variable": variable, **swing}
+                for figure in self.summary["figures"]
+                for variable, swing in figure.get("swings", {}).items()]
+        table = pandas.DataFrame(rows)
+        if not rows:
+            return table
+        return table.set_index(["figure", "variable"]).astype(float)
+
+    @property
     def sobol_indices(self) -> pandas.DataFrame:
         """Sobol' indices by figure and variable, first order and total, with their bounds; empty of
         a study whose design is not for them."""
@@ -97,8 +114,8 @@ class Study:
     @property
     def limits(self) -> xarray.Dataset:
         """The limiting significant height (heading, period), m, governed_by, the figure that
-        decides, and alpha, the share of the height that may be forecast, of a study of sea states.
-        Raises KeyError of another one."""
+        decides, and alpha, the share of the height that may be forecast, of a study of sea states:
+        not numbers where the lift at the lowest height failed. Raises KeyError of another one."""
         import pandas
 
         if "limits" not in self.summary:
@@ -106,6 +123,8 @@ class Study:
         table = pandas.DataFrame(self.summary["limits"]["sea_states"]).rename(
             columns={"peak_period_s": "period", "heading_rad": "heading",
                      "significant_height_m": "height"})
+        for name in {"height", "alpha"} & set(table.columns):
+            table[name] = table[name].astype(float)  # a limit that is not known has neither
         data: xarray.Dataset = table.set_index(["heading", "period"]).to_xarray()
         for name, unit in (("height", "m"), ("period", "s"), ("heading", "rad")):
             data[name].attrs["units"] = unit
@@ -129,24 +148,26 @@ class Study:
 
     def plot_tornado(self, figure: str | None = None,
                      ax: matplotlib.axes.Axes | None = None) -> matplotlib.axes.Axes:
-        """Draws how much each variable has to do with a figure, the study's first if none is named:
-        rank correlations, the largest on top.
+        """Draws how far each variable moves a figure, the study's first if none is named: its
+        swings with their intervals of 95 %, in its unit, the largest on top. What is not known
+        has no bar; a search has no swings.
 
         Raises KeyError if there is no such figure.
         """
-        correlations = self.correlations
-        if figure is None and correlations.empty:
-            raise KeyError(f"{self.folder}: the study has no figure that all its members have")
-        name = figure if figure is not None else correlations.index[0]
-        row = correlations.loc[name]
+        swings = self.swings
+        if figure is None and swings.empty:
+            raise KeyError(f"{self.folder}: the study has no figure with swings")
+        name = figure if figure is not None else swings.index[0][0]
+        # The file has the largest first; a chart is filled from below.
+        bars = swings.loc[name].iloc[::-1]
         if ax is None:
             import matplotlib.pyplot
 
             ax = matplotlib.pyplot.subplots()[1]
-        row = row.reindex(row.abs().sort_values().index)
-        ax.barh(row.index, row.values)
+        reach = [(bars.swing - bars.low).fillna(0), (bars.high - bars.swing).fillna(0)]
+        ax.barh(bars.index, bars.swing, xerr=reach)
         ax.axvline(0, color="black", linewidth=0.8)
-        ax.set_xlabel(f"rank correlation with {name}")
+        ax.set_xlabel(f"swing of {name}")
         return ax
 
     def _table_of(self, kind: str, index: list[str]) -> pandas.DataFrame:
@@ -169,8 +190,8 @@ def sweep(study: str | os.PathLike[str], output: str | os.PathLike[str], *,
     not gone on with, since nobody knows whether its laws were the same.
 
     Raises InputError, also where the folder has members of an earlier run with laws; RunError, also
-    where more than 5 % of a sample's members failed: all results are written then, and
-    `Study(output)` has them; with laws what :meth:`Case.simulate` raises.
+    where more than 5 % of a sample's members failed, or one of a grid without limits: all results
+    are written then, and `Study(output)` has them; with laws what :meth:`Case.simulate` raises.
     """
     if laws is None:
         run(["sweep", study, "--output", output,

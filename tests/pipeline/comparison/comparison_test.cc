@@ -245,6 +245,32 @@ TEST_F(ComparedFolders, ACaseStandsForItsResults) {
               HasSubstr("the case was changed after its results in results/two-ropes"));
 }
 
+TEST_F(ComparedFolders, AModelBesideTheCaseThatWasChangedIsNamed) {
+  folder_.write("lift/case.yaml", "case: two-ropes\nsettle: 3 s\ngravity: 9.81 m/s^2\n");
+  std::filesystem::create_directory("results");
+  std::filesystem::copy("before", "results/two-ropes");
+  folder_.write("lift/block.yaml", "kind: block\nmass: 8000 kg  # as before\n");
+  EXPECT_EQ(read_compared_result("lift").name, "lift");
+  folder_.write("lift/block.yaml", "kind: block\nmass: 9 t\n");
+  EXPECT_THAT(refusal_of({"lift", "after"}),
+              HasSubstr("lift/case.yaml: error: the case's model block was changed after its "
+                        "results in results/two-ropes were computed"));
+}
+
+// Two cases of one name were assessed into one folder: it holds the lift of the later.
+TEST_F(ComparedFolders, TwoCasesDoNotStandForOneResult) {
+  const std::string yaml = "case: two-ropes\nsettle: 3 s\ngravity: 9.81 m/s^2\n";
+  folder_.write("lift/case.yaml", yaml);
+  folder_.write("heavy/case.yaml", yaml);
+  std::filesystem::create_directory("results");
+  std::filesystem::copy("before", "results/two-ropes");
+  EXPECT_THAT(refusal_of({"lift", "heavy"}),
+              HasSubstr("heavy: error: results/two-ropes stands for this and for lift\n"
+                        "    give the cases names of their own"));
+  EXPECT_EQ(read_compared_results({"lift", "results/two-ropes"}).size(), 2U);
+  EXPECT_EQ(read_compared_results({"lift", "lift/../lift"}).size(), 2U);
+}
+
 TEST_F(ComparedFolders, OthersAreRefusedAllAtOnce) {
   folder_.write("empty/notes.txt", "");
   folder_.write("damaged/summary.json", "{");

@@ -125,6 +125,8 @@ TEST(KeyChange, IsRefusedWhereItSaysNothing) {
        {"", "mass", "mass=", "=3 t", "moves[x].by=1 m", "moves[1.by=1 m", "block:=3 t"})
     EXPECT_THAT(changed_by(text), HasSubstr("changes nothing")) << text;
   EXPECT_THAT(changed_by("moves[0].by=1 m"), HasSubstr("places of a list are counted from 1"));
+  EXPECT_THAT(changed_by("moves[00].by=1 m"), HasSubstr("\"moves[00].by\" has no place 0"));
+  EXPECT_THAT(changed_by("moves[1].by[0=1 m"), HasSubstr("changes nothing"));
 }
 
 TEST(KeyChange, NamesAModelBeforeAColon) {

@@ -1,7 +1,9 @@
 #include "pipeline/formats/results_store.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -10,6 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/formats/hdf5_exit.h"
+
 namespace blocklift::pipeline {
 namespace {
 
@@ -17,6 +21,12 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+
+/// As the program does at its beginning: HDF5 would fall over a file that it could not close.
+[[maybe_unused]] const bool is_hdf5_told = [] {
+  leave_no_files_to_hdf5();
+  return true;
+}();
 
 /// A folder that vanishes with the test.
 class ResultsStore : public ::testing::Test {
@@ -169,6 +179,24 @@ TEST_F(ResultsStore, ErrorsNameFileAndDatasetAndSayWhatIsThere) {
   EXPECT_THAT(results_error_of([&] { ResultsReader(folder_ / "broken.h5"); }),
               HasSubstr("not a readable HDF5 file"));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+// As on a full disk, but for the system's words. HDF5 adds time, buffer and offsets.
+TEST_F(ResultsStore, WhatCannotBeWrittenIsSaidInTheSystemsWords) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{4096, before.rlim_max};
+  const auto signal_before = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string error = results_error_of([&] {
+    ResultsWriter writer(folder_ / "results.h5");
+    writer.write_text("/long", std::string(100000, 'x'), "more than fits");
+    writer.finish();
+  });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, signal_before);
+  EXPECT_THAT(error, ::testing::EndsWith("(HDF5: File too large)"));
+  EXPECT_THAT(files(), IsEmpty());
 }
 
 TEST_F(ResultsStore, FilesAreReplacedWholeAndFoldersMade) {

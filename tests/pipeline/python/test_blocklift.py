@@ -363,8 +363,16 @@ class StudyTest(InATemporaryFolder):
         median = study.quantiles.loc[(figure, 0.5)]
         self.assertAlmostEqual(median.value, members[figure].median(), delta=1e-6 * median.value)
         self.assertTrue(median.low < median.value < median.high)
+        # Of 2 t the middle 90 %.
+        swing = study.swings.loc[(figure, "weight")]
+        self.assertAlmostEqual(swing["to"] - swing["from"], 1800, places=6)
+        self.assertAlmostEqual(swing.swing, ratio.mean() * 1800, delta=0.01 * swing.swing)
+        self.assertTrue(swing.low < swing.swing < swing.high)
         axes = study.plot_tornado(figure)
-        self.assertEqual(axes.get_xlabel(), f"rank correlation with {figure}")
+        self.assertEqual(axes.get_xlabel(), f"swing of {figure}")
+        self.assertAlmostEqual(axes.patches[0].get_width(), swing.swing)
+        with self.assertRaises(KeyError):
+            study.plot_tornado("ropes.R9.max_static_tension_N")
         self.assertEqual(len(study.sobol_indices), 0)
         self.assertRegex(repr(study), r"^<Study \w+, \d+ members, 0 failed, out>$")
         for other in ("limits", "search", "best"):
@@ -374,8 +382,9 @@ class StudyTest(InATemporaryFolder):
     def test_failed_members_are_warned_of(self):
         study = self.set_down()
         Path("grid.yaml").write_text(study + "design: grid\n", encoding="utf-8")
-        with self.assertWarnsRegex(blocklift.LiftWarning, "^member 1 failed: stage .* waits for R1"):
-            grid = blocklift.sweep("grid.yaml", "grid", workers=1)
+        with self.assertRaisesRegex(blocklift.RunError, "member 1 failed: stage .* waits for R1"):
+            blocklift.sweep("grid.yaml", "grid", workers=1)
+        grid = blocklift.Study("grid")
         self.assertEqual(len(grid.summary["failures"]), 1)
         self.assertEqual(len(grid.quantiles), 0)
         Path("half.yaml").write_text(study + "members: 4\n", encoding="utf-8")
@@ -407,12 +416,17 @@ class StudyTest(InATemporaryFolder):
 
     def test_limiting_seas(self):
         states = [{"peak_period_s": period, "heading_rad": heading, "known_as": "interpolated",
-                   "significant_height_m": 0.1 * period + heading, "governed_by": "swing"}
+                   "significant_height_m": 0.1 * period + heading, "governed_by": "swing",
+                   "alpha": 0.8}
                   for period in (5.0, 8.0) for heading in (0.0, 1.5)]
+        states[0].update(significant_height_m=None, alpha=None, known_as="unknown")
         Path("study.json").write_text(
             json.dumps({"figures": [], "limits": {"alpha": 1, "sea_states": states}}))
         limits = blocklift.Study(".").limits
         self.assertAlmostEqual(float(limits.height.sel(heading=1.5, period=8)), 2.3)
+        self.assertTrue(np.isnan(limits.height.sel(heading=0, period=5)))
+        self.assertTrue(np.isnan(limits.alpha.sel(heading=0, period=5)))
+        self.assertEqual(float(limits.alpha.sel(heading=1.5, period=5)), 0.8)
         self.assertEqual(limits.height.attrs["units"], "m")
         self.assertEqual(str(limits.governed_by.sel(heading=0, period=5).values), "swing")
 

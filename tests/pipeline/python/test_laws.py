@@ -209,8 +209,10 @@ class LawTest(InATemporaryFolder):
     def test_failed_members_are_warned_of_as_the_program_does(self):
         study = self.set_down()
         Path("grid.yaml").write_text(study + "design: grid\n", encoding="utf-8")
-        with self.assertWarnsRegex(blocklift.LiftWarning, "^member 1 failed: stage .* waits for R1"):
+        with self.assertRaisesRegex(blocklift.RunError,
+                                    "1 of 2 members .*, member 1: stage .* waits for R1"):
             blocklift.sweep("grid.yaml", "grid", laws={})
+        self.assertEqual(len(blocklift.Study("grid").members), 2)
         Path("half.yaml").write_text(study + "members: 4\n", encoding="utf-8")
         with self.assertRaisesRegex(blocklift.RunError, "2 of 4 members failed"):
             blocklift.sweep("half.yaml", "half", laws={})

@@ -10,10 +10,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/study/figure_limit.h"
 #include "pipeline/study/study_design.h"
+#include "pipeline/study/study_results.h"
 #include "tests/pipeline/temporary_folder.h"
 
 namespace blocklift::pipeline {
@@ -140,6 +142,13 @@ TEST_F(LinearLift, KnowsNothingWhereTheLowestSeaFailed) {
   EXPECT_EQ(seas.height_at(8, 45 * degree), 0);
   EXPECT_EQ(seas.height_at(7, 90 * degree), 0);
   EXPECT_NEAR(seas.height_at(8, 0), 1.5, 1e-12);
+  // What is not known is no number in the file, either.
+  const auto json = study_json(evaluate_study(study_, design_, members_));
+  const auto& states = json["limits"]["sea_states"];
+  EXPECT_EQ(states[5]["known_as"], "unknown");
+  EXPECT_TRUE(states[5]["significant_height_m"].is_null());
+  EXPECT_TRUE(states[5]["alpha"].is_null());
+  EXPECT_EQ(states[4]["alpha"], 1);
 }
 
 TEST_F(LinearLift, WorksAsOftenAsTheTableHasSuchSeas) {

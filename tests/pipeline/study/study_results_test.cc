@@ -47,12 +47,18 @@ StudyResults results_with_failures(int failed, StudyDesign design) {
 TEST(StudyResults, WarnThatStatisticsAreOfTheSurvivors) {
   const auto few = results_with_failures(2, StudyDesign::random);  // 5 %
   EXPECT_THAT(survivors_warning(few), ::testing::HasSubstr("2 of 40 members failed"));
-  EXPECT_FALSE(has_too_many_failures(few));
+  EXPECT_EQ(failure_of_run(few), "");
   EXPECT_EQ(study_json(few)["warning"], survivors_warning(few));
   EXPECT_THAT(study_page(few), ::testing::HasSubstr("2 of 40 members failed"));
-  EXPECT_TRUE(has_too_many_failures(results_with_failures(3, StudyDesign::random)));
+  EXPECT_THAT(failure_of_run(results_with_failures(3, StudyDesign::random)),
+              ::testing::HasSubstr("3 of 40 members failed"));
   EXPECT_FALSE(study_json(results_with_failures(0, StudyDesign::random)).contains("warning"));
-  EXPECT_FALSE(has_too_many_failures(results_with_failures(9, StudyDesign::grid)));
+  // Of a grid every member is asked for.
+  EXPECT_THAT(
+      failure_of_run(results_with_failures(1, StudyDesign::grid)),
+      ::testing::HasSubstr("1 of 40 members of the grid failed; the first, member 0: case"));
+  EXPECT_EQ(failure_of_run(results_with_failures(0, StudyDesign::grid)), "");
+  EXPECT_EQ(failure_of_run(results_with_failures(9, StudyDesign::search)), "");
 }
 
 // A grid lays its values out; what is drawn tells of all such lifts.

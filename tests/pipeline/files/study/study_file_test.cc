@@ -86,6 +86,35 @@ TEST(StudyFile, RefusesDesignsThatMakeNoSense) {
               HasSubstr("one of values, spread and between is due"));
 }
 
+// The second of two may have been meant to be another.
+TEST(StudyFile, RefusesAFigureThatIsNamedTwice) {
+  const std::string grid =
+      "design: grid\nvary:\n  a: {keys: [x], values: [1 m]}\n  b: {keys: [y], values: [4 s]}\n";
+  EXPECT_THAT(complaints(grid + "figures:\n  - ropes.R1.slack\n  - other\n  - ropes.R1.slack\n"),
+              HasSubstr("study.yaml:10:5: error: ropes.R1.slack is among figures already, in line "
+                        "8\n1 error"));
+  EXPECT_THAT(complaints(grid + "limits: {height: a, period: b,\n"
+                                "  of: [{figure: f, at: 3}, {figure: f, at: 4}]}\n"),
+              HasSubstr("study.yaml:8:37: error: f is limited already, in line 8\n1 error"));
+  const std::string search =
+      "design: search\nmembers: 20\nminimise: f\nvary: {a: {keys: [x], between: [1, 2]}}\n"
+      "subject_to:\n  - {figure: g, at_most: 3}\n";
+  EXPECT_EQ(complaints(search + "  - {figure: g, at_least: 1}\n"), "");
+  EXPECT_THAT(complaints(search + "  - {figure: g, at_most: 1}\n"),
+              HasSubstr("study.yaml:9:14: error: g is bounded by at_most already, in line 8"));
+}
+
+TEST(StudyFile, WritesCountsInFull) {
+  const std::string vary = "vary: {a: {keys: [x], values: [1, 2]}}\n";
+  EXPECT_THAT(complaints("members: 2000000\n" + vary),
+              HasSubstr("members \"2000000\" must be from 1 to 1000000\n"));
+  std::string values = "1";
+  for (int value = 2; value <= 2000; ++value) values += ", " + std::to_string(value);
+  EXPECT_THAT(complaints("design: grid\nvary:\n  a: {keys: [x], values: [" + values +
+                         "]}\n  b: {keys: [y], values: [" + values + "]}\n"),
+              HasSubstr("the grid has 4000000 members; 1000000 are allowed"));
+}
+
 // What could not be read is complained of once: no rule has anything to say of it.
 TEST(StudyFile, SaysOneThingOfOneBadValue) {
   const auto expect_one = [](const std::string& lines, const char* text) {
