@@ -167,6 +167,7 @@ class Cells {
     note_unused_parts(line_of_part, parts_used);
     model_.scopes.push_back(std::move(whole));
     for (AbaqusScope& one : instances) model_.scopes.push_back(std::move(one));
+    lines_.push_back(model_.line_read);
     model_.scopes.push_back(std::move(assembly));
   }
 
@@ -174,6 +175,7 @@ class Cells {
   void note_unused_parts(const std::map<std::string, SourceLine>& line_of_part,
                          const std::set<std::string>& used) {
     for (const auto& [name, line] : line_of_part) {
+    model_.line_read = block.line;
       if (used.contains(name)) continue;
       const std::string text = fmt::format("*PART: no *INSTANCE takes part \"{}\"", name);
       if (used.empty())
@@ -233,8 +235,10 @@ class Cells {
     if (!(place.cwiseAbs().maxCoeff() < 1e7))
       throw CardError{fmt::format("node {} lies farther than 10,000 km away", label)};
     const auto vertex = static_cast<int>(model_.deck.mesh.vertices.size());
-    if (!scope().nodes.try_emplace(label, vertex).second)
-      throw CardError{fmt::format("node {} is there twice", label)};
+    const auto [first, is_new] = scope().nodes.try_emplace(label, vertex);
+    if (!is_new)
+      throw CardError{fmt::format("node {} is there twice, first at {}", label,
+                                  model_.log.place(lines_[first->second]))};
     model_.deck.mesh.vertices.push_back(place);
     labels_.push_back(label);
     scope_of_.push_back(scope_);
@@ -398,8 +402,10 @@ class Cells {
 
   void add_element(AbaqusDeckElement element, const std::string& set) {
     const auto place = static_cast<int>(model_.elements.size());
-    if (!scope().elements.try_emplace(element.label, place).second)
-      throw CardError{fmt::format("element {} is there twice", element.label)};
+    const auto [first, is_new] = scope().elements.try_emplace(element.label, place);
+    if (!is_new)
+      throw CardError{fmt::format("element {} is there twice, first at {}", element.label,
+                                  model_.log.place(model_.elements[first->second].line))};
     model_.elements.push_back(std::move(element));
     if (!set.empty()) scope().element_sets[set].push_back(place);
   }
@@ -428,6 +434,7 @@ class Cells {
     model_.for_lines(block, [&](const std::vector<std::string_view>& fields) {
       if (generate) {
         const long from = abaqus_label(fields.front(), "first"),
+  std::vector<SourceLine> lines_;  ///< of nodes
                    to = fields.size() > 1 ? abaqus_label(fields[1], "last") : from,
                    step = fields.size() > 2 ? abaqus_label(fields[2], "step") : 1;
         for (const long label : known_labels(known, from, to, step))
@@ -481,6 +488,7 @@ class Cells {
     model_.for_lines(block, [&](const std::vector<std::string_view>& fields) {
       if (surface.is_of_nodes) {
         for (const int node : model_.nodes_of(scope(), fields.front()))
+      line_read = line.line;
           surface.nodes[node] = abaqus_real(fields, 1, "area", 1.0);
         return;
       }

@@ -469,10 +469,12 @@ bool is_material(const std::string& card) {
 }  // namespace
 
 void read_nastran_cells(NastranModel& model) {
-  const auto keep = [](std::unordered_map<long, CardView>& all, const char* what) {
-    return [&all, what](const CardView& card) {
-      if (!all.try_emplace(card.label(0, what), card).second)
-        throw CardError{fmt::format("{} {} is there twice", what, card.text(0))};
+  const auto keep = [&log = model.log](std::unordered_map<long, CardView>& all, const char* what) {
+    return [&all, &log, what](const CardView& card) {
+      const auto [first, is_new] = all.try_emplace(card.label(0, what), card);
+      if (!is_new)
+        throw CardError{fmt::format("{} {} is there twice, first at {}", what, card.text(0),
+                                    log.place(first->second.line()))};
     };
   };
   // What they say is read, and counted, where an element needs it.
