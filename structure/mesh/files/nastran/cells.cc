@@ -238,6 +238,10 @@ class Bars {
 
   // CBAR EID PID GA GB X1/G0 X2 X3 OFFT / PA PB W1A W2A W3A W1B W2B W3B
   void add_bar(const CardView& card) {
+    if (model_.properties.empty()) {  // Gmsh writes the curves of a mesh so, along every plate
+      model_.log.leave_out(card.name(), "lines: the deck has no properties at all");
+      throw AlreadySaid{};  // not counted as used
+    }
     Beam beam = begin(card, 2);
     const long property = property_of(card, beam.label);
     const NastranBar bar = nastran_bar(model_, property);
