@@ -478,8 +478,10 @@ void check_mesh_block(const BlockModel& block, Reading& reading) {
       !is_bare(*block.mesh))
     reading.error(
         block.materials.front().name.mark,
-        fmt::format("material {}: the deck has its own", block.materials.front().name.value),
-        {"a material is given for groups without properties alone"});
+        fmt::format("material {} is given, and no group to have it",
+                    block.materials.front().name.value),
+        {"a deck has its own; groups without properties are given under mesh: groups: {bottom: 12 "
+         "mm}"});
 }
 
 }  // namespace

@@ -163,8 +163,11 @@ class MeshReader {
         return true;
       }
       const structure::UnitSystem units = structure::unit_system(mesh_model_.units.value);
-      const structure::DeckOptions options{.leave_solids_out = mesh_model_.leave_solids_out,
-                                           .leave_out = cards_left_out()};
+      structure::DeckOptions options{.leave_solids_out = mesh_model_.leave_solids_out,
+                                     .leave_out = cards_left_out()};
+      for (const auto& group : mesh_model_.groups)
+        (group.is_of_bars() ? options.groups_of_bars : options.groups_of_plates)
+            .push_back(group.name.value);
       deck = is_nastran ? structure::read_nastran(shown_path(path), units, options)
                         : structure::read_abaqus(shown_path(path), units, options);
       return true;

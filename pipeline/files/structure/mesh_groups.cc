@@ -9,6 +9,7 @@
 #include "pipeline/files/structure/block_model.h"
 #include "pipeline/files/structure/profile_format.h"
 #include "structure/error.h"
+#include "structure/letter_case.h"
 #include "structure/mesh/files/surfaces/given_properties.h"
 
 namespace blocklift::pipeline {
@@ -74,11 +75,24 @@ class PropertyGiver {
     for (const std::string& name : groups)
       if (!find_by_name(mesh_model_.groups, name)) missing.push_back(name);
     if (missing.empty()) return;
+    std::vector<std::string> hints{
+        fmt::format("give each one under mesh: groups: {{{}}}",
+                    fmt::format(fmt::runtime(example), missing.front()))};
+    if (const std::vector<std::string> sets = sets_of_elements(); !sets.empty())
+      hints.push_back("or to sets of elements that the file has: " + list_of_names(sets));
     diagnostics_.error(mesh_model_.file.mark,
                        fmt::format("{} gives no {} to its group{} {}", mesh_model_.file.value, what,
                                    missing.size() == 1 ? "" : "s", list_of_names(missing)),
-                       {fmt::format("give each one under mesh: groups: {{{}}}",
-                                    fmt::format(fmt::runtime(example), missing.front()))});
+                       std::move(hints));
+  }
+
+  /// Those of an Abaqus deck, in which elements without a section have no groups of their own.
+  std::vector<std::string> sets_of_elements() const {
+    std::vector<std::string> names;
+    if (structure::ending_of(mesh_model_.file.value) != ".inp") return names;
+    for (const structure::NamedSet& set : deck_.sets)
+      if (!set.shells.empty() || !set.beams.empty()) names.push_back(set.name);
+    return names;
   }
 
   void check(const MeshGroupModel& group) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -63,6 +64,17 @@ std::optional<std::size_t> nodes_of_type(const std::string& type) {
   return std::nullopt;
 }
 
+// Nodes of a plate or line; none if the type is neither.
+std::optional<std::size_t> nodes_of_face_type(const std::string& type) {
+  static const std::map<std::string, std::size_t> known = {
+      {"CPS3", 3}, {"CPS4", 4},  {"CPS6", 6},   {"CPS8", 8}, {"CPS4R", 4}, {"CPS8R", 8},
+      {"S3", 3},   {"S4", 4},    {"S6", 6},     {"S8", 8},   {"S4R", 4},   {"S8R", 8},
+      {"S3R", 3},  {"STRI3", 3}, {"STRI65", 6}, {"T3D2", 2}, {"T3D3", 3}};
+  const auto found = known.find(type);
+  if (found == known.end()) return std::nullopt;
+  return found->second;
+}
+
 /// A keyword line: *ELEMENT, TYPE=C3D8, ELSET=plate.
 struct Keyword {
   std::string name;                               ///< capitals
@@ -89,7 +101,8 @@ class AbaqusReader {
     read_file(path, 0);
     finish_keyword();
     check_nodes();
-    if (mesh_.elements.empty()) throw ModelError(path + ": it holds no solid elements");
+    if (mesh_.elements.empty() && mesh_.plates.empty())
+      throw ModelError(path + ": it holds no solid elements");
     return std::move(mesh_);
   }
 
@@ -142,7 +155,10 @@ class AbaqusReader {
   void begin_data() {
     if (keyword_.name == "ELEMENT") {
       const std::string type = upper(required("TYPE"));
-      const auto nodes = nodes_of_type(type);
+      auto nodes = nodes_of_type(type);
+      is_solid_ = nodes.has_value();
+      is_line_ = type.rfind("T3D", 0) == 0;
+      if (!nodes) nodes = nodes_of_face_type(type);
       if (!nodes)
         fail(
             fmt::format("elements of type {} are not known; solids are: C3D4, C3D6, C3D8, C3D10, "
@@ -263,10 +279,12 @@ class AbaqusReader {
     pending_.clear();
     if (!element_lines_.emplace(element.tag, std::pair(path_, line_)).second)
       fail(fmt::format("element {} is there twice", element.tag));
-    place_of_element_[element.tag] = mesh_.elements.size();
+    if (is_line_) return;
+    auto& elements = is_solid_ ? mesh_.elements : mesh_.plates;
+    (is_solid_ ? place_of_element_ : place_of_plate_)[element.tag] = elements.size();
     if (keyword_.has("ELSET"))
       named(mesh_.element_sets, keyword_.parameters["ELSET"]).push_back(element.tag);
-    mesh_.elements.push_back(std::move(element));
+    elements.push_back(std::move(element));
   }
 
   // Sets grow without end by large steps of numbers, or when they name themselves.
@@ -305,13 +323,20 @@ class AbaqusReader {
     if (!elements) fail(fmt::format("there is no element set \"{}\" before this line", name));
     std::set<std::size_t> nodes;
     for (const std::size_t tag : *elements) {
-      const auto found = place_of_element_.find(tag);
-      if (found == place_of_element_.end()) continue;  // named where the sets are checked
-      const AbaqusElement& element = mesh_.elements[found->second];
-      nodes.insert(element.nodes.begin(), element.nodes.end());
+      const AbaqusElement* element = find_element(tag);
+      if (element == nullptr) continue;  // named where the sets are checked
+      nodes.insert(element->nodes.begin(), element->nodes.end());
     }
     std::vector<std::size_t>& set = named(mesh_.node_sets, required("NSET"));
     set.insert(set.end(), nodes.begin(), nodes.end());
+  }
+
+  /// Solid or plate; null for none.
+  const AbaqusElement* find_element(std::size_t tag) const {
+    if (const auto solid = place_of_element_.find(tag); solid != place_of_element_.end())
+      return &mesh_.elements[solid->second];
+    const auto plate = place_of_plate_.find(tag);
+    return plate == place_of_plate_.end() ? nullptr : &mesh_.plates[plate->second];
   }
 
   void read_surface(const std::vector<std::string>& fields) {
@@ -345,7 +370,9 @@ class AbaqusReader {
 
   void add_face(const std::string& name, std::size_t tag, int face) {
     const auto found = place_of_element_.find(tag);
-    if (found == place_of_element_.end()) fail(fmt::format("there is no element {}", tag));
+    if (found == place_of_element_.end())
+      fail(place_of_plate_.count(tag) > 0 ? fmt::format("element {} is no solid", tag)
+                                          : fmt::format("there is no element {}", tag));
     const auto& faces = abaqus_faces(mesh_.elements[found->second].nodes.size());
     if (face < 1 || face > static_cast<int>(faces.size()))
       fail(fmt::format("element {} has no face S{}; it has {} faces", tag, face, faces.size()));
@@ -353,17 +380,27 @@ class AbaqusReader {
   }
 
   void check_nodes() {
-    for (const AbaqusElement& element : mesh_.elements)
-      for (const std::size_t node : element.nodes)
-        if (mesh_.nodes.count(node) == 0) {
-          std::tie(path_, line_) = element_lines_.at(element.tag);
-          fail(fmt::format("element {} names node {}, which does not exist", element.tag, node));
-        }
+    for (const auto* elements : {&mesh_.elements, &mesh_.plates})
+      for (const AbaqusElement& element : *elements)
+        for (const std::size_t node : element.nodes)
+          if (mesh_.nodes.count(node) == 0) {
+            std::tie(path_, line_) = element_lines_.at(element.tag);
+            fail(fmt::format("element {} names node {}, which does not exist", element.tag, node));
+          }
+    for (const auto& [name, set] : mesh_.element_sets) {
+      std::vector<std::size_t> plates;
+      std::copy_if(set.begin(), set.end(), std::back_inserter(plates),
+                   [&](std::size_t tag) { return place_of_plate_.count(tag) > 0; });
+      if (!plates.empty()) mesh_.plate_sets[name] = std::move(plates);
+    }
     // Sets may name what is not there (generated ranges with gaps): that much is left out.
     for (auto& [name, set] : mesh_.element_sets)
       set.erase(std::remove_if(set.begin(), set.end(),
                                [&](std::size_t tag) { return place_of_element_.count(tag) == 0; }),
                 set.end());
+    // Of lines and plates alone: no group of solids.
+    if (element_lines_.size() > mesh_.elements.size())
+      std::erase_if(mesh_.element_sets, [](const auto& entry) { return entry.second.empty(); });
     for (auto& [name, set] : mesh_.node_sets)
       set.erase(std::remove_if(set.begin(), set.end(),
                                [&](std::size_t tag) { return mesh_.nodes.count(tag) == 0; }),
@@ -378,7 +415,8 @@ class AbaqusReader {
   std::size_t element_nodes_ = 0;
   std::vector<std::size_t> pending_;  ///< of an element that goes on in the next line
   std::map<std::size_t, std::pair<std::string, int>> element_lines_;  ///< file and line
-  std::map<std::size_t, std::size_t> place_of_element_;
+  std::map<std::size_t, std::size_t> place_of_element_, place_of_plate_;
+  bool is_solid_ = false, is_line_ = false;  ///< elements that are being read
 };
 
 // Corners of the mid-edge nodes, in Abaqus' order.

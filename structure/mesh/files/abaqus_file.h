@@ -27,15 +27,19 @@ struct AbaqusFace {
 /// What a `.inp` file says of its mesh; coordinates in the file's unit.
 struct AbaqusMesh {
   std::map<std::size_t, std::array<double, 3>> nodes;  ///< by tag
-  std::vector<AbaqusElement> elements;                 ///< in the file's order
+  std::vector<AbaqusElement> elements;                 ///< solids, in the file's order
+  /// Triangles and quadrangles, linear and quadratic: faces of solids, or mid-surfaces of plates.
+  std::vector<AbaqusElement> plates = {};
   std::map<std::string, std::vector<std::size_t>> node_sets, element_sets;
+  std::map<std::string, std::vector<std::size_t>> plate_sets = {};  ///< of plates
   std::map<std::string, std::vector<AbaqusFace>> surfaces;
 };
 
 /// Reads the mesh of an input file of Abaqus or CalculiX: *NODE, *ELEMENT, *NSET and *ELSET (with
 /// GENERATE, with names of other sets), *SURFACE of element faces or nodes, *INCLUDE of
-/// files in the folder of the first or below it, unless files outside are allowed. Other
-/// keywords are passed over with their lines. Names are as they are written first; as in Abaqus,
+/// files in the folder of the first or below it, unless files outside are allowed. Elements CPS, S
+/// and STRI are plates, which Gmsh writes beside the solids that they bound; lines (T3D) are passed
+/// over, and other keywords with their lines. Names are as they are written first; as in Abaqus,
 /// capitals do not matter for finding them again.
 /// @throws ModelError with file and line: what is no number, element types that are not known,
 ///   nodes, elements and sets that do not exist, tags that are used twice, more than one part or an

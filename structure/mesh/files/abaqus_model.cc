@@ -126,6 +126,15 @@ class Faces {
     return met.size() == set.size() ? faces : std::vector<AbaqusFace>{};
   }
 
+  /// A plate, which may be the face of a solid.
+  std::size_t add(const AbaqusElement& plate) {
+    Tags key(plate.nodes.begin(), plate.nodes.begin() + (plate.nodes.size() % 3 == 0 ? 3 : 4));
+    std::sort(key.begin(), key.end());
+    const auto [entry, is_new] = number_of_.try_emplace(key, nodes_.size());
+    if (is_new) nodes_.push_back(plate.nodes);
+    return entry->second;
+  }
+
   const std::vector<Tags>& nodes() const { return nodes_; }
 
  private:
@@ -146,14 +155,28 @@ class Faces {
   std::vector<Tags> nodes_;
 };
 
-void add_nodes(const AbaqusMesh& mesh, int volume) {
+void add_nodes(const AbaqusMesh& mesh, int dimension, int entity) {
   Tags tags;
   std::vector<double> places;
   for (const auto& [tag, place] : mesh.nodes) {
     tags.push_back(tag);
     places.insert(places.end(), place.begin(), place.end());
   }
-  gmsh::model::mesh::addNodes(3, volume, tags, places);
+  gmsh::model::mesh::addNodes(dimension, entity, tags, places);
+}
+
+/// Sets of plates, by names that are free; plates in none are one more where there are no solids.
+void add_plates(const AbaqusMesh& mesh, Names& names, Faces& faces,
+                std::vector<std::pair<std::string, Tags>>& sets) {
+  std::map<std::size_t, const AbaqusElement*> plate_of;
+  for (const AbaqusElement& plate : mesh.plates) {
+    plate_of[plate.tag] = &plate;
+    if (mesh.elements.empty()) faces.add(plate);
+  }
+  for (const auto& [name, tags] : mesh.plate_sets) {
+    sets.emplace_back(names.take(name, "plates"), Tags());
+    for (const std::size_t tag : tags) sets.back().second.push_back(faces.add(*plate_of.at(tag)));
+  }
 }
 
 void add_volumes(const AbaqusMesh& mesh, Names& names) {
@@ -167,7 +190,7 @@ void add_volumes(const AbaqusMesh& mesh, Names& names) {
   }
   bool has_nodes = false;
   volumes.make([&](int volume, const Tags& items) {
-    if (!std::exchange(has_nodes, true)) add_nodes(mesh, volume);
+    if (!std::exchange(has_nodes, true)) add_nodes(mesh, 3, volume);
     std::map<int, std::pair<Tags, Tags>> by_type;  // elements and their nodes
     for (const std::size_t item : items) {
       const AbaqusElement& element = mesh.elements[item];
@@ -192,6 +215,7 @@ std::map<std::string, std::vector<std::size_t>> add_to_gmsh(const AbaqusMesh& me
   Faces faces(mesh);
   std::vector<std::pair<std::string, Tags>> sets;  // of faces
   std::map<std::string, Tags> points;
+  add_plates(mesh, names, faces, sets);
   for (const auto& [name, nodes] : mesh.node_sets) {
     const std::string chosen = names.take(name, "nodes");
     const auto made = faces.made_of({nodes.begin(), nodes.end()});
@@ -206,12 +230,14 @@ std::map<std::string, std::vector<std::size_t>> add_to_gmsh(const AbaqusMesh& me
     sets.emplace_back(names.take(name, "surface"), Tags());
     for (const AbaqusFace& face : surface) sets.back().second.push_back(faces.add(face));
   }
-  if (sets.empty()) return points;
+  if (faces.nodes().empty()) return points;
   Entities surfaces(2, faces.nodes().size());
   for (const auto& [name, items] : sets) surfaces.add_set(name, items);
   std::size_t next = 1;
   for (const AbaqusElement& element : mesh.elements) next = std::max(next, element.tag + 1);
+  bool has_nodes = !mesh.elements.empty();
   surfaces.make([&](int surface, const Tags& items) {
+    if (!std::exchange(has_nodes, true)) add_nodes(mesh, 2, surface);
     for (const std::size_t item : items) {
       const Tags& nodes = faces.nodes()[item];
       gmsh::model::mesh::addElementsByType(surface, face_type(nodes.size()), {next++}, nodes);

@@ -11,7 +11,8 @@
 namespace blocklift::structure {
 
 /// Puts a mesh into Gmsh's current model: elements and faces that are in the same sets are one
-/// discrete volume or surface, and each set is a physical group of its name.
+/// discrete volume or surface, and each set is a physical group of its name. Plates in no set are
+/// left out where there are solids, whose faces they are.
 ///
 /// A node set becomes the group of the outer faces all of whose nodes it names, if these faces have
 /// all of its nodes; else it is returned, as a set of points. A node set of the name of an element

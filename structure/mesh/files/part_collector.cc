@@ -35,7 +35,14 @@ PartMesh PartCollector::collect(const std::map<std::string, Tags>& point_sets,
   for (const auto& [dimension, entity] : entities) read_entity(dimension, entity);
   for (const auto& [name, tags] : point_sets) add_points(name, tags);
   read_physical_groups();
-  if (mesh_.solids.empty()) throw ModelError("it holds no solid elements");
+  if (mesh_.solids.empty()) {
+    const bool has_plates =
+        std::any_of(mesh_.groups.begin(), mesh_.groups.end(),
+                    [](const PartGroup& group) { return group.dimension == 2; });
+    throw ModelError(has_plates ? "it holds no solid elements; of mid-surfaces say how thick they "
+                                  "are: mesh: {plates: {GROUP: {thickness: 12 mm}}}"
+                                : "it holds no solid elements");
+  }
   for (const FaceChoice& choice : faces) add_faces(choice);
   for (const PointChoice& choice : points) add_nearest(choice);
   return std::move(mesh_);

@@ -244,6 +244,11 @@ class UniversalReader {
           if (numbers[i] == of_elements) take_in(numbers[i + 1], group);
         }
       }
+      // Gmsh writes a point as its node and as an element, which it does not write itself.
+      if (first_missing_ > 0 && (group.nodes.empty() || !group.dimensions.empty()))
+        fail(fmt::format("group \"{}\" names element {}, which does not exist", group.name,
+                         first_missing_));
+      first_missing_ = 0;
       mesh_.groups.push_back(std::move(group));
     }
   }
@@ -256,8 +261,10 @@ class UniversalReader {
 
   void take_in(std::size_t tag, UniversalGroup& group) {
     const auto place = place_of_.find(tag);
-    if (place == place_of_.end())
-      fail(fmt::format("group \"{}\" names element {}, which does not exist", group.name, tag));
+    if (place == place_of_.end()) {
+      if (first_missing_ == 0) first_missing_ = tag;
+      return;
+    }
     UniversalElement& element = mesh_.elements[place->second];
     element.groups.insert(mesh_.groups.size());
     group.dimensions.insert(element.kind->dimension);
@@ -268,6 +275,7 @@ class UniversalReader {
   std::size_t line_number_ = 0;
   UniversalMesh mesh_;
   std::map<std::size_t, std::size_t> place_of_;  ///< of elements, by number
+  std::size_t first_missing_ = 0;                ///< element of the group that is being read
 };
 
 NodeTags sorted_corners(const NodeTags& face) {

@@ -8,85 +8,14 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/files/abaqus/element_types.h"
 #include "structure/mesh/files/abaqus/generation.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/deck/label_range.h"
-#include "structure/nearest_name.h"
 
 namespace blocklift::structure {
 
 namespace {
-
-struct ElementType {
-  AbaqusKind kind;
-  std::size_t nodes;
-  std::size_t most_nodes;  ///< a beam may name one more, which orients it
-};
-
-const std::map<std::string, ElementType>& element_types() {
-  using Kind = AbaqusKind;
-  static const std::map<std::string, ElementType> types{
-      {"S3", {Kind::shell, 3, 3}},         {"S3R", {Kind::shell, 3, 3}},
-      {"S3RS", {Kind::shell, 3, 3}},       {"STRI3", {Kind::shell, 3, 3}},
-      {"S4", {Kind::shell, 4, 4}},         {"S4R", {Kind::shell, 4, 4}},
-      {"S4RS", {Kind::shell, 4, 4}},       {"S4RSW", {Kind::shell, 4, 4}},
-      {"S4R5", {Kind::shell, 4, 4}},       {"S6", {Kind::shell, 6, 6}},
-      {"STRI65", {Kind::shell, 6, 6}},     {"S8", {Kind::shell, 8, 8}},
-      {"S8R", {Kind::shell, 8, 8}},        {"S8R5", {Kind::shell, 8, 8}},
-      {"B31", {Kind::beam, 2, 3}},         {"B31R", {Kind::beam, 2, 3}},
-      {"B31H", {Kind::beam, 2, 3}},        {"B33", {Kind::beam, 2, 3}},
-      {"B33H", {Kind::beam, 2, 3}},        {"PIPE31", {Kind::beam, 2, 3}},
-      {"B32", {Kind::beam, 3, 4}},         {"B32R", {Kind::beam, 3, 4}},
-      {"B32H", {Kind::beam, 3, 4}},        {"PIPE32", {Kind::beam, 3, 4}},
-      {"T3D2", {Kind::truss, 2, 2}},       {"T3D3", {Kind::truss, 3, 3}},
-      {"MASS", {Kind::mass, 1, 1}},        {"ROTARYI", {Kind::inertia, 1, 1}},
-      {"SPRING1", {Kind::spring, 1, 1}},   {"SPRING2", {Kind::spring, 2, 2}},
-      {"SPRINGA", {Kind::spring, 2, 2}},   {"R3D3", {Kind::rigid, 3, 3}},
-      {"R3D4", {Kind::rigid, 4, 4}},       {"RB3D2", {Kind::rigid, 2, 2}},
-      {"C3D4", {Kind::solid, 4, 4}},       {"C3D4H", {Kind::solid, 4, 4}},
-      {"C3D5", {Kind::solid, 5, 5}},       {"C3D5H", {Kind::solid, 5, 5}},
-      {"C3D6", {Kind::solid, 6, 6}},       {"C3D8", {Kind::solid, 8, 8}},
-      {"C3D8R", {Kind::solid, 8, 8}},      {"C3D8I", {Kind::solid, 8, 8}},
-      {"C3D8H", {Kind::solid, 8, 8}},      {"C3D10", {Kind::solid, 10, 10}},
-      {"C3D10M", {Kind::solid, 10, 10}},   {"C3D10H", {Kind::solid, 10, 10}},
-      {"C3D10HS", {Kind::solid, 10, 10}},  {"C3D10T", {Kind::solid, 10, 10}},
-      {"C3D15", {Kind::solid, 15, 15}},    {"C3D20", {Kind::solid, 20, 20}},
-      {"C3D20R", {Kind::solid, 20, 20}},   {"C3D20H", {Kind::solid, 20, 20}},
-      {"DCOUP3D", {Kind::coupling, 1, 1}}, {"DASHPOT1", {Kind::nothing, 1, 1}},
-      {"DASHPOT2", {Kind::nothing, 2, 2}}, {"DASHPOTA", {Kind::nothing, 2, 2}}};
-  return types;
-}
-
-/// What to give in place of elements that are not known; empty: nobody asked yet.
-std::string instead_of_type(const std::string& type) {
-  static const std::vector<std::pair<const char*, const char*>> beginnings{
-      {"S9R5", "S8R5, without the node in the middle, is"},
-      {"SC", "give S4R or S8R on the middle surface in place of continuum shells"},
-      {"CONN", "say by *COUPLING, *MPC, *EQUATION or *SPRING what connectors join"},
-      {"M3D", "membranes do not bend; S3, S4R, S6 and S8R do"},
-      {"SFM", "surface elements bear nothing; take them out of the deck"},
-      {"B31OS", "warping is not known; B31 is"},
-      {"B32OS", "warping is not known; B32 is"},
-      {"ELBOW", "PIPE31 and PIPE32 are"},
-      {"FRAME", "B33 is"},
-      {"GAP", "what gapes is not known, for a lift is linear"},
-      {"ITS", "what touches is not known, for a lift is linear"},
-      {"JOINT", "say by *SPRING what joints resist"},
-      {"CAX", "bodies of revolution cannot be lifted"},
-      {"SAX", "bodies of revolution cannot be lifted"},
-      {"CPE", "plane bodies cannot be lifted"},
-      {"CPS", "plane bodies cannot be lifted; S4R and S8R are plates"},
-      {"B2", "plane frames cannot be lifted; B31 is"},
-      {"T2D", "plane frames cannot be lifted; T3D2 is"},
-      {"AC", "fluids are not known"},
-      {"COH", "layers of glue are not known; *TIE joins what they join"}};
-  for (const auto& [beginning, text] : beginnings)
-    if (type.starts_with(beginning)) return fmt::format("; {}", text);
-  std::vector<std::string> names;
-  for (const auto& [name, what] : element_types()) names.push_back(name);
-  const std::string nearest = nearest_name(type, names);
-  return nearest.empty() ? "" : fmt::format(" (did you mean {}?)", nearest);
-}
 
 class Cells {
  public:
@@ -233,9 +162,12 @@ class Cells {
     if (!(place.cwiseAbs().maxCoeff() < 1e7))
       throw CardError{fmt::format("node {} lies farther than 10,000 km away", label)};
     const auto vertex = static_cast<int>(model_.deck.mesh.vertices.size());
-    if (!scope().nodes.try_emplace(label, vertex).second)
-      throw CardError{fmt::format("node {} is there twice", label)};
+    const auto [first, is_new] = scope().nodes.try_emplace(label, vertex);
+    if (!is_new)
+      throw CardError{fmt::format("node {} is there twice, first at {}", label,
+                                  model_.log.place(lines_[first->second]))};
     model_.deck.mesh.vertices.push_back(place);
+    lines_.push_back(model_.line_read);
     labels_.push_back(label);
     scope_of_.push_back(scope_);
     if (!set.empty()) scope().node_sets[set].push_back(vertex);
@@ -243,6 +175,7 @@ class Cells {
 
   // A node that is there already stays where it is: lines and fields meet.
   void add_made_nodes(const AbaqusBlock& block) {
+    model_.line_read = block.line;
     const MadeNodes made = make_nodes(model_, scope(), block, labels_);
     if (!made.set.empty()) keep(scope().node_sets[made.set], made.others);
     for (const auto& [label, place] : made.places) {
@@ -331,23 +264,28 @@ class Cells {
 
   void add_elements(const AbaqusBlock& block) {
     const std::string type = block.required("TYPE"), set = block.value("ELSET");
-    ElementType known{AbaqusKind::nothing, 0, 0};
+    AbaqusElementType known{AbaqusKind::nothing, 0, 0};
     const bool is_solid =
         type.starts_with("C3D") || type.starts_with("SC6") || type.starts_with("SC8");
     if (is_solid && model_.options.leave_solids_out) {
       model_.log.leave_out("*ELEMENT", "solids, which were to be left out");
       known = {AbaqusKind::nothing, 1, 99};
-    } else if (const auto found = element_types().find(type); found != element_types().end()) {
-      known = found->second;
-      if (known.kind == AbaqusKind::nothing) model_.log.leave_out("*ELEMENT", "dampers");
     } else if (model_.log.leaves_out(type, model_.options)) {
       model_.log.leave_out("*ELEMENT", fmt::format("elements of type {}, as was asked for", type));
       known = {AbaqusKind::nothing, 1, 99};
+    } else if (const auto found = abaqus_element_types().find(type);
+               found != abaqus_element_types().end()) {
+      known = found->second;
+      if (known.kind == AbaqusKind::nothing) model_.log.leave_out("*ELEMENT", "dampers");
+      if (type.starts_with("CPS"))
+        model_.log.remark(block.line,
+                          "*ELEMENT: faces of type CPS, which Gmsh writes for any surface, are "
+                          "read as the shells S3, S4, S6 and S8");
     } else {
       throw CardError{
           fmt::format("elements of type {} are not known here{}; leave_out names what may "
                       "be missing",
-                      type, instead_of_type(type))};
+                      type, instead_of_abaqus_type(type))};
     }
     // A line that ends in a comma goes on in the next.
     std::vector<std::string_view> all;
@@ -368,7 +306,7 @@ class Cells {
                                       all.size() - 1, known.nodes));
   }
 
-  void add_element(const std::vector<std::string_view>& fields, const ElementType& known,
+  void add_element(const std::vector<std::string_view>& fields, const AbaqusElementType& known,
                    const std::string& type, const std::string& set, SourceLine line) {
     AbaqusDeckElement element;
     element.label = abaqus_label(fields.front(), "element");
@@ -398,8 +336,10 @@ class Cells {
 
   void add_element(AbaqusDeckElement element, const std::string& set) {
     const auto place = static_cast<int>(model_.elements.size());
-    if (!scope().elements.try_emplace(element.label, place).second)
-      throw CardError{fmt::format("element {} is there twice", element.label)};
+    const auto [first, is_new] = scope().elements.try_emplace(element.label, place);
+    if (!is_new)
+      throw CardError{fmt::format("element {} is there twice, first at {}", element.label,
+                                  model_.log.place(model_.elements[first->second].line))};
     model_.elements.push_back(std::move(element));
     if (!set.empty()) scope().element_sets[set].push_back(place);
   }
@@ -494,6 +434,7 @@ class Cells {
   int scope_ = 0;
   std::vector<long> labels_;
   std::vector<int> scope_of_;
+  std::vector<SourceLine> lines_;  ///< of nodes
 };
 
 /// "instance.rest" and the scope of that instance; else the text itself in the scope given.
@@ -547,6 +488,7 @@ void AbaqusModel::for_lines(const AbaqusBlock& block,
                             const std::function<void(const std::vector<std::string_view>&)>& step) {
   for (const AbaqusLine& line : block.data) {
     try {
+      line_read = line.line;
       step(line.fields());
     } catch (const CardError& error) {
       log.complain(line.line, fmt::format("*{}: {}", block.name, error.text));

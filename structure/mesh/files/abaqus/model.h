@@ -97,10 +97,11 @@ struct AbaqusModel {
   /// Nodes whose displacements stand for the rotations of others (ROT NODE of a rigid body, as
   /// CalculiX has it), and the others.
   std::unordered_map<int, int> turns_of;
+  SourceLine line_read;
 
   /// Does something with a block; notes what is wrong and that it was used.
   void guarded(const AbaqusBlock& block, const std::function<void()>& step);
-  /// Does something with each line of a block.
+  /// Does something with each line of a block, which `line_read` tells.
   void for_lines(const AbaqusBlock& block,
                  const std::function<void(const std::vector<std::string_view>&)>& step);
 

@@ -18,7 +18,7 @@ struct KnownParameters {
 };
 
 const KnownParameters* parameters_of(const std::string& keyword) {
-  static const KnownParameters of_loads{{"OP", "AMPLITUDE", "FOLLOWER", "INPUT"},
+  static const KnownParameters of_loads{{"OP", "AMPLITUDE", "TIME DELAY", "FOLLOWER", "INPUT"},
                                         {"REGION TYPE", "CONSTANT RESULTANT"}};
   static const KnownParameters of_shells{
       {"ELSET", "MATERIAL", "COMPOSITE", "OFFSET", "ORIENTATION", "NODAL THICKNESS",
@@ -37,7 +37,7 @@ const KnownParameters* parameters_of(const std::string& keyword) {
          "REGION TYPE", "PROPERTY"}}},
       {"EQUATION", {{"INPUT"}, {}}},
       {"MPC", {{"INPUT"}, {}}},
-      {"BOUNDARY", {{"TYPE", "FIXED", "OP", "AMPLITUDE", "INPUT"}, {"REGION TYPE"}}},
+      {"BOUNDARY", {{"TYPE", "FIXED", "OP", "AMPLITUDE", "TIME DELAY", "INPUT"}, {"REGION TYPE"}}},
       {"TEMPERATURE", {{"OP", "AMPLITUDE", "USER", "FILE", "INPUT"}, {}}},
       {"CLOAD", of_loads},
       {"DLOAD", of_loads},

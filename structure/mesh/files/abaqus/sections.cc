@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/files/abaqus/bare_groups.h"
 #include "structure/mesh/files/abaqus/beam_shapes.h"
 #include "structure/mesh/files/abaqus/layers.h"
 #include "structure/mesh/files/abaqus/model.h"
@@ -490,8 +491,12 @@ class Sections {
   void add_solid_section(const SectionBlocks& blocks) {
     std::vector<int> trusses, solids;
     for (const int e : elements(blocks)) {
-      if (model_.elements[e].kind == AbaqusKind::truss) trusses.push_back(e);
-      if (model_.elements[e].kind == AbaqusKind::solid) solids.push_back(e);
+      const AbaqusDeckElement& element = model_.elements[e];
+      if (element.kind == AbaqusKind::shell && element.type.starts_with("CPS"))
+        throw CardError{fmt::format("element {} is a {} of a plane body, which cannot be lifted",
+                                    element.label, element.type)};
+      if (element.kind == AbaqusKind::truss) trusses.push_back(e);
+      if (element.kind == AbaqusKind::solid) solids.push_back(e);
     }
     if (solids.empty() && trusses.empty())
       model_.log.leave_out("*SOLID SECTION", "of nothing here");
@@ -537,33 +542,30 @@ class Sections {
     }
   }
 
-  /// Shells without section are asked for by their type, if the deck has no sections at all.
+  /// Where the deck has no sections at all, BareGroups says what its cells are.
   void check_all_have_sections() {
-    int without = -1;
-    const bool has_any = !mesh_.shell_sections.empty();
-    for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+    const bool has_shells = !mesh_.shell_sections.empty();
+    const bool is_bare = !has_shells && mesh_.beam_sections.empty() && mesh_.solids.empty() &&
+                         of_wrong_sections_.empty();
+    BareGroups groups(model_);
+    std::vector<int> bars;
+    for (int e = 0; e < static_cast<int>(model_.elements.size()); ++e) {
       AbaqusDeckElement& element = model_.elements[e];
-      if (of_wrong_sections_.count(static_cast<int>(e)) > 0) continue;
+      if (of_wrong_sections_.count(e) > 0) continue;
       if (element.kind == AbaqusKind::shell && element.shell < 0) {
-        if (has_any) {
+        if (has_shells)
           model_.log.complain(element.line, "*ELEMENT: shells have no *SHELL SECTION");
-          continue;
-        }
-        if (without < 0) {
-          mesh_.groups.push_back({"shells", 0});
-          mesh_.regions.push_back(
-              {.name = "shells", .group = static_cast<int>(mesh_.groups.size()) - 1});
-          without = static_cast<int>(mesh_.regions.size()) - 1;
-          model_.deck.groups_without_thickness.push_back("shells");
-        }
-        add_shell(element, -1, without, Vector3::Zero());
+        else
+          add_shell(element, -1, groups.region_of_plate(e), Vector3::Zero());
       }
       if ((element.kind == AbaqusKind::beam || element.kind == AbaqusKind::truss) &&
           element.beams.empty())
-        model_.log.complain(element.line, "*ELEMENT: beams or trusses have no section");
+        bars.push_back(e);
       if (element.kind == AbaqusKind::solid && element.solid < 0)
         model_.log.complain(element.line, "*ELEMENT: solids have no *SOLID SECTION");
     }
+    for (const int e : bars)
+      if (!is_bare || !groups.take_bar(e)) groups.miss_section_of_bar(e);
   }
 
   AbaqusModel& model_;

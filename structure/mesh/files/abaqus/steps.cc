@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "structure/mesh/files/abaqus/amplitudes.h"
 #include "structure/mesh/files/abaqus/model.h"
 #include "structure/mesh/files/abaqus/spread_loads.h"
 #include "structure/mesh/files/abaqus/temperatures.h"
@@ -123,7 +124,7 @@ void add_to(LoadSet& set, const NodeLoads& loads) {
 
 class StepBlocks {
  public:
-  explicit StepBlocks(AbaqusModel& model) : model_(model) {}
+  explicit StepBlocks(AbaqusModel& model) : model_(model), amplitudes_(model) {}
 
   void read() {
     for (const AbaqusScope& scope : model_.scopes) {
@@ -171,7 +172,7 @@ class StepBlocks {
           model_.log.leave_out("*BOUNDARY", "freedoms beyond displacements and rotations");
           return;
         }
-        const double value = abaqus_real(fields, 3, "displacement", 0.0);
+        const double value = factor_ * abaqus_real(fields, 3, "displacement", 0.0);
         for (long i = first; i <= std::min(last, 6L); ++i) {
           support.held[i - 1] = true;
           support.value[i - 1] = i <= 3 ? value * model_.units.length : value;
@@ -225,11 +226,10 @@ class StepBlocks {
     const auto renews = [&](const AbaqusBlock& block) {
       return block.value("OP") == "NEW" && renewed.insert(block.name).second;
     };
+    amplitudes_.begin_step(blocks);
     for (const AbaqusBlock* block : blocks) {
-      if (block->has("AMPLITUDE"))
-        model_.log.remark(block->line, "*" + block->name +
-                                           ": AMPLITUDE is left out; the load is "
-                                           "taken in full");
+      factor_ = 1;
+      if (block->has("AMPLITUDE") && !take_amplitude(*block, is_perturbation)) continue;
       if (block->name == "BOUNDARY")
         model_.guarded(*block, [&] {
           if (renews(*block)) {
@@ -264,6 +264,29 @@ class StepBlocks {
       model_.log.remark(step.line, fmt::format("step {} is no load case: {}", step_, why_not));
     keep(step, step_, why_not.empty());
     if (is_perturbation) now_ = kept;
+  }
+
+  /// Finds the factor that a keyword's values have at the end of the step.
+  /// @return false if that has been complained of.
+  bool take_amplitude(const AbaqusBlock& block, bool is_perturbation) {
+    static const std::set<std::string> scaled{"CLOAD", "DLOAD", "DSLOAD", "BOUNDARY"};
+    if (!scaled.contains(block.name) || is_perturbation) {
+      model_.log.remark(
+          block.line, "*" + block.name + ": AMPLITUDE is left out; what it gives is taken in full");
+      return true;
+    }
+    try {
+      factor_ = amplitudes_.factor_of(block);
+    } catch (const CardError& error) {
+      model_.log.complain(block.line, fmt::format("*{}: {}", block.name, error.text));
+      return false;
+    }
+    if (factor_ != 1)
+      model_.log.remark(block.line,
+                        fmt::format("*{}: by its AMPLITUDE {:.4g} of it is there at the end of the "
+                                    "step",
+                                    block.name, factor_));
+    return true;
   }
 
   bool starts_at_zero() const {
@@ -304,6 +327,8 @@ class StepBlocks {
       if (others.contains(block->name)) return fmt::format("*{} is not static", block->name);
     if (is_perturbation && is_strained_)
       return "a perturbation begins from the stress and shape that steps with NLGEOM have found";
+    if (const std::string name = amplitudes_.moved_on(); !name.empty())
+      return fmt::format("what steps before gave with AMPLITUDE {} goes on with the time", name);
     if (now_.is_held_as_moved) return "*BOUNDARY, FIXED holds what the steps before have moved";
     return {};
   }
@@ -356,7 +381,7 @@ class StepBlocks {
         model_.log.leave_out("*CLOAD", "freedoms beyond displacements and rotations");
         return;
       }
-      const double value = abaqus_real(fields, 2, "value");
+      const double value = factor_ * abaqus_real(fields, 2, "value");
       for (const int node : model_.nodes_of(*scope_, fields[0])) {
         const auto [vertex, component] = model_.freedom_of(node, static_cast<int>(freedom) - 1);
         const double unit = component < 3 ? model_.units.force : model_.units.moment();
@@ -369,8 +394,10 @@ class StepBlocks {
   // CENTRIF, whose magnitude is the square of the angular velocity, place on the axis and its
   // direction; *DSLOAD / surface, kind, magnitude ...
   void add_spread_loads(const AbaqusBlock& block) {
-    model_.for_lines(block, [&](const Fields& fields) {
-      if (fields.size() < 3) throw CardError{"elements, kind and magnitude are due"};
+    model_.for_lines(block, [&](const Fields& given) {
+      if (given.size() < 3) throw CardError{"elements, kind and magnitude are due"};
+      const ScaledFields scaled(given, 2, factor_, "magnitude");
+      const Fields& fields = scaled.all();
       const std::string kind = upper(fields[1]);
       const double value = abaqus_real(fields, 2, "magnitude");
       if (kind == "GRAV") {
@@ -484,6 +511,8 @@ class StepBlocks {
   };
   State now_;
   AbaqusTemperatures initial_;
+  AbaqusAmplitudes amplitudes_;
+  double factor_ = 1;         ///< of the keyword that is being read
   bool is_strained_ = false;  ///< by a step before, with NLGEOM
 };
 

@@ -181,7 +181,8 @@ struct NamedSet {
 ///
 /// Vertices and cells are in the order of the file. Materials lack a yield stress where the deck
 /// gives none (0); shells whose property is nowhere lack a section (-1) if the deck has no
-/// properties at all, and `groups_without_thickness` names them.
+/// properties at all, and `groups_without_thickness` names them; bars among these lack one if their
+/// set is given a profile from outside, and are left out if not.
 struct Deck {
   std::filesystem::path path;
   std::vector<std::filesystem::path> files;  ///< that were read: itself and what it includes
@@ -211,6 +212,9 @@ struct DeckOptions {
   /// Cards, keywords ("*" before them or not) and Abaqus' types of elements that are not known, in
   /// capitals: they are listed as left out rather than refused.
   std::vector<std::string> leave_out = {};
+  /// Sets of elements that are given a thickness or a profile from outside, where the deck has no
+  /// sections at all; whatever their capitals.
+  std::vector<std::string> groups_of_plates = {}, groups_of_bars = {};
 };
 
 /// All that is wrong with a deck; the message has a line for each.

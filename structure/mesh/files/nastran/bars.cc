@@ -532,13 +532,13 @@ const NastranBar& nastran_bar(NastranModel& model, long property) {
                                station.centroid});
     model.log.use(name);
     return model.bar_read[property] = read;
-  } catch (const UnusableProperty&) {
+  } catch (const AlreadySaid&) {
     throw;
   } catch (const CardError& error) {
     const std::string whose = fmt::format("{} {}", name, property);
     model.log.complain(card.line(),
                        error.text.starts_with(whose) ? error.text : whose + ": " + error.text);
-    throw UnusableProperty{{fmt::format("{} {} cannot be used", name, property)}};
+    throw AlreadySaid{{fmt::format("{} {} cannot be used", name, property)}};
   }
 }
 

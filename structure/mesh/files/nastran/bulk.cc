@@ -31,6 +31,16 @@ std::string_view bare(std::string_view label) {
   return trimmed(label);
 }
 
+/// The first character of a card's last field stands for its sign, whatever it is: "ABC1" is
+/// continued by "+BC1". Source: MSC Nastran Quick Reference Guide, format of bulk data entries.
+std::string_view behind_first(std::string_view label) {
+  return label.empty() ? label : trimmed(label.substr(1));
+}
+
+bool is_continued_by(std::string_view label, std::string_view wanted) {
+  return is_same(bare(label), wanted) || is_same(behind_first(label), wanted);
+}
+
 std::string_view without_comment(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -263,7 +273,8 @@ class Splitter {
       return;
     }
     const std::string_view wanted = bare(line.name);
-    const bool follows = !bulk_.cards.empty() && (wanted.empty() || is_same(bare(label_), wanted));
+    const bool follows =
+        !bulk_.cards.empty() && (wanted.empty() || is_continued_by(label_, wanted));
     if (follows) {
       extend(line);
     } else if (wanted.empty()) {
@@ -311,10 +322,15 @@ class Splitter {
       awaiting_.emplace_back(bulk_.cards.size() - 1, label_, half_);
   }
 
+  auto orphan_of(std::string_view label) {
+    const auto found = orphans_.find(upper(bare(label)));
+    return found != orphans_.end() ? found : orphans_.find(upper(behind_first(label)));
+  }
+
   void place_orphans() {
     finish();
     for (const auto& [index, label, half] : awaiting_) {
-      auto found = orphans_.find(upper(bare(label)));
+      auto found = orphan_of(label);
       if (found == orphans_.end()) continue;
       // The card moves to the end of all data, where it can grow.
       NastranCard card = bulk_.cards[index];
@@ -330,7 +346,7 @@ class Splitter {
         const Line line = found->second;
         orphans_.erase(found);
         append(line);
-        found = orphans_.find(upper(bare(line.label)));
+        found = orphan_of(line.label);
       }
       bulk_.cards[index] = bulk_.cards.back();
       bulk_.cards.pop_back();

@@ -220,6 +220,8 @@ class Equations {
         try {
           add(card);
           model_.log.use("MPC");
+        } catch (const AlreadySaid&) {
+          continue;
         } catch (const CardError& error) {
           model_.log.complain(card.line(), "MPC: " + error.text);
         }

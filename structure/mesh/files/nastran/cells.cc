@@ -238,6 +238,10 @@ class Bars {
 
   // CBAR EID PID GA GB X1/G0 X2 X3 OFFT / PA PB W1A W2A W3A W1B W2B W3B
   void add_bar(const CardView& card) {
+    if (model_.properties.empty()) {  // Gmsh writes the curves of a mesh so, along every plate
+      model_.log.leave_out(card.name(), "lines: the deck has no properties at all");
+      throw AlreadySaid{};  // not counted as used
+    }
     Beam beam = begin(card, 2);
     const long property = property_of(card, beam.label);
     const NastranBar bar = nastran_bar(model_, property);
@@ -469,10 +473,12 @@ bool is_material(const std::string& card) {
 }  // namespace
 
 void read_nastran_cells(NastranModel& model) {
-  const auto keep = [](std::unordered_map<long, CardView>& all, const char* what) {
-    return [&all, what](const CardView& card) {
-      if (!all.try_emplace(card.label(0, what), card).second)
-        throw CardError{fmt::format("{} {} is there twice", what, card.text(0))};
+  const auto keep = [&log = model.log](std::unordered_map<long, CardView>& all, const char* what) {
+    return [&all, &log, what](const CardView& card) {
+      const auto [first, is_new] = all.try_emplace(card.label(0, what), card);
+      if (!is_new)
+        throw CardError{fmt::format("{} {} is there twice, first at {}", what, card.text(0),
+                                    log.place(first->second.line()))};
     };
   };
   // What they say is read, and counted, where an element needs it.

@@ -56,9 +56,11 @@ class Grids {
 
   void read() {
     model_.for_each({{"GRDSET", [&](const CardView& card) { read_defaults(card); }}});
-    model_.for_each({{"GRID", [&](const CardView& card) { add(card); }}});
+    model_.for_each({{"GRID", [&](const CardView& card) { add_or_note(card); }}});
     model_.systems.set_nodes([&](long label) {
       const auto found = model_.vertex_of.find(label);
+      if (found == model_.vertex_of.end() && model_.unusable_grids.contains(label))
+        throw AlreadySaid{};
       if (found == model_.vertex_of.end())
         throw CardError{fmt::format("grid {} does not exist", label)};
       const Grid& grid = grids_[found->second];
@@ -74,6 +76,8 @@ class Grids {
   void guarded(SourceLine line, const Step& step) {
     try {
       step();
+    } catch (const AlreadySaid&) {
+      return;
     } catch (const CardError& error) {
       model_.log.complain(line, error.text);
     }
@@ -86,6 +90,16 @@ class Grids {
     held_ = std::string(card.text(6));
     if (!held_.empty() && held_ != "0")
       held_by_default_ = card.components(6, "permanent constraint");
+  }
+
+  void add_or_note(const CardView& card) {
+    try {
+      add(card);
+    } catch (const CardError&) {
+      const auto label = to_integer(card.text(0));
+      if (label && !model_.vertex_of.contains(*label)) model_.unusable_grids.insert(*label);
+      throw;
+    }
   }
 
   // GRID ID CP X1 X2 X3 CD PS SEID
@@ -103,8 +117,10 @@ class Grids {
     if (!(grid.given.cwiseAbs().maxCoeff() * model_.units.length < 1e7))
       throw CardError{fmt::format("grid {} lies farther than 10,000 km away", grid.label)};
     const auto vertex = static_cast<int>(grids_.size());
-    if (!model_.vertex_of.try_emplace(grid.label, vertex).second)
-      throw CardError{fmt::format("grid {} is there twice", grid.label)};
+    const auto [first, is_new] = model_.vertex_of.try_emplace(grid.label, vertex);
+    if (!is_new)
+      throw CardError{fmt::format("grid {} is there twice, first at {}", grid.label,
+                                  model_.log.place(grids_[first->second].line))};
     grids_.push_back(grid);
     model_.output_system.push_back(output);
     const std::string held = card.has(6) ? std::string(card.text(6)) : held_;
@@ -197,7 +213,7 @@ void NastranModel::for_each(const Handlers& handlers) {
     try {
       handler->second(CardView(bulk, card));
       log.use(card.name);
-    } catch (const UnusableProperty&) {
+    } catch (const AlreadySaid&) {
       continue;  // every element of it would say the same
     } catch (const CardError& error) {
       log.complain(card.line, card.name + ": " + error.text);
@@ -208,6 +224,7 @@ void NastranModel::for_each(const Handlers& handlers) {
 int NastranModel::vertex(const CardView& card, std::size_t i, const char* what) const {
   const long label = card.label(i, what);
   const auto found = vertex_of.find(label);
+  if (found == vertex_of.end() && unusable_grids.contains(label)) throw AlreadySaid{};
   if (found == vertex_of.end())
     throw CardError{
         fmt::format("{} {} names grid {}, which does not exist", card.name(), card.text(0), label)};
@@ -244,8 +261,10 @@ long NastranModel::new_element(const CardView& card) {
                            : card.name().starts_with("CONM") || card.name().starts_with("CMASS")
                                ? 2
                                : 0;
-  if (!elements[kind].insert(label).second)
-    throw CardError{fmt::format("element {} is there twice", label)};
+  const auto [first, is_new] = elements[kind].try_emplace(label, card.line());
+  if (!is_new)
+    throw CardError{
+        fmt::format("element {} is there twice, first at {}", label, log.place(first->second))};
   for (std::size_t other = 0; other < elements.size(); ++other)
     if (other != kind && elements[other].count(label) > 0) {
       log.remark(card.line(), card.name() + " has the number of an element of another kind");

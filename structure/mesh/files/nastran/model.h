@@ -81,8 +81,10 @@ struct NastranModel {
   /// What CBAR and CBEAM give, m, by their first pieces: lines that bear their PLOAD1.
   std::unordered_map<int, std::array<Vector3, 2>> offsets_of_bar;
   std::vector<long> output_system;  ///< of each vertex
+  /// Whose cards are wrong: what names them is left out without a word.
+  std::unordered_set<long> unusable_grids;
   /// Numbers that are taken: by plates, bars and springs; by rigid elements; by masses.
-  std::array<std::unordered_set<long>, 3> elements;
+  std::array<std::unordered_map<long, SourceLine>, 3> elements;
   std::unordered_set<long> solids;                   ///< read or left out
   std::unordered_set<long> solid_properties;         ///< that solids have
   std::unordered_set<long> any_elements;             ///< that the deck has, known here or not
@@ -104,7 +106,7 @@ struct NastranModel {
   /// Hands every card to its handler; counts those that go through as used, notes what is wrong.
   void for_each(const Handlers& handlers);
 
-  /// @throws CardError where there is no such grid.
+  /// @throws CardError where there is no such grid, AlreadySaid where its card is wrong.
   int vertex(const CardView& card, std::size_t i, const char* what) const;
   const Vector3& place(int vertex) const { return deck.mesh.vertices[vertex]; }
   /// Is a point one without a place (SPOINT, EPOINT)?
@@ -157,10 +159,11 @@ void take_stock_of_nastran_cards(NastranModel& model);
 /// may stand for a load's.
 bool may_be_nastran_load(std::string_view name);
 
-/// A property or material that something needs is wrong, and that has been said at its own line.
-struct UnusableProperty : CardError {};
+/// A grid, property or material that something needs is wrong, and that has been said at its own
+/// line.
+struct AlreadySaid : CardError {};
 
-/// @throws CardError if there is no such material; UnusableProperty if what it says cannot be.
+/// @throws CardError if there is no such material; AlreadySaid if what it says cannot be.
 const NastranMaterial& nastran_material(NastranModel& model, long number);
 /// The same; @throws CardError also if no plate can be of it.
 const NastranMaterial& nastran_plate_material(NastranModel& model, long number);

@@ -36,7 +36,7 @@ class SpreadMasses {
       const long own = card.label(0, "set");
       if (std::find(parts.begin(), parts.end(), own) == parts.end()) {
         model_.log.leave_out(card.name(), "sets that case control does not ask for");
-        throw UnusableProperty{};  // not counted as used
+        throw AlreadySaid{};  // not counted as used
       }
       is_any = true;
       add();

@@ -394,11 +394,11 @@ template <typename Read>
 auto at_its_line(NastranModel& model, const CardView& card, const Read& read) {
   try {
     return read();
-  } catch (const UnusableProperty&) {
+  } catch (const AlreadySaid&) {
     throw;
   } catch (const CardError& error) {
     model.log.complain(card.line(), card.name() + ": " + error.text);
-    throw UnusableProperty{{fmt::format("{} {} cannot be used", card.name(), card.text(0))}};
+    throw AlreadySaid{{fmt::format("{} {} cannot be used", card.name(), card.text(0))}};
   }
 }
 

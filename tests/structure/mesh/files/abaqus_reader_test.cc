@@ -409,7 +409,7 @@ TEST(AbaqusReader, SaysEverythingThatIsWrongAtOnce) {
 77, 1
 )");
   for (const char* line : {":3: error: *NODE: \"nan\" as coordinate is no finite number",
-                           ":5: error: *NODE: node 1 is there twice",
+                           ":5: error: *NODE: node 1 is there twice, first at ",
                            ":7: error: *ELEMENT: element 10 names node 99, which does not exist",
                            ":9: error: *ELEMENT: solids have no *SOLID SECTION",
                            ":11: error: *ELEMENT: element 12 of type S3 has 2 nodes; 3 are due",

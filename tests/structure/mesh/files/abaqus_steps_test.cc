@@ -143,5 +143,56 @@ PLATE, P, 6.
   EXPECT_EQ(deck.support_sets.at(2).supports.size(), 2U);
 }
 
+// A load case has what is there at the end of its step: a period of 2, a table that ends at 4, one
+// that begins later, one by the time of all steps. Forces of the first step by CalculiX 2.20 on a
+// cube: 50, 12.5 and a quarter; in the second the quarter has become a half there.
+TEST(AbaqusSteps, AmplitudesAreTakenAtTheEndOfTheStep) {
+  const std::string tables = R"(*AMPLITUDE, NAME=RAMP
+0., 0., 4., 1.
+*AMPLITUDE, NAME=ALL, TIME=TOTAL TIME
+0., 0., 1., 0., 5., 1.
+*AMPLITUDE, NAME=WAVE, DEFINITION=PERIODIC
+1, 5., 0., 0.
+0., 1.
+)";
+  const Deck deck = abaqus(abaqus_square_plate + tables + R"(*BOUNDARY
+1, ENCASTRE
+*STEP
+*STATIC
+1., 2.
+*CLOAD, AMPLITUDE=RAMP
+2, 3, 100.
+*CLOAD, AMPLITUDE=RAMP, TIME DELAY=1.5
+3, 3, 100.
+*DLOAD, AMPLITUDE=ALL
+Plate, P, 1000.
+*BOUNDARY, AMPLITUDE=RAMP
+4, 3, 3, .1
+*END STEP
+*STEP
+*STATIC
+*CLOAD, AMPLITUDE=ALL
+2, 3, 100.
+*END STEP
+)");
+  ASSERT_EQ(deck.load_sets.size(), 1U);
+  EXPECT_DOUBLE_EQ(deck.load_sets[0].point_loads.at(0).force.z(), 50);
+  EXPECT_DOUBLE_EQ(deck.load_sets[0].point_loads.at(1).force.z(), 12.5);
+  EXPECT_DOUBLE_EQ(deck.load_sets[0].plate_loads.at(0).pressure[0], 250);
+  EXPECT_DOUBLE_EQ(deck.support_sets.at(0).supports.at(1).value[2], 0.05);
+  ASSERT_FALSE(deck.remarks.empty());
+  EXPECT_THAT(
+      deck.remarks.back().text,
+      ::testing::HasSubstr("step 2 is no load case: what steps before gave with AMPLITUDE"));
+
+  const auto said = [&](const std::string& name) {
+    return complaints_of_abaqus(abaqus_square_plate + tables +
+                                "*STEP\n*STATIC\n*CLOAD, AMPLITUDE=" + name +
+                                "\n2, 3, 100.\n*END STEP\n");
+  };
+  EXPECT_THAT(said("WAVE"), ::testing::HasSubstr("amplitude WAVE has DEFINITION"));
+  EXPECT_THAT(said("GONE"), ::testing::HasSubstr("amplitude GONE does not exist"));
+}
+
 }  // namespace
 }  // namespace blocklift::structure::test

@@ -85,5 +85,27 @@ TEST(BrokenDecks, NumbersBeyondTheGreatest) {
   EXPECT_EQ(complaints_of_abaqus(square_of_abaqus + "*NODE\n999999999, 0., 0., 5.\n"), "");
 }
 
+// What names a grid whose card is wrong is not said to be wrong, too.
+TEST(BrokenDecks, AWrongGridIsSaidOnce) {
+  const std::string text = complaints_of_nastran(R"(GRID,1,,0.,0.,0.
+GRID,2,,1.,x0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+CORD1R,7,1,2,4
+CQUAD4,1,1,1,2,3,4
+PSHELL,1,1,.01,1
+MAT1,1,2.1+11,,.3,7850.
+CONM2,7,2,,5.
+RBE2,8,2,123,3,4
+CELAS2,11,1.+5,2,1
+MPC,5,2,1,1.,3,1,-1.
+FORCE,1,2,,1.,0.,0.,1.
+PLOAD4,1,1,5.
+SPC1,2,123456,2,4
+)");
+  EXPECT_THAT(text, HasSubstr(":2: error: GRID: \"x0.\" as coordinate"));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 0) << text;
+}
+
 }  // namespace
 }  // namespace blocklift::structure::test

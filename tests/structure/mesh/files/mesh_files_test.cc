@@ -250,8 +250,8 @@ TEST_F(MeshFiles, AbaqusMessagesNameFileAndLine) {
     text.replace(text.find(from), from.size(), to);
     return error_of(write("wrong.inp", text));
   };
-  EXPECT_THAT(changed("C3D8R", "S4R"),
-              AllOf(HasSubstr("wrong.inp:12: "), HasSubstr("S4R"), HasSubstr("C3D20")));
+  EXPECT_THAT(changed("C3D8R", "B31"),
+              AllOf(HasSubstr("wrong.inp:12: "), HasSubstr("B31"), HasSubstr("C3D20")));
   EXPECT_THAT(changed("3, 2., 0., 0.", "3, 2.x, 0., 0."),
               AllOf(HasSubstr("wrong.inp:7: "), HasSubstr("\"2.x\" is no coordinate")));
   EXPECT_THAT(changed("3, 2., 0., 0.", "2, 2., 0., 0."),
@@ -266,6 +266,57 @@ TEST_F(MeshFiles, AbaqusMessagesNameFileAndLine) {
   EXPECT_THAT(changed("upper.inc", "lower.inc"),
               AllOf(HasSubstr("wrong.inp:11: "), HasSubstr("lower.inc")));
   EXPECT_THAT(changed("ROOT, corner", "roots"), HasSubstr("no set \"roots\""));
+}
+
+// Gmsh writes the faces of a solid as plane elements, and its curves as trusses, beside it.
+TEST_F(MeshFiles, AbaqusFacesBesideSolidsAreGroups) {
+  const std::string solid = R"(*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 0, 1, 0
+4, 0, 0, 1
+*ELEMENT, type=T3D2, ELSET=Line1
+1, 1, 2
+*ELEMENT, type=CPS3, ELSET=Surface1
+2, 1, 3, 2
+3, 1, 2, 4
+*ELEMENT, type=C3D4, ELSET=Volume1
+5, 1, 2, 3, 4
+*ELSET, ELSET=edge
+1
+*ELSET, ELSET=floor
+2
+*NSET, NSET=corner
+4
+)";
+  PartReading reading;
+  reading.element_order = 1;
+  const PartMesh mesh = read_part_mesh(write("solid.inp", solid), reading);
+  EXPECT_EQ(mesh.solids.size(), 1U);
+  expect_group(mesh, "floor", 2, 1);
+  expect_group(mesh, "Surface1", 2, 2);
+  expect_group(mesh, "Volume1", 3, 1);
+  expect_group(mesh, "corner", 0, 1);
+  EXPECT_EQ(mesh.find_group("edge"), nullptr);
+}
+
+// Mid-surfaces alone need the thickness of their plates.
+TEST_F(MeshFiles, AbaqusSurfacesAreThickened) {
+  const std::string file = write("plates.inp", R"(*NODE
+1, 0, 0, 0
+2, 2, 0, 0
+3, 2, 1, 0
+4, 0, 1, 0
+*ELEMENT, type=CPS4, ELSET=Surface1
+1, 1, 2, 3, 4
+*ELSET, ELSET=deck
+1
+)");
+  EXPECT_THAT(error_of(file), HasSubstr("of mid-surfaces say how thick they are: mesh: {plates:"));
+  PartReading reading;
+  reading.plates = {{"deck", 0.1}};
+  PartModel model = model_of(read_part_mesh(file, reading));
+  EXPECT_NEAR(find_part_mass(model).volume, 0.2, 1e-12);
 }
 
 /// A box of 20 x 3 x 2 in Gmsh's current model, meshed with tetrahedra and written.

@@ -381,14 +381,14 @@ GRID,4,,1.+400,0.,0.
 CQUAD4,10,5,1,99,1,1
 CTRIA3,11,6,1,1,1
 WEIRD,1,2,3
-CHEXA,12,5,1,2,3,4,5,6
+CHEXA,12,5,1,98,3,4,5,6
 CBAR,13,5,1,1,1.,0.,0.
 PSHELL,6,9,.01
 SPC1,1,789,1
 )");
   for (const char* line :
        {":2: error: GRID: \"nan\" as coordinate (field 4 of line 1) is no finite number",
-        ":3: error: GRID: \"inf\"", ":4: error: GRID: grid 1 is there twice",
+        ":3: error: GRID: \"inf\"", ":4: error: GRID: grid 1 is there twice, first at ",
         ":5: error: GRID: \"1.+400\"",
         ":6: error: CQUAD4: CQUAD4 10 names grid 99, which does not exist",
         ":7: error: CTRIA3: CTRIA3 11 has two corners in one grid",

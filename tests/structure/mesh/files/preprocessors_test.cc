@@ -265,5 +265,24 @@ TEST(Preprocessors, RemarksOfManyPropertiesAreOne) {
   EXPECT_THAT(deck.remarks[0].text, HasSubstr("12 properties of plates, PSHELL 1 the first"));
 }
 
+// Old decks have a letter where others have the sign of a continuation's mark: MSC's sample of a
+// plate with a hole. Also where the lines stand apart.
+TEST(Preprocessors, MarksOfContinuationsBeginWithAnything) {
+  const std::string deck = R"(
+CORD2C  1                                                       1.      CORD1
++ORD1   1.
+GRID    1       1        2.      90.     0.0
+GRID    2       1        2.      0.0     0.0
+CONM2   3       1               5.                                      ABC
+RBE2    4       2       123456  1
+)";
+  const Deck read = nastran(deck + "+BC     1.              2.\n");
+  expect_near(read.mesh.vertices[0], Vector3(0, 2, 0), 1e-12);
+  ASSERT_EQ(read.mesh.masses.size(), 1U);
+  EXPECT_DOUBLE_EQ(read.mesh.masses[0].inertia(1, 1), 2);
+  EXPECT_THAT(complaints_of_nastran(deck + "+BD     1.              2.\n"),
+              HasSubstr("a line continues \"BD\", which no card ends in"));
+}
+
 }  // namespace
 }  // namespace blocklift::structure::test

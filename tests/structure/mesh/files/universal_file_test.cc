@@ -252,6 +252,18 @@ TEST_F(UniversalFiles, MiddlesLieBetweenTheirCorners) {
     }
 }
 
+// Gmsh writes the group of a point as its node and as an element that it does not write.
+TEST_F(UniversalFiles, PointsOfGmshAreNodes) {
+  std::string text = text_of(two_cubes, cubes, {{"bodies", 8, {1, 2}}, {"corner", 7, {3, 3}}});
+  const std::string second = "         7         3         0         0\n";
+  text.replace(text.rfind(second), second.size(), "         8        99         0         0\n");
+  const PartMesh mesh = read_part_mesh(write(text), {});
+  const PartGroup* corner = mesh.find_group("corner");
+  ASSERT_NE(corner, nullptr);
+  EXPECT_EQ(corner->dimension, 0);
+  EXPECT_EQ(corner->elements.size(), 1U);
+}
+
 TEST_F(UniversalFiles, MessagesNameTheLine) {
   EXPECT_THAT(error_of(text_of({Vector3(0, 0, 0)}, {{21, {1, 2}}}, {})),
               HasSubstr("line 14: element 1 names node 2, which does not exist"));
