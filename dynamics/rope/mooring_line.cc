@@ -1,10 +1,8 @@
 #include "dynamics/rope/mooring_line.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "dynamics/errors.h"
-#include "dynamics/force/one_sided.h"
 
 namespace blocklift::dynamics {
 
@@ -103,57 +101,65 @@ TuggerLine::TuggerLine(Definition definition) : definition_(std::move(definition
   }
 }
 
-TuggerLine::Pull TuggerLine::calc_pull(const MotionState& state) const {
+TuggerLoad TuggerLine::calc_elastic_and_damping(const Kinematics& kinematics) const {
   const BodyPoint& a = definition_.from;
   const BodyPoint& b = definition_.to;
-  const Kinematics& k = state.kinematics;
-  const Vector3 span = point_position(k, b.body, b.p_BoQ_B) - point_position(k, a.body, a.p_BoQ_B);
-  Pull pull;
-  pull.length = span.norm();
-  if (!(pull.length > 1e-12)) {
+  const Vector3 span =
+      point_position(kinematics, b.body, b.p_BoQ_B) - point_position(kinematics, a.body, a.p_BoQ_B);
+  TuggerLoad load;
+  load.length = span.norm();
+  if (!(load.length > 1e-12)) {
     throw ModelError("tugger line \"" + definition_.name +
                      "\": its ends coincide, so the direction of its pull is undefined");
   }
-  pull.direction_W = span / pull.length;
-  pull.relative_velocity_W =
-      point_velocity(k, b.body, b.p_BoQ_B) - point_velocity(k, a.body, a.p_BoQ_B);
-  pull.rate = pull.direction_W.dot(pull.relative_velocity_W);
-  const double elastic =
-      definition_.tension > 0.0
-          ? definition_.tension
-          : definition_.stiffness * (pull.length - definition_.unstretched_length);
-  pull.tension = one_sided_force(elastic, definition_.damping * pull.rate);
-  pull.elastic = std::max(0.0, elastic);
-  return pull;
+  load.direction_W = span / load.length;
+  load.relative_velocity_W =
+      point_velocity(kinematics, b.body, b.p_BoQ_B) - point_velocity(kinematics, a.body, a.p_BoQ_B);
+  load.rate = load.direction_W.dot(load.relative_velocity_W);
+  load.elastic_force = definition_.tension > 0.0
+                           ? definition_.tension
+                           : definition_.stiffness * (load.length - definition_.unstretched_length);
+  load.damping_force = definition_.damping * load.rate;
+  return load;
 }
 
-double TuggerLine::calc_tension(const MotionState& state) const { return calc_pull(state).tension; }
-
-void TuggerLine::add_forces(const MotionState& state, Loads& loads) const {
-  const Pull pull = calc_pull(state);
-  const Vector3 f_W = pull.tension * pull.direction_W;
-  add_point_force(state.kinematics, definition_.from.body, definition_.from.p_BoQ_B, f_W,
-                  loads.F_Bo_W);
-  add_point_force(state.kinematics, definition_.to.body, definition_.to.p_BoQ_B, -f_W,
-                  loads.F_Bo_W);
+TuggerLoad TuggerLine::calc_load(const Kinematics& kinematics, bool acts) const {
+  TuggerLoad load = calc_elastic_and_damping(kinematics);
+  load.acts = acts;
+  load.tension = one_sided_force(load.elastic_force, load.damping_force, acts);
+  return load;
 }
 
-void TuggerLine::add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const {
-  const Pull pull = calc_pull(state);
-  if (!(pull.tension > 0.0)) return;
-  derivatives.locate(0, definition_.from.body, arm_W(state.kinematics, definition_.from));
-  derivatives.locate(1, definition_.to.body, arm_W(state.kinematics, definition_.to));
-  derivatives.add_tension(0, 1, {pull.direction_W, pull.length, pull.relative_velocity_W},
-                          pull.tension, definition_.stiffness, definition_.damping);
+TuggerLoad TuggerLine::calc_load(const Kinematics& kinematics) const {
+  TuggerLoad load = calc_elastic_and_damping(kinematics);
+  load.acts = load.slack_indicator() > 0.0;
+  load.tension = one_sided_force(load.elastic_force, load.damping_force, load.acts);
+  return load;
 }
 
-EnergyAccount TuggerLine::calc_energy(const MotionState& state) const {
-  const Pull pull = calc_pull(state);
-  const double lost = (pull.tension - pull.elastic) * pull.rate;
+void TuggerLine::add_forces(const Kinematics& kinematics, const TuggerLoad& load,
+                            Loads& loads) const {
+  if (!load.acts) return;
+  const Vector3 f_W = load.tension * load.direction_W;
+  add_point_force(kinematics, definition_.from.body, definition_.from.p_BoQ_B, f_W, loads.F_Bo_W);
+  add_point_force(kinematics, definition_.to.body, definition_.to.p_BoQ_B, -f_W, loads.F_Bo_W);
+}
+
+void TuggerLine::add_derivatives(const Kinematics& kinematics, const TuggerLoad& load,
+                                 ForceDerivatives& derivatives) const {
+  if (!load.acts) return;
+  derivatives.locate(0, definition_.from.body, arm_W(kinematics, definition_.from));
+  derivatives.locate(1, definition_.to.body, arm_W(kinematics, definition_.to));
+  derivatives.add_tension(0, 1, {load.direction_W, load.length, load.relative_velocity_W},
+                          load.tension, definition_.stiffness, definition_.damping);
+}
+
+EnergyAccount TuggerLine::calc_energy(const TuggerLoad& load) const {
+  if (!load.acts) return {};
+  const double lost = load.damping_force * load.rate;
   if (definition_.tension > 0.0)
-    return {.dissipated_power = lost, .supplied_power = -definition_.tension * pull.rate};
-  const double stretch = std::max(0.0, pull.length - definition_.unstretched_length);
-  // What the tension does beyond the elastic force on the stretching line is lost.
+    return {.dissipated_power = lost, .supplied_power = -definition_.tension * load.rate};
+  const double stretch = load.length - definition_.unstretched_length;
   return {.stored_energy = 0.5 * definition_.stiffness * stretch * stretch,
           .dissipated_power = lost};
 }

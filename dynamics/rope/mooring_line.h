@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/force/force_element.h"
+#include "dynamics/force/one_sided.h"
 #include "dynamics/rope/catenary.h"
 
 namespace blocklift::dynamics {
@@ -42,22 +43,35 @@ class MooringLine {
   Definition definition_;
 };
 
+/// A tugger line's load at one instant.
+struct TuggerLoad {
+  Vector3 direction_W = Vector3::Constant(not_a_number);  ///< unit, from `from` to `to`
+  Vector3 relative_velocity_W = Vector3::Constant(not_a_number);
+  double length = not_a_number;         ///< m
+  double rate = not_a_number;           ///< of the length, m/s
+  double elastic_force = not_a_number;  ///< N; negative when slack
+  double damping_force = not_a_number;  ///< N
+  double tension = not_a_number;        ///< N
+  bool acts = false;                    ///< does the line pull?
+
+  /// Positive where the line pulls, negative where it is slack, continuous between: N.
+  double slack_indicator() const { return one_sided_indicator(elastic_force, damping_force); }
+};
+
 /// Tugger line: a straight light line that pulls and never pushes, by the law of ropes
 /// (one_sided_force) with a damping force c dL/dt. If its winch stands still, the elastic force is
 ///   F = k (L - L0)   (N);
 /// where the winch holds a tension, paying out and taking in as the ends move, it is
 ///   F = T0,
-/// and its work -T0 dL/dt is supplied from outside. A tension above zero says which.
+/// and its work -T0 dL/dt is supplied from outside. A tension above zero says which. A slack line
+/// stores nothing, and its winch does no work.
+///
+/// It is one of the lift's contacts (Contacts): an integration declares it taut or slack for a
+/// step, and ends the step where that changes. A load of 20 t that falls 1 m into a line of 40 MN
+/// over 20 m, with a damping of 0.005 s, takes as many right-hand sides as on the same rope.
 ///
 /// It is no Rope: a winch that holds a tension leaves no length out that one could tell, and stores
-/// nothing. Nor does the integration declare a line taut or slack for a step, as it does ropes. Its
-/// steps find the change by failing there: a load of 20 t that falls 1 m into a line of 40 MN over
-/// 20 m, with a damping of 0.005 s, takes 1,534 right-hand sides where the same rope takes 845
-/// (tolerance 1e-8), and ends as near the place that a tolerance of 1e-12 gives. The energy that is
-/// dissipated is known less well, since the damping force sets in at once: it errs by 0.1 % to
-/// 0.9 % of the largest kinetic energy at any tolerance from 1e-4 to 1e-10, whereas with a rope the
-/// error shrinks with the tolerance. So what falls into its line again and again is modelled as a
-/// rope.
+/// nothing.
 class TuggerLine {
  public:
   struct Definition {
@@ -77,21 +91,33 @@ class TuggerLine {
   const std::string& name() const { return definition_.name; }
   const Definition& definition() const { return definition_; }
 
+  /// Load by the law above.
   /// @throws ModelError if the ends coincide (the direction of the pull is undefined).
-  double calc_tension(const MotionState& state) const;
-  void add_forces(const MotionState& state, Loads& loads) const;
-  void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
-  EnergyAccount calc_energy(const MotionState& state) const;
+  TuggerLoad calc_load(const Kinematics& kinematics) const;
+  /// Load where the line is known to be taut or slack: the same law without its kink.
+  TuggerLoad calc_load(const Kinematics& kinematics, bool acts) const;
+
+  void add_forces(const Kinematics& kinematics, const TuggerLoad& load, Loads& loads) const;
+  void add_derivatives(const Kinematics& kinematics, const TuggerLoad& load,
+                       ForceDerivatives& derivatives) const;
+  EnergyAccount calc_energy(const TuggerLoad& load) const;
+
+  // The same by the law above.
+  double calc_tension(const MotionState& state) const {
+    return calc_load(state.kinematics).tension;
+  }
+  void add_forces(const MotionState& state, Loads& loads) const {
+    add_forces(state.kinematics, calc_load(state.kinematics), loads);
+  }
+  void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const {
+    add_derivatives(state.kinematics, calc_load(state.kinematics), derivatives);
+  }
+  EnergyAccount calc_energy(const MotionState& state) const {
+    return calc_energy(calc_load(state.kinematics));
+  }
 
  private:
-  struct Pull {
-    Vector3 direction_W;  ///< unit, from `from` to `to`
-    Vector3 relative_velocity_W;
-    double length, rate;  ///< m, m/s
-    double elastic;       ///< N
-    double tension;       ///< N
-  };
-  Pull calc_pull(const MotionState& state) const;
+  TuggerLoad calc_elastic_and_damping(const Kinematics& kinematics) const;
 
   Definition definition_;
 };

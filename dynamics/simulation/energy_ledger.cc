@@ -9,11 +9,15 @@ namespace blocklift::dynamics {
 namespace {
 
 // Of all force elements but hulls.
-EnergyAccount calc_element_energy(const LiftSystem& system, const MotionState& state) {
+EnergyAccount calc_element_energy(const LiftSystem& system, double t, const LiftWorkspace& w) {
+  const MotionState state{t, w.q, w.v, w.kinematics};
   EnergyAccount sum;
   for_each_element(system.elements(), [&](const auto& element) {
-    if constexpr (!is_hull_force<decltype(element)>) sum += element.calc_energy(state);
+    using Element = decltype(element);
+    if constexpr (!is_hull_force<Element> && !is_tugger_line<Element>)
+      sum += element.calc_energy(state);
   });
+  for (std::size_t i = 0; i < w.tugger_loads.size(); ++i) sum += calc_tugger_energy(system, i, w);
   return sum;
 }
 
@@ -39,6 +43,11 @@ EnergyAccount calc_rope_energy(const LiftSystem& system, std::size_t rope, const
   return system.ropes()[rope].calc_energy(w.rope_loads[rope]);
 }
 
+EnergyAccount calc_tugger_energy(const LiftSystem& system, std::size_t line,
+                                 const LiftWorkspace& w) {
+  return system.tugger_lines()[line].calc_energy(w.tugger_loads[line]);
+}
+
 EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w) {
   EnergyRates rates;
   for (const int k : system.mechanism().driven_velocities()) {
@@ -54,7 +63,7 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
     rates.dissipated_power +=
         system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).dissipated_power;
   }
-  const EnergyAccount elements = calc_element_energy(system, {t, w.q, w.v, w.kinematics});
+  const EnergyAccount elements = calc_element_energy(system, t, w);
   rates.outside_power = elements.supplied_power + calc_hull_power(system, w);
   rates.dissipated_power += elements.dissipated_power;
   // The memory gives and takes: what the bodies lose to it is in the waves, or comes back.
@@ -82,8 +91,8 @@ StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWo
     energy.elastic +=
         system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).stored_energy;
   }
+  energy.elastic += calc_element_energy(system, t, w).stored_energy;
   const MotionState state{t, w.q, w.v, w.kinematics};
-  energy.elastic += calc_element_energy(system, state).stored_energy;
   for (const HullForce& hull : std::get<std::vector<HullForce>>(system.elements())) {
     const double stored = hull.calc_stored_energy(state);
     energy.elastic += stored;

@@ -32,13 +32,17 @@ struct StoredEnergy {
 /// one at an elastic body, which springs back with it first.
 EnergyAccount calc_rope_energy(const LiftSystem& system, std::size_t rope, const LiftWorkspace& w);
 
+/// The same of a tugger line.
+EnergyAccount calc_tugger_energy(const LiftSystem& system, std::size_t line,
+                                 const LiftWorkspace& w);
+
 /// Powers at the instant that calc_right_hand_side has just evaluated.
 EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWorkspace& w);
 /// Stored energies at that instant.
 StoredEnergy calc_stored_energy(const LiftSystem& system, double t, const LiftWorkspace& w);
 
 /// Powers at (t, y), for less than calc_right_hand_side costs: accelerations are found only where a
-/// driven joint moves, as nothing else asks for them. Leaves rope and support loads in the
+/// driven joint moves, as nothing else asks for them. Leaves the loads of contacts in the
 /// workspace. Does not allocate. `hulls`: kept takes the hulls' forces of the workspace, which are
 /// those of the same time and a state near by.
 EnergyRates calc_energy_rates(const LiftSystem& system, double t, ConstVectorRef y,

@@ -16,6 +16,8 @@ EventSources::EventSources(const LiftSystem& system, const AwaitedCondition* awa
   for (std::size_t i = 0; i < ropes; ++i) sources_.push_back({Kind::rope, i});
   for (std::size_t i = 0; i < system.supports().size(); ++i)
     sources_.push_back({Kind::pad, ropes + i});
+  for (std::size_t i = 0; i < system.tugger_lines().size(); ++i)
+    sources_.push_back({Kind::tugger_line, sources_.size()});
   contacts_end_ = sources_.size();
   for (std::size_t i = 0; i < w.splits.size(); ++i) {
     for (std::size_t j = 0; j < w.splits[i].bend_count(); ++j)
@@ -98,6 +100,11 @@ void EventSources::foresee(double nearness) {
     const SupportPad::Definition& pad = system_.supports()[i].definition();
     is_foreseen_ = is_clear(ropes.size() + i, pad.stiffness, pad.damping, 1);
   }
+  const std::size_t first_line = ropes.size() + system_.supports().size();
+  for (std::size_t i = 0; i < system_.tugger_lines().size() && is_foreseen_; ++i) {
+    const TuggerLine::Definition& line = system_.tugger_lines()[i].definition();
+    is_foreseen_ = is_clear(first_line + i, line.stiffness, line.damping, 2);
+  }
 }
 
 bool EventSources::take_foreseen(double* values) {
@@ -115,6 +122,7 @@ bool EventSources::stands(const Source& source) const {
   switch (source.kind) {
     case Source::Kind::rope:
     case Source::Kind::pad:
+    case Source::Kind::tugger_line:
       return contacts_[source.index] != 0;
     case Source::Kind::bend:
       return true;
@@ -175,23 +183,28 @@ bool EventSources::switch_over(const Source& source, double t, Ledger ledger) {
   return true;
 }
 
+// In the rope or tugger line of a contact, J.
+double EventSources::stored_energy(const Source& source, double t) {
+  if (source.kind == Source::Kind::pad) return 0.0;
+  load(t);
+  if (source.kind == Source::Kind::rope)
+    return calc_rope_energy(system_, source.index, w_).stored_energy;
+  const std::size_t first_line = system_.ropes().size() + system_.supports().size();
+  return calc_tugger_energy(system_, source.index - first_line, w_).stored_energy;
+}
+
 void EventSources::switch_contact(const Source& source, double t, Ledger ledger) {
+  using Kind = Source::Kind;
   const std::size_t contact = source.index;
-  const bool is_rope = source.kind == Source::Kind::rope;
   const bool acts = contacts_[contact] == 0;
-  const auto stored = [&] {
-    if (!is_rope) return 0.0;
-    load(t);
-    return calc_rope_energy(system_, contact, w_).stored_energy;
-  };
-  const double before = stored();
+  const double before = stored_energy(source, t);
   contacts_[contact] = acts ? 1 : 0;
   ledger.result.events.push_back({t, static_cast<int>(contact), acts});
   ++ledger.result.statistics.contact_changes;
-  if (acts && !is_rope) set_down(contact - system_.ropes().size(), t);
-  if (acts && is_rope && w_.splits[contact].acts()) begin_split(contact);
-  // What a rope that becomes slack while it is still stretched had stored is lost.
-  ledger.dissipated += before - stored();
+  if (acts && source.kind == Kind::pad) set_down(contact - system_.ropes().size(), t);
+  if (acts && source.kind == Kind::rope && w_.splits[contact].acts()) begin_split(contact);
+  // What a rope or line that becomes slack while it is still stretched had stored is lost.
+  ledger.dissipated += before - stored_energy(source, t);
 }
 
 // Friction holds a point of the load where it touches the ground.

@@ -11,9 +11,9 @@ namespace blocklift::dynamics {
 /// as one.
 inline constexpr double beside = 2e-6;
 
-/// What changes at instants that the motion brings about: ropes that go slack or taut, pads that
-/// are loaded or lift off, bends at which a rope with friction begins to slip or to stick, and the
-/// condition that a run waits for.
+/// What changes at instants that the motion brings about: ropes and tugger lines that go slack or
+/// taut, pads that are loaded or lift off, bends at which a rope with friction begins to slip or to
+/// stick, and the condition that a run waits for.
 ///
 /// Each is a source of events with a value, continuous in time, whose sign says how it stands. It
 /// is held to that during a step; where the sign contradicts it, it is switched over, and the
@@ -21,7 +21,7 @@ inline constexpr double beside = 2e-6;
 ///
 /// | source | value | positive while |
 /// |---|---|---|
-/// | rope, pad | calc_contact_indicators | it acts, as Contacts says |
+/// | rope, pad, tugger line | calc_contact_indicators | it acts, as Contacts says |
 /// | bend | RopeSplit::indicator | always: behind a change the value is another one |
 /// | condition | AwaitedCondition::indicator | it has been met; the integration goes on |
 ///
@@ -43,7 +43,7 @@ class EventSources {
                MoveTo move_to);
 
   int count() const { return static_cast<int>(sources_.size()); }
-  /// Which ropes and pads act now.
+  /// Which ropes, pads and tugger lines act now.
   const Contacts& contacts() const { return contacts_; }
   void set_contacts(Contacts contacts) { contacts_ = std::move(contacts); }
   /// The rope pulls no more. @return Did it?
@@ -55,7 +55,7 @@ class EventSources {
   /// At the end of a step (s): counts how ropes with friction have rolled over their edges.
   void carry_splits(double t);
 
-  /// Kinematics and loads of ropes and pads at a time, s.
+  /// Kinematics and loads of ropes, pads and tugger lines at a time, s.
   void load(double t);
   /// The value of each source, of the instant that calc_contact_loads has just evaluated.
   /// @param may_be_met: is it the condition's time? Before, it counts as not met.
@@ -79,7 +79,7 @@ class EventSources {
 
  private:
   struct Source {
-    enum class Kind { rope, pad, bend, condition };
+    enum class Kind { rope, pad, tugger_line, bend, condition };
     Kind kind;
     std::size_t index = 0;  // among Contacts; of the bend's rope
     std::size_t bend = 0;   // which of the rope's
@@ -91,6 +91,7 @@ class EventSources {
   bool is_due(std::size_t k, const std::vector<int>* found) const;
   bool switch_over(const Source& source, double t, Ledger ledger);
   void switch_contact(const Source& source, double t, Ledger ledger);
+  double stored_energy(const Source& source, double t);
   void set_down(std::size_t pad, double t);
   void begin_split(std::size_t rope);
 
@@ -99,7 +100,7 @@ class EventSources {
   LiftWorkspace& w_;
   MoveTo move_to_;
   Contacts contacts_;
-  std::vector<Source> sources_;  // ropes and pads, bends, the condition
+  std::vector<Source> sources_;  // contacts, bends, the condition
   std::size_t contacts_end_ = 0, bends_end_ = 0;
   Eigen::VectorXd values_;  // at the end of the last step, where no root was found
   Eigen::VectorXd foreseen_;

@@ -230,7 +230,8 @@ void Integrator::seek_peaks(double begin, bool ends_at_corner) {
 void Integrator::slide_pads(double t) {
   const std::vector<char>& contacts = events_.contacts();
   const auto first = contacts.begin() + static_cast<std::ptrdiff_t>(system_.ropes().size());
-  if (std::find(first, contacts.end(), 1) == contacts.end()) return;
+  const auto last = first + static_cast<std::ptrdiff_t>(system_.supports().size());
+  if (std::find(first, last, 1) == last) return;
   events_.load(t);
   carry_pads_along(system_, w_);
 }

@@ -39,9 +39,13 @@ void calc_force_derivatives(const LiftSystem& system, double t, bool stretch_onl
   for (std::size_t i = 0; i < system.supports().size(); ++i) {
     system.supports()[i].add_derivatives(w.kinematics, w.support_loads[i], tangent.forces);
   }
+  for (std::size_t i = 0; i < system.tugger_lines().size(); ++i)
+    system.tugger_lines()[i].add_derivatives(w.kinematics, w.tugger_loads[i], tangent.forces);
   const MotionState state{t, w.q, w.v, w.kinematics};
-  for_each_element(system.elements(),
-                   [&](const auto& element) { element.add_derivatives(state, tangent.forces); });
+  for_each_element(system.elements(), [&](const auto& element) {
+    if constexpr (!is_tugger_line<decltype(element)>)
+      element.add_derivatives(state, tangent.forces);
+  });
   tangent.loads.F_Bo_W = w.loads.F_Bo_W;
   if (!w.loops || stretch_only) return;
   const Mechanism& mechanism = system.mechanism();

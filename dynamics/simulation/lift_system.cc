@@ -138,6 +138,7 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
       steered(system.operation().steerings().size(), MotionProfile::constant(0.0)),
       rope_loads(system.ropes().size()),
       support_loads(system.supports().size()),
+      tugger_loads(system.tugger_lines().size()),
       splits(make_rope_splits(system.ropes())),
       path(make_rope_path(system.ropes())),
       end_shifts(system.ropes().size()) {
@@ -305,6 +306,14 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
                     : supports[i].calc_load(w.kinematics, place);
     supports[i].add_force(w.kinematics, load, w.loads);
   }
+  const std::vector<TuggerLine>& lines = system.tugger_lines();
+  const std::size_t first_line = ropes.size() + supports.size();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    TuggerLoad& load = w.tugger_loads[i];
+    load = contacts ? lines[i].calc_load(w.kinematics, (*contacts)[first_line + i] != 0)
+                    : lines[i].calc_load(w.kinematics);
+    lines[i].add_forces(w.kinematics, load, w.loads);
+  }
 }
 
 void calc_hull_forces(const LiftSystem& system, double t, LiftWorkspace& w) {
@@ -329,7 +338,9 @@ void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, Li
   calc_contact_loads(system, contacts, w);
   const MotionState state{t, w.q, w.v, w.kinematics};
   for_each_element(system.elements(), [&](const auto& element) {
-    if constexpr (!is_hull_force<decltype(element)>) element.add_forces(state, w.loads);
+    using Element = decltype(element);
+    if constexpr (!is_hull_force<Element> && !is_tugger_line<Element>)
+      element.add_forces(state, w.loads);
   });
   if (hull_forces == HullForces::evaluated) calc_hull_forces(system, t, w);
   const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
@@ -374,6 +385,7 @@ void calc_contact_indicators(const LiftWorkspace& w, VectorRef indicators) {
   Eigen::Index i = 0;
   for (const RopeLoad& load : w.rope_loads) indicators[i++] = 1e-3 * load.slack_indicator();
   for (const SupportLoad& load : w.support_loads) indicators[i++] = 1e-3 * load.indicator();
+  for (const TuggerLoad& load : w.tugger_loads) indicators[i++] = 1e-3 * load.slack_indicator();
 }
 
 Contacts find_contacts(const LiftSystem& system, double t, ConstVectorRef y, LiftWorkspace& w) {

@@ -43,6 +43,10 @@ using ForceElements =
 template <class Element>
 inline constexpr bool is_hull_force = std::is_same_v<std::remove_cvref_t<Element>, HullForce>;
 
+/// Tugger lines are evaluated apart, too: they are contacts.
+template <class Element>
+inline constexpr bool is_tugger_line = std::is_same_v<std::remove_cvref_t<Element>, TuggerLine>;
+
 /// Calls `function` with each element of every kind.
 template <class Function>
 void for_each_element(const ForceElements& elements, Function&& function) {
@@ -76,11 +80,11 @@ struct LiftDefinition {
 ///
 /// State y = (q_free, v_free, x): the coordinates and velocities that no drive prescribes, in the
 /// order of the mechanism, and the memory of the water that floating bodies radiate; y has nq_free
-/// + nv_free + memory_count entries. The driven ones follow from the time. Ropes and support pads
-/// are one-sided: each acts or does not act, and changes at an instant. `Contacts` says which act,
-/// ropes first, then pads. Loops of the mechanism tie the free coordinates together; the state
-/// keeps all of them, and whoever moves it brings it back onto the loops (LoopProjector). Lengths
-/// and offsets of loops that are left open are taken from q_start.
+/// + nv_free + memory_count entries. The driven ones follow from the time. Ropes, support pads and
+/// tugger lines are one-sided: each acts or does not act, and changes at an instant. `Contacts`
+/// says which act, ropes first, then pads, then tugger lines. Loops of the mechanism tie the free
+/// coordinates together; the state keeps all of them, and whoever moves it brings it back onto the
+/// loops (LoopProjector). Lengths and offsets of loops that are left open are taken from q_start.
 class LiftSystem {
  public:
   /// A driven joint without a drive in the operation stands still where q_start has it.
@@ -92,6 +96,9 @@ class LiftSystem {
   const std::vector<Rope>& ropes() const { return d_.ropes; }
   const std::vector<SupportPad>& supports() const { return d_.supports; }
   const ForceElements& elements() const { return d_.elements; }
+  const std::vector<TuggerLine>& tugger_lines() const {
+    return std::get<std::vector<TuggerLine>>(d_.elements);
+  }
   const std::vector<ElasticBody>& elastic_bodies() const { return d_.elastic_bodies; }
   /// Does an end of the rope lie at an elastic body?
   bool ends_elastically(int rope) const { return ends_elastically_[rope] != 0; }
@@ -105,8 +112,10 @@ class LiftSystem {
   const RadiatedWater* water() const { return d_.water.get(); }
   int memory_count() const { return d_.water ? static_cast<int>(d_.water->state_count()) : 0; }
   int state_size() const { return nq_free_ + nv_free_ + memory_count(); }
-  /// Number of one-sided elements: ropes, then support pads.
-  int contact_count() const { return static_cast<int>(d_.ropes.size() + d_.supports.size()); }
+  /// Number of one-sided elements: ropes, then support pads, then tugger lines.
+  int contact_count() const {
+    return static_cast<int>(d_.ropes.size() + d_.supports.size() + tugger_lines().size());
+  }
   /// Index of a rope by its name, for set-up.
   /// @throws ModelError if there is none; the message lists those that exist.
   int rope_index(std::string_view name) const;
@@ -118,7 +127,8 @@ class LiftSystem {
   std::vector<char> ends_elastically_;
 };
 
-/// Which one-sided elements act: an entry for each rope (taut?), then for each pad (loaded?).
+/// Which one-sided elements act: an entry for each rope (taut?), then for each pad (loaded?), then
+/// for each tugger line (taut?).
 using Contacts = std::vector<char>;
 
 /// Force of a water surface that is marched in steps, between two of them: a cubic in time.
@@ -163,6 +173,7 @@ struct LiftWorkspace {
   std::vector<MotionProfile> steered;
   std::vector<RopeLoad> rope_loads;
   std::vector<SupportLoad> support_loads;
+  std::vector<TuggerLoad> tugger_loads;
   std::vector<Vector3> standing_places;  ///< of each pad, m: p_WG, or where ground was touched
   /// For each rope; those of ropes without friction do nothing. They act where the integration has
   /// begun them: equilibria and natural modes are those without friction.
@@ -197,8 +208,8 @@ void carry_pads_along(const LiftSystem& system, LiftWorkspace& w);
 /// The pad stands where its point is now, at the workspace's kinematics, if it is ground.
 void set_down_pad(const LiftSystem& system, std::size_t pad, LiftWorkspace& w);
 
-/// Kinematics of the workspace's q, v and feeds, and the loads of ropes, elastic bodies and pads
-/// alone: all that calc_contact_indicators asks for. `contacts` as below.
+/// Kinematics of the workspace's q, v and feeds, and the loads of ropes, elastic bodies, pads and
+/// tugger lines alone: all that calc_contact_indicators asks for. `contacts` as below.
 void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, LiftWorkspace& w);
 
 /// Are hulls' forces, which cost the most, to be found anew, or are those of the workspace good

@@ -15,8 +15,15 @@ double AwaitedCondition::indicator(const LiftSystem& system, const LiftWorkspace
       by_pads += w.support_loads[i].force_W.z();
   }
   if (kind == Kind::pads_at_least) return 1e-3 * (by_pads - force);
-  // calc_contact_loads has the loads of ropes and pads alone.
-  const double by_ropes = w.loads.F_Bo_W[body].force.z() - by_pads;
+  double by_lines = 0.0;
+  for (std::size_t i = 0; i < w.tugger_loads.size(); ++i) {
+    const TuggerLine::Definition& line = system.tugger_lines()[i].definition();
+    const double upwards = w.tugger_loads[i].tension * w.tugger_loads[i].direction_W.z();
+    if (line.from.body == body) by_lines += upwards;
+    if (line.to.body == body) by_lines -= upwards;
+  }
+  // calc_contact_loads has the loads of ropes, pads and tugger lines alone.
+  const double by_ropes = w.loads.F_Bo_W[body].force.z() - by_pads - by_lines;
   return 1e-3 * (kind == Kind::ropes_at_least ? by_ropes - force : force - by_ropes);
 }
 

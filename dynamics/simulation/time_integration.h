@@ -45,7 +45,8 @@ struct Departure {
 struct IntegrationSettings {
   /// Local error allowed over one step, relative to 1 m for displacements, 1 rad for angles, and to
   /// the larger of 1 m/s (1 rad/s) and the value for velocities: it does not depend on where the
-  /// world's origin lies.
+  /// world's origin lies. Root mean square over the unknowns of the mechanism, however many the
+  /// water's memory adds.
   double relative_tolerance = 1e-6;
   double sample_interval = 0.05;  ///< s
   bool works = true;              ///< accumulate the works of drives, winches, wind and dissipation
@@ -84,14 +85,14 @@ struct IntegrationStatistics {
   long error_test_failures = 0;
   long nonlinear_failures = 0;
   long restarts = 0;         ///< at events and jumps of a motion
-  long contact_changes = 0;  ///< ropes that went slack or taut, pads loaded or lifted off
+  long contact_changes = 0;  ///< ropes and lines that went slack or taut, pads loaded or lifted off
   long bend_changes = 0;     ///< bends with friction at which a rope began to slip or to stick
 };
 
-/// A rope or pad that began or ceased to act.
+/// A rope, pad or tugger line that began or ceased to act.
 struct ContactEvent {
   double time = not_a_number;  ///< s
-  int contact = -1;            ///< rope, or rope count + pad
+  int contact = -1;            ///< among Contacts
   bool acts = false;
 };
 
@@ -118,12 +119,12 @@ struct IntegrationResult {
 ///
 /// BDF with Newton's method (CVODES), quaternions projected back to unit length at every step.
 /// Steps end at stage changes and wherever a motion is not smooth, and at each instant at which a
-/// rope goes slack or taut or a pad is loaded or lifts off: which of them act is fixed during a
-/// step, so that no step crosses a change, and the integration starts anew behind it. Samples come
-/// from the method's own interpolation; tensions and, where they are recorded, accelerations and
-/// drive forces are computed anew from the interpolated state, so that each sample is consistent in
-/// itself. Largest loads are those of the samples. The motion is the same bit for bit, whatever is
-/// recorded.
+/// rope or tugger line goes slack or taut or a pad is loaded or lifts off: which of them act is
+/// fixed during a step, so that no step crosses a change, and the integration starts anew behind
+/// it. Samples come from the method's own interpolation; tensions and, where they are recorded,
+/// accelerations and drive forces are computed anew from the interpolated state, so that each
+/// sample is consistent in itself. Largest loads are those of the samples. The motion is the same
+/// bit for bit, whatever is recorded.
 ///
 /// Ropes with friction at sheaves or edges begin with one tension all along, as in equilibrium, and
 /// stick. Where one begins to slip, or ceases to, is an event too (RopeSplit).

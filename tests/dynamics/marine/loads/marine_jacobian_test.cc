@@ -56,7 +56,7 @@ void expect_jacobian(const ForceElements& elements, Random& random) {
     get_state(system, q, random.values(mechanism.nv(), 1), y);
     JacobianWorkspace workspace(system);
     Eigen::MatrixXd J(y.size(), y.size());
-    const Contacts contacts;
+    const Contacts contacts = find_contacts(system, 0.0, y, w);
     calc_jacobian(system, 0.0, y, &contacts, w, workspace, J);
     const Eigen::MatrixXd difference = difference_jacobian(system, 0.0, y, &contacts, w, 1e-6);
     EXPECT_LT((difference - J).lpNorm<Eigen::Infinity>(), 1e-5 * J.lpNorm<Eigen::Infinity>());
