@@ -13,6 +13,7 @@
 
 #include "pipeline/assessment/assess.h"
 #include "pipeline/command_line/expect_command.h"
+#include "pipeline/command_line/freed_memory.h"
 #include "pipeline/command_line/held_signals.h"
 #include "pipeline/command_line/progress_line.h"
 #include "pipeline/comparison/expected_figures.h"
@@ -308,6 +309,7 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
     return exit_code::wrong_input;
   }
   require_writable(folder);
+  keep_freed_memory();
   UnfinishedRun unfinished(folder, traits_of_run(lift_case));
   say_what_is_gone_on_with(unfinished);
   ProgressLine line;

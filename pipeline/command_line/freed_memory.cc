@@ -12,6 +12,12 @@ void return_freed_memory() {
 #endif
 }
 
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  ::mallopt(M_TRIM_THRESHOLD, -1);
+#endif
+}
+
 void return_what_is_free() {
 #if defined(__GLIBC__)
   ::malloc_trim(0);

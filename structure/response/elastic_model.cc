@@ -28,7 +28,7 @@ void require_memory(const Mesh& mesh, const Resolution& resolution) {
   }
   const double p = resolution.degree, unknowns = 6 * p * p * cells;
   const double bytes = 16 * unknowns * 3 * (p + 1) * (p + 1);
-  if (const double available = available_memory(); bytes > available)
+  if (const double available = memory_for(bytes); bytes > available)
     throw NotEnoughMemory(fmt::format(
         "{:.3g} shells of degree {} make about {:.2g} unknowns, whose stiffness needs "
         "more than {:.3g} GB; {:.3g} GB are free; use larger elements or a lower element degree",

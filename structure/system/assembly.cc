@@ -175,7 +175,7 @@ void scatter(const Elimination& elimination, const Pattern& pattern, int element
 
 void require_memory(const Elimination& elimination, const Pattern& pattern) {
   const double bytes = 16.0 * static_cast<double>(pattern.column_start.back());
-  if (const double available = available_memory(); bytes > available)
+  if (const double available = memory_for(bytes); bytes > available)
     throw NotEnoughMemory(
         fmt::format("the stiffness of {} unknowns needs {:.1f} GB and {:.1f} GB are free; use "
                     "larger elements or a lower element degree",

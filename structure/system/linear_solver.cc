@@ -1,5 +1,7 @@
 #include "structure/system/linear_solver.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <fstream>
 #include <optional>
@@ -30,6 +32,14 @@ double available_memory() {
   return memory_within_limit();
 }
 
+double memory_for(double bytes) {
+  const double available = available_memory();
+#if defined(__GLIBC__)
+  if (available < bytes && ::malloc_trim(0) == 1) return available_memory();
+#endif
+  return available;
+}
+
 ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedUnknown> fixed)
     : fixed_(std::move(fixed)), factor_(new Factor) {
   stiffness_.swap(stiffness);  // Eigen's sparse matrices do not move, they copy
@@ -41,7 +51,7 @@ ConstrainedSystem::ConstrainedSystem(SparseLower&& stiffness, std::vector<FixedU
     return;
   }
   factor_->own.emplace(stiffness_);
-  const double needed = 1.3 * factor_bytes(), available = available_memory();
+  const double needed = 1.3 * factor_bytes(), available = memory_for(needed);
   if (needed > available)
     throw NotEnoughMemory(fmt::format(
         "factorising {} unknowns needs about {:.1f} GB and {:.1f} GB are free; use larger elements "

@@ -66,4 +66,8 @@ class ConstrainedSystem {
 /// Memory that is free on this machine, bytes; infinity where it cannot be told.
 double available_memory();
 
+/// The same where so many bytes are wanted: what was freed and is still held goes back first if it
+/// takes that to have them.
+double memory_for(double bytes);
+
 }  // namespace blocklift::structure

@@ -48,5 +48,17 @@ TEST(FreedMemory, BeneathWhatLivesOnIsUsedAgain) {
   EXPECT_LT(resident_megabytes(), before + 10);
 }
 
+TEST(FreedMemory, IsKeptUntilMoreIsWantedThanThereIs) {
+  return_freed_memory();
+  keep_freed_memory();
+  touched(900'000'000).reset();
+  const double kept = resident_megabytes();
+  EXPECT_GT(kept, 850);
+  structure::memory_for(0);
+  EXPECT_GT(resident_megabytes(), kept - 10);
+  structure::memory_for(1e18);
+  EXPECT_LT(resident_megabytes(), kept - 850);
+}
+
 }  // namespace
 }  // namespace blocklift::pipeline
