@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # The installation as others meet it, of the program in build/release: a program of somebody else
-# finds the libraries and simulates a pendulum with them; the Debian package's dependencies can be
-# had, and what it holds runs from an empty folder. (Unpacked, not installed: a root file system of
-# its own takes longer than all else here.)
+# finds the libraries and simulates a pendulum with them; the Debian packages' dependencies can be
+# had, what they hold runs from an empty folder, and they are installed, used and removed again in a
+# root of their own.
 source "$(dirname "${BASH_SOURCE[0]}")/prepare.sh"
 
 place=$(mktemp -d)
@@ -32,6 +32,35 @@ clean usr/bin/blocklift simulate usr/share/blocklift/models/mechanisms/slider-cr
 test -s "$place/clean/result/report.html"
 grep -q 'three.*licence' "$place/clean/result/report.html"
 grep -q '^\.SS assess' "$place/clean/usr/share/man/man1/blocklift.1"
+
+# The machine's files under an overlay: what is installed over them stays in memory.
+say "Packages in a root of their own"
+cat >"$place/in-own-root.sh" <<'END'
+set -euo pipefail
+mkdir "$1/over"
+mount -t tmpfs none "$1/over" && mkdir "$1"/over/{upper,work,root} &&
+  mount -t overlay overlay -o "lowerdir=/,upperdir=$1/over/upper,workdir=$1/over/work" "$1/over/root" || exit 77
+cp "$1"/*.deb "$1/over/root/mnt"
+mount --bind /proc "$1/over/root/proc"
+env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root chroot "$1/over/root" bash -euo pipefail -c '
+  cd /root
+  dpkg --install /mnt/*.deb >/dev/null
+  blocklift --version
+  blocklift simulate /usr/share/blocklift/models/mechanisms/slider-crank -o result >/dev/null
+  test -s result/report.html
+  /usr/bin/python3 -c "import blocklift; print(\"blocklift\", blocklift.version(), \"from Python\")"
+  dpkg --purge python3-blocklift libblocklift-dev blocklift >/dev/null
+  ! command -v blocklift
+  test -z "$(find /usr -path "*blocklift*" -print -quit)"'
+END
+code=0
+unshare --mount bash "$place/in-own-root.sh" "$place" || code=$?
+case $code in
+  0) echo "installed, used and removed" ;;
+  1) if [ "$(id -u)" -ne 0 ]; then echo "left out: only root can make it"; else exit 1; fi ;;
+  77) echo "left out: this machine lets nobody mount an overlay" ;;
+  *) exit "$code" ;;
+esac
 
 say "Python"
 dpkg-deb --extract "$place"/python3-blocklift_*.deb "$place/clean"
