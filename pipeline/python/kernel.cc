@@ -19,6 +19,7 @@
 #include "pipeline/files/library/model_library.h"
 #include "pipeline/files/lift_case/own_laws.h"
 #include "pipeline/files/named_file.h"
+#include "pipeline/formats/hdf5_exit.h"
 #include "pipeline/python/python_laws.h"
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
@@ -160,6 +161,7 @@ void translate(std::exception_ptr exception) {  // NOLINT(performance-unnecessar
 PYBIND11_MODULE(_kernel, module) {
   using namespace blocklift::pipeline;
   using pybind11::arg;
+  leave_no_files_to_hdf5();  // nor Python's end to what a full disk left open
   module.doc() = "Lifts that run in Python's own process; called by blocklift.Case.";
   pybind11::register_local_exception_translator(translate);
   module.attr("version") = std::string(program_version);

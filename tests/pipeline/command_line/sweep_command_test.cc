@@ -93,7 +93,7 @@ TEST_F(SweepCommand, TheVarianceOfALinearLiftIsKnownByHand) {
 }
 
 // At rest the crane carries 9.81 N of each kg of block and hook blocks: 90 % of 0.8 t of the block
-// are 7063 N, 90 % of 100 kg of a hook block 883 N.
+// are 7063.2 N, 90 % of 100 kg of a hook block 882.9 N. They stood within 0.05 N.
 TEST_F(SweepCommand, SwingsOfALinearLiftAreKnownByHand) {
   write_study(
       "members: 12\nvary:\n"
@@ -105,9 +105,9 @@ TEST_F(SweepCommand, SwingsOfALinearLiftAreKnownByHand) {
   const Outcome outcome = run("sweep study.yaml -o out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto load = figure("out", "cranes.C1.max_static_load_N");
-  EXPECT_NEAR(load["swings"]["weight"]["swing"].get<double>(), 9.81 * 720, 1);
-  EXPECT_NEAR(load["swings"]["hook"]["swing"].get<double>(), 9.81 * 90, 1);
-  EXPECT_GT(load["linear_share"].get<double>(), 0.99999);
+  EXPECT_NEAR(load["swings"]["weight"]["swing"].get<double>(), 9.81 * 720, 0.2);
+  EXPECT_NEAR(load["swings"]["hook"]["swing"].get<double>(), 9.81 * 90, 0.2);
+  EXPECT_NEAR(load["linear_share"].get<double>(), 1, 1e-9);
   EXPECT_THAT(outcome.out, ::testing::ContainsRegex("weight +7640 kg +8360 kg +\\+7\\.06\n"
                                                     ".*hook +255 kg +345 kg +\\+0\\.883\n"));
   EXPECT_THAT(text_of_file("out/study.html"), HasSubstr("<td>weight</td><td>7640 kg</td>"));

@@ -193,6 +193,21 @@ class LawTest(InATemporaryFolder):
         self.assertAlmostEqual(lengths["out-0"], 5, places=9)
         self.assertAlmostEqual(lengths["out-2"] - 5, 2 * (lengths["out-1"] - 5), places=3)
 
+    def test_a_full_disk_is_an_error_and_no_crash(self):
+        # Python's own process writes the results, and ends by itself thereafter.
+        ended = subprocess.run(
+            [sys.executable, "-c",
+             "import blocklift, resource\n"
+             "resource.setrlimit(resource.RLIMIT_FSIZE, (20000, resource.RLIM_INFINITY))\n"
+             "try:\n"
+             "    blocklift.Case('lift').simulate('out', laws={})\n"
+             "except blocklift.RunError as error:\n"
+             "    print(error)\n"],
+            capture_output=True, text=True)
+        self.assertIn("File too large", ended.stdout)
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertFalse(Path("out").exists())
+
     def test_a_law_cannot_begin_a_lift(self):
         case = self.hoist()
 
