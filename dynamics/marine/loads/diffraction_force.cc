@@ -58,7 +58,7 @@ DiffractionForce::DiffractionForce(Definition definition) : definition_(std::mov
 void DiffractionForce::add_component(const WaveComponent& wave, double wave_number) {
   require_frequency(definition_.series->databases.front().frequencies, wave.omega);
   waves_.push_back(wave);
-  wave_number_.push_back(wave_number);
+  ways_.push_back({wave_number, std::cos(wave.heading), std::sin(wave.heading)});
   const std::size_t count = headings_.size() - 1;
   for (const HydrodynamicDatabase& database : definition_.series->databases) {
     const std::size_t first = amplitudes_.size();
@@ -113,8 +113,7 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
     const WaveComponent& wave = waves_[c];
     const auto [j, s] = find_place(headings_, wave.heading - yaw);
     const double phase = wave.omega * state.time - wave.phase -
-                         wave_number_[c] * (std::cos(wave.heading) * X_WH.p.x() +
-                                            std::sin(wave.heading) * X_WH.p.y());
+                         ways_[c].wave_number * (ways_[c].x * X_WH.p.x() + ways_[c].y * X_WH.p.y());
     const Complex at_now = std::polar(1.0, phase);
     for (std::size_t k = 0; k < states; ++k) {
       const double weight = shares.weight[k];
@@ -122,7 +121,8 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
       const Amplitude& before = amplitudes_[(c * states + k) * count + j - 1];
       const Amplitude& after = amplitudes_[(c * states + k) * count + j];
       for (Eigen::Index m = 0; m < 6; ++m) {
-        force[m] += weight * (((1.0 - s) * before[m] + s * after[m]) * at_now).real();
+        const Complex X = (1.0 - s) * before[m] + s * after[m];
+        force[m] += weight * (X.real() * at_now.real() - X.imag() * at_now.imag());
       }
     }
   }

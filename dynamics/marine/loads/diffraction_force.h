@@ -73,7 +73,11 @@ class DiffractionForce {
   DraughtInterpolation interpolation_;
   std::vector<double> headings_;  ///< ascending, the first repeated after a turn
   std::vector<WaveComponent> waves_;
-  std::vector<double> wave_number_;  ///< rad/m
+  /// A wave's number, rad/m, and the unit vector along its way.
+  struct Way {
+    double wave_number, x, y;
+  };
+  std::vector<Way> ways_;
   /// By wave, then draught, then heading: times the amplitude, phase at R.
   std::vector<Amplitude> amplitudes_;
 };

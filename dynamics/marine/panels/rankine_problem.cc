@@ -309,7 +309,10 @@ void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_fact
   reduced.diagonal().array() += static_cast<float>(2.0 * std::numbers::pi);
   multiply(-1.0F, influence.D_FB.cast<float>(), P.cast<float>(), 1.0F, reduced);
   factors->surface.solve_in_place(reduced);
-  MatrixXf single_q = (influence.S_FB * n - influence.D_FB * body_columns_).cast<float>();
+  MatrixXd driven = MatrixXd::Zero(root_area.size(), n.cols());
+  multiply(1.0, influence.S_FB, n, 0.0, driven);
+  multiply(-1.0, influence.D_FB, body_columns_, 1.0, driven);
+  MatrixXf single_q = driven.cast<float>();
   factors->surface.solve_in_place(single_q);
   const MatrixXd q = single_q.cast<double>();
   if (!keep_factors) factors.reset();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/panels/lone_rows.h"
 #include "dynamics/marine/radiation/database_parts.h"
@@ -204,10 +205,16 @@ MatrixXcd PartComputation::mode_potentials(const RankinePart& part, const Impuls
   const MatrixXcd surface = -model_.water().gravity /
                             Complex(0.0, settings_.frequencies[frequency]) *
                             run.elevation(frequency);
-  MatrixXcd bodies(part.body_columns().rows(), part.body_columns().cols());
-  bodies.real() = part.body_columns() + part.body_from_surface() * surface.real();
-  bodies.imag() = part.body_from_surface() * surface.imag();
-  return bodies;
+  const Eigen::Index modes = surface.cols();
+  MatrixXd parts(surface.rows(), 2 * modes);
+  parts << surface.real(), surface.imag();
+  MatrixXd bodies = MatrixXd::Zero(part.body_columns().rows(), 2 * modes);
+  bodies.leftCols(modes) = part.body_columns();
+  multiply(1.0, part.body_from_surface(), parts, 1.0, bodies);
+  MatrixXcd potentials(bodies.rows(), modes);
+  potentials.real() = bodies.leftCols(modes);
+  potentials.imag() = bodies.rightCols(modes);
+  return potentials;
 }
 
 FlowOfPart PartComputation::flow(std::size_t frequency) const {

@@ -46,7 +46,8 @@ ImpulseRun::ImpulseRun(const RankinePart& part, const SurfaceDamping& damping, c
       density_(water.density),
       gravity_(water.gravity),
       frequencies_(std::move(frequencies)),
-      march_(part, damping, water.gravity, part.surface_columns().cols()) {
+      march_(part, damping, water.gravity, part.surface_columns().cols()),
+      force_rows_(part.surface_columns().transpose()) {
   if (!with_elevation) return;
   const auto columns = static_cast<Eigen::Index>(2 * frequencies_.size());
   elevation_ = MatrixXd::Zero(part.surface_columns().size(), columns);
@@ -123,8 +124,12 @@ void ImpulseRun::start(double step, long steps) {
 }
 
 void ImpulseRun::keep_force() {
-  const MatrixXd& q = part_.surface_columns();
-  forces_.push_back(symmetric_part(density_ * gravity_ * (q.transpose() * march_.elevation())));
+  const Eigen::Index modes = force_rows_.rows();
+  MatrixXd force = MatrixXd::Zero(modes, modes);
+  // The sum's order must not depend on the number of threads.
+  const parallel::OneBlasThread for_a_small_product;
+  multiply(density_ * gravity_, force_rows_, march_.elevation(), 0.0, force);
+  forces_.push_back(symmetric_part(force));
 }
 
 long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,

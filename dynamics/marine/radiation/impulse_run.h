@@ -98,6 +98,7 @@ class ImpulseRun {
   double density_, gravity_;
   std::vector<double> frequencies_;
   FreeSurfaceMarch march_;
+  Eigen::MatrixXd force_rows_;  ///< the part's surface columns, a row each
   double step_ = not_a_number;
   long steps_ = 0;
   long gone_ = 0;  ///< steps of the run that was to be the whole before it went on
