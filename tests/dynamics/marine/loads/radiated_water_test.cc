@@ -142,6 +142,40 @@ TEST(RadiatedWater, MovesBodiesAsCumminsEquationDoes) {
   }
 }
 
+/// The memory with states besides that nothing drives and that act on nothing.
+MemoryStateSpace with_idle_states(const MemoryStateSpace& memory, Eigen::Index idle) {
+  const Eigen::Index states = memory.state_count(), modes = memory.mode_count();
+  Eigen::VectorXd decay = Eigen::VectorXd::Constant(states + idle, -1.0);
+  Eigen::VectorXd turn = Eigen::VectorXd::Zero(states + idle);
+  decay.head(states) = memory.decay();
+  turn.head(states) = memory.turn();
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(states + idle, modes);
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(modes, states + idle);
+  B.topRows(states) = memory.B();
+  C.leftCols(states) = memory.C();
+  return MemoryStateSpace(decay, turn, std::move(B), std::move(C), memory.error());
+}
+
+// The integration's norm is a mean over the unknowns. States that have nothing to tell must not let
+// bodies err more: the motion stays, to rounding, where 1e-6 is allowed in each step.
+TEST(RadiatedWater, IdleStatesDoNotLoosenTheToleranceOfBodies) {
+  const auto database = made_up(1);
+  const MemoryStateSpace memory(*database, 1e-3, 100);
+  std::vector<Eigen::VectorXd> ends;
+  for (const Eigen::Index idle : {0, 400}) {
+    HydrodynamicSeries series{.draughts = {1.0}, .databases = {*database}};
+    series.memories.push_back(with_idle_states(memory, idle));
+    const auto water = std::make_shared<const RadiatedWater>(RadiatedWater::Definition{
+        .frames = frames(), .series = std::make_shared<const HydrodynamicSeries>(series)});
+    ASSERT_EQ(water->state_count(), memory.state_count() + idle);
+    const LiftSystem system = two_boxes(water, Eigen::Vector2d(0.1, -0.04));
+    ends.push_back(integrate(system, system.q_start(), system.v_start(),
+                             {.relative_tolerance = 1e-6, .sample_interval = 0.5})
+                       .q_end);
+  }
+  EXPECT_LT((ends[1] - ends[0]).lpNorm<Eigen::Infinity>(), 1e-11);
+}
+
 // About the rest, where the terms that the Jacobian leaves out vanish, it is exact; and the
 // structured solution of Newton's equations is that of the whole matrix.
 TEST(RadiatedWater, JacobianAndNewtonMatrix) {
