@@ -39,7 +39,8 @@ cat >"$place/in-own-root.sh" <<'END'
 set -euo pipefail
 mkdir "$1/over"
 mount -t tmpfs none "$1/over" && mkdir "$1"/over/{upper,work,root} &&
-  mount -t overlay overlay -o "lowerdir=/,upperdir=$1/over/upper,workdir=$1/over/work" "$1/over/root" || exit 77
+  mount -t overlay overlay "$1/over/root" \
+    -o "lowerdir=/,upperdir=$1/over/upper,workdir=$1/over/work" || exit 77
 cp "$1"/*.deb "$1/over/root/mnt"
 mount --bind /proc "$1/over/root/proc"
 env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root chroot "$1/over/root" bash -euo pipefail -c '
@@ -50,14 +51,17 @@ env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root chroot "$1/over/root" bash 
   test -s result/report.html
   /usr/bin/python3 -c "import blocklift; print(\"blocklift\", blocklift.version(), \"from Python\")"
   dpkg --purge python3-blocklift libblocklift-dev blocklift >/dev/null
-  ! command -v blocklift
+  if command -v blocklift; then exit 1; fi
   test -z "$(find /usr -path "*blocklift*" -print -quit)"'
 END
-code=0
-unshare --mount bash "$place/in-own-root.sh" "$place" || code=$?
+code=77
+# Neither who is not root nor root of a container without the right to mount can make one.
+if unshare --mount true 2>/dev/null; then
+  code=0
+  unshare --mount bash "$place/in-own-root.sh" "$place" || code=$?
+fi
 case $code in
   0) echo "installed, used and removed" ;;
-  1) if [ "$(id -u)" -ne 0 ]; then echo "left out: only root can make it"; else exit 1; fi ;;
   77) echo "left out: this machine lets nobody mount an overlay" ;;
   *) exit "$code" ;;
 esac

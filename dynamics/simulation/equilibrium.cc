@@ -81,7 +81,7 @@ struct EquilibriumSolver::Implementation {
   Eigen::VectorXd weight;  ///< the same for each unknown
   Eigen::MatrixXd mass;    ///< of the unknowns
   Eigen::Index held = -1;  ///< where the turns of the body whose heading is held begin; -1: none
-  Contacts contacts;       ///< fixed set of acting ropes and pads
+  Contacts contacts;       ///< fixed set of those that act
   bool contacts_known = false;
   TangentMatrices tangent_matrices;
   Eigen::VectorXd residual_here;
@@ -357,7 +357,7 @@ bool EquilibriumSolver::Implementation::newton() {
   return true;
 }
 
-// Newton with a fixed set of acting ropes and pads, the set then corrected, until both agree.
+// Newton with a fixed set of acting contacts, the set then corrected, until both agree.
 bool EquilibriumSolver::Implementation::solve_active_set() {
   const int most_rounds = 3 * static_cast<int>(contacts.size()) + 3;
   Eigen::VectorXd indicators(system.contact_count());

@@ -29,7 +29,7 @@ struct TangentMatrices {
 };
 
 /// Tangent matrices at the instant that calc_right_hand_side has just left in the workspace; its v,
-/// vdot, rope and support loads are used (a rope or pad acts as it did there, without its kink). At
+/// vdot and the loads of contacts are used (each acts as it did there, without its kink). At
 /// rest after an equilibrium, with v and vdot zero, they are those of small vibrations. How added
 /// mass and memory change with the draught of a body that is lowered is left out: of second order
 /// in motion. Does not allocate.

@@ -69,7 +69,7 @@ struct IntegrationSettings {
   /// Called now and then with the fraction done and the time (s); may be empty.
   std::function<void(double, double)> progress = {};
   /// Called at each sample with its number and time (s) and the workspace of that instant:
-  /// positions, velocities, loads of ropes and pads, and, where the recording takes dynamics, all
+  /// positions, velocities, loads of contacts, and, where the recording takes dynamics, all
   /// loads, accelerations and multipliers are those of the sample. May be empty.
   std::function<void(Eigen::Index, double, const LiftWorkspace&)> observe = {};
 };
@@ -129,7 +129,7 @@ struct IntegrationResult {
 /// Ropes with friction at sheaves or edges begin with one tension all along, as in equilibrium, and
 /// stick. Where one begins to slip, or ceases to, is an event too (RopeSplit).
 ///
-/// A condition that is awaited is one more event: its instant is found as those of ropes and pads
+/// A condition that is awaited is one more event: its instant is found as those of contacts
 /// are.
 ///
 /// Drives that are steered look at what is, and go on accordingly, at instants at which steps end

@@ -90,8 +90,8 @@ HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
                                        const HydrodynamicProgress& progress = {});
 
 /// The same, in which what the panel method finds is taken from the cache where it lies there, and
-/// put there where it does not (find_database): to the last bit the numbers of the run that computed
-/// them.
+/// put there where it does not (find_database): to the last bit the numbers of the run that
+/// computed them.
 /// @param say called with a sentence about each draught that is in the cache, or waited for.
 HydrodynamicFile find_hydrodynamics(const HydrodynamicProblem& problem,
                                     const std::vector<HydrodynamicState>& states,
