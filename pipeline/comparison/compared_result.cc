@@ -117,8 +117,8 @@ bool is_same_part(const std::string& a, const std::string& b) {
 /// What files beside a case that may be a model of it say; none of a model from elsewhere.
 std::vector<std::string> texts_beside(const fs::path& folder, const std::string& model) {
   std::vector<std::string> texts;
-  for (const char* ending :
-       {"", ".yaml", "/block.yaml", "/crane.yaml", "/rope.yaml", "/standard.yaml"}) {
+  for (const char* ending : {"", ".yaml", "/block.yaml", "/crane.yaml", "/rope.yaml",
+                             "/standard.yaml", "/vessel.yaml"}) {
     const fs::path file = folder / (model + ending);
     std::error_code error;
     if (fs::is_regular_file(file, error)) texts.push_back(read_file(file));

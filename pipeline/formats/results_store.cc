@@ -18,7 +18,7 @@ using Shape = std::vector<hsize_t>;
 /// Below this a dataset is stored in one piece: chunks and filters would cost more than they save.
 constexpr std::size_t smallest_compressed_count = 1024;
 constexpr hsize_t chunk_count = 65536;
-// Shuffled doubles hardly shrink with more: level 4 takes an eighth more time for files that are
+// Shuffled doubles hardly shrink with more: level 4 takes a seventh more time for files that are
 // 1.5 % smaller.
 constexpr unsigned deflate_level = 1;
 constexpr std::size_t most_numbers = std::size_t{1} << 40U;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -26,7 +27,7 @@ struct Swings {
   /// Of the figure's variance, how much the straight lines leave nothing of (R squared). Far below
   /// 1 the figure bends, the inputs act together, or something else moves it. 1 of a figure that
   /// does not vary; not a number where swings are not known.
-  double linear_share = 0;
+  double linear_share = std::numeric_limits<double>::quiet_NaN();
 
   /// Places of the inputs, the largest swing first, whatever its sign; what is not known last.
   std::vector<std::size_t> by_size() const;

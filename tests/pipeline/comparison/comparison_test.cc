@@ -255,6 +255,10 @@ TEST_F(ComparedFolders, AModelBesideTheCaseThatWasChangedIsNamed) {
   EXPECT_THAT(refusal_of({"lift", "after"}),
               HasSubstr("lift/case.yaml: error: the case's model block was changed after its "
                         "results in results/two-ropes were computed"));
+  // A model may be a folder, of a vessel as of all others.
+  std::filesystem::remove("lift/block.yaml");
+  folder_.write("lift/block/vessel.yaml", "kind: vessel\nmass: 9 t\n");
+  EXPECT_THAT(refusal_of({"lift", "after"}), HasSubstr("the case's model block was changed"));
 }
 
 // Two cases of one name were assessed into one folder: it holds the lift of the later.

@@ -209,7 +209,9 @@ TEST(Swings, StandInJsonTextAndPageTheLargestFirst) {
 
 TEST(Swings, OfAGridHaveNoIntervalAndOfASearchThereAreNone) {
   EXPECT_THAT(study_page(weighed(StudyDesign::grid)), ::testing::HasSubstr("<td>+17.66</td>"));
-  EXPECT_TRUE(study_json(weighed(StudyDesign::search))["figures"][0]["swings"].empty());
+  const auto of_search = study_json(weighed(StudyDesign::search))["figures"][0];
+  EXPECT_TRUE(of_search["swings"].empty());
+  EXPECT_TRUE(of_search["linear_share"].is_null());
 }
 
 }  // namespace

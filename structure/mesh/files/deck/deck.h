@@ -209,8 +209,8 @@ struct Deck {
 
 struct DeckOptions {
   bool leave_solids_out = false;  ///< list solid elements as left out rather than refuse them
-  /// Cards, keywords ("*" before them or not) and Abaqus' types of elements that are not known, in
-  /// capitals: they are listed as left out rather than refused.
+  /// Cards and keywords ("*" before them or not) that are not known, and Abaqus' types of elements,
+  /// known or not, all in capitals: they are listed as left out rather than refused.
   std::vector<std::string> leave_out = {};
   /// Sets of elements that are given a thickness or a profile from outside, where the deck has no
   /// sections at all; whatever their capitals.
