@@ -474,8 +474,8 @@ void EquilibriumSolver::Implementation::fail(double t) {
     // What Newton would accept as nil says nothing about what is wrong.
     const auto is_nil = [&](Eigen::Index i) { return relative[i] <= 1e3 * settings.tolerance; };
     if (order.empty() || is_nil(order.front()))
-      text << "; the forces balance where it stopped, yet it is not settled which ropes and pads "
-              "bear";
+      text << "; the forces balance where it stopped, yet it is not settled which ropes, "
+              "tugger lines and pads bear";
     else
       text << "; largest residuals: ";
     for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) {

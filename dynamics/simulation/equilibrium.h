@@ -23,10 +23,9 @@ struct EquilibriumSettings {
 ///
 /// Unknowns are increments of the free degrees of freedom on the manifold of poses; the equations
 /// are their generalised forces. Newton's method with line search (KINSOL) runs with a fixed set of
-/// taut ropes and tugger lines and loaded pads, on which the equations are smooth; the set is then
-/// corrected and the solution repeated until it agrees with itself. Neutral directions stay about
-/// where they are; a heading that nothing but wind turns is to be held
-/// (EquilibriumSettings::held_heading).
+/// taut ropes, tugger lines and loaded pads, where the equations are smooth; it is then corrected
+/// and the solution repeated until it agrees with itself. Neutral directions stay about where they
+/// are; a heading that nothing but wind turns is to be held (EquilibriumSettings::held_heading).
 /// From a rough guess, where ropes may hang slack, a descent over the mass
 /// matrix comes first:  (K + M/h^2) du = f  with growing h. Where loops tie joints together the
 /// unknowns are the motions that they leave free, q being brought onto the loops at each trial;

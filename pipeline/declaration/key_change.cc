@@ -53,7 +53,7 @@ bool descend(const KeyStep& step, const std::string& way, const KeyChange& chang
              const Document& document, YAML::Node& node, Diagnostics& diagnostics) {
   const std::string place = way.empty() ? *document.file : *document.file + ": " + way;
   if (step.place) {
-    if (node.IsSequence() && *step.place <= node.size()) {
+    if (node.IsSequence() && *step.place >= 1 && *step.place <= node.size()) {
       node.reset(node[*step.place - 1]);
       return true;
     }

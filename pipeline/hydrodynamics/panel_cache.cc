@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "pipeline/formats/hydrodynamics/hull_hash.h"
 #include "pipeline/hydrodynamics/cache_lock.h"
 #include "pipeline/hydrodynamics/method_hash.h"

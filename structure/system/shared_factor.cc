@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <map>
 #include <new>
 #include <numeric>
@@ -33,7 +34,7 @@ void carry_out(Order what, Packet& order, std::unique_ptr<FactorPart>& part, Pac
   if (what == Order::deal) {
     part = std::make_unique<FactorPart>(PartOfMatrix::from(order));
     result.put(part->bytes());
-    result.put(available_memory());
+    result.put(memory_for(std::numeric_limits<double>::infinity()));
   } else if (what == Order::eliminate) {
     result.put(part->eliminate());
   } else {

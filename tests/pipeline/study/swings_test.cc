@@ -92,8 +92,9 @@ TEST(Swings, OfInputsThatGoTogetherAreNotCountedTwice) {
   EXPECT_NEAR(swings.of[1].value, 0, 1e-6);
 }
 
-// One input at -1, 0 and 1, three times each, and residuals that have nothing in common with it: the
-// slope's error is s / sqrt(Sxx), 7 freedoms are left, and Student's 97.5 % quantile of 7 is 2.3646.
+// One input at -1, 0 and 1, three times each, and residuals that have nothing in common with it:
+// the slope's error is s / sqrt(Sxx), 7 freedoms are left, and Student's 97.5 % quantile of 7 is
+// 2.3646.
 TEST(Swings, HaveTheIntervalOfAStraightLine) {
   StudyFile study;
   study.design = StudyDesign::grid;

@@ -60,7 +60,7 @@ def meeting(p, dp, p_length, q, dq, q_length, side):
 
 
 class Pose:
-    """Points of the mechanism and axes of its bodies at one angle of the crank, with their slopes."""
+    """Points of the mechanism and axes of its bodies at an angle of the crank, with slopes."""
 
     def __init__(self, beta):
         axis = [cmath.cos(beta), cmath.sin(beta)]
@@ -76,7 +76,8 @@ class Pose:
                                                 ("K5", A, q, dq, ZT),
                                                 ("K6", r, e, minus(de, dr), ZF)):
             self.axes[name] = scaled(1 / length, minus(end, start)), scaled(1 / length, speed)
-        for name, start, end, speed, length in (("K3", B, e, de, SS), ("K4", q, e, minus(de, dq), E),
+        for name, start, end, speed, length in (("K3", B, e, de, SS),
+                                                ("K4", q, e, minus(de, dq), E),
                                                 ("K7", A, r, dr, U)):
             self.axes[name] = (across(scaled(1 / length, minus(end, start))),
                                across(scaled(1 / length, speed)))
@@ -145,7 +146,8 @@ def forces(beta, rate, acceleration):
 
 def andrews_squeezer():
     time = 0.03
-    beta, rate, acceleration = one_coordinate(energies, -0.0617138900142764496, 0.0, [time], 5e-5)[0]
+    start = -0.0617138900142764496
+    beta, rate, acceleration = one_coordinate(energies, start, 0.0, [time], 5e-5)[0]
     pose = Pose(complex(beta))
     angle = {name: pose.angle(name) for name in BODIES}
     spin = {name: pose.spins[name].real * rate for name in BODIES}

@@ -158,7 +158,7 @@ def displacements(mesh):
 
 
 def axial_stress(n):
-    """At the inner foot, Pa: of the trilinear field nearest to the element's points of integration."""
+    """At the inner foot, Pa: the trilinear field nearest to the points of integration there."""
     mesh = Mesh(n)
     moved = displacements(mesh)
     nodes = mesh.element(0, 0, 0)
