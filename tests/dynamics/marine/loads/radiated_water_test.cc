@@ -163,10 +163,14 @@ TEST(RadiatedWater, IdleStatesDoNotLoosenTheToleranceOfBodies) {
   const MemoryStateSpace memory(*database, 1e-3, 100);
   std::vector<Eigen::VectorXd> ends;
   for (const Eigen::Index idle : {0, 400}) {
-    HydrodynamicSeries series{.draughts = {1.0}, .databases = {*database}};
+    HydrodynamicSeries series;
+    series.draughts = {1.0};
+    series.databases = {*database};
     series.memories.push_back(with_idle_states(memory, idle));
-    const auto water = std::make_shared<const RadiatedWater>(RadiatedWater::Definition{
-        .frames = frames(), .series = std::make_shared<const HydrodynamicSeries>(series)});
+    RadiatedWater::Definition definition;
+    definition.frames = frames();
+    definition.series = std::make_shared<const HydrodynamicSeries>(series);
+    const auto water = std::make_shared<const RadiatedWater>(definition);
     ASSERT_EQ(water->state_count(), memory.state_count() + idle);
     const LiftSystem system = two_boxes(water, Eigen::Vector2d(0.1, -0.04));
     ends.push_back(integrate(system, system.q_start(), system.v_start(),
