@@ -157,7 +157,7 @@ MemoryStateSpace with_idle_states(const MemoryStateSpace& memory, Eigen::Index i
 }
 
 // The integration's norm is a mean over the unknowns. States that have nothing to tell must not let
-// bodies err more: by a mean over all, 4,000 besides 26 of the bodies and some 40 of the water would
+// bodies err more: by a mean over all, 4,000 beside 26 of the bodies and some 40 of the water would
 // allow about eight times the error. Twice is measured, since they thin out the water's own states.
 TEST(RadiatedWater, IdleStatesDoNotLoosenTheToleranceOfBodies) {
   const auto database = made_up(1);
