@@ -10,6 +10,7 @@ import blocklift
 
 SMALL_LIFT = Path(os.environ["BLOCKLIFT_SMALL_LIFT"])
 MECHANISMS = Path(os.environ["BLOCKLIFT_MECHANISMS"])
+VESSELS = MECHANISMS.parent / "vessels"
 
 
 class InATemporaryFolder(unittest.TestCase):

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 import blocklift
-from small_lift import MECHANISMS, InATemporaryFolder
+from small_lift import MECHANISMS, VESSELS, InATemporaryFolder
 
 
 class CaseTest(InATemporaryFolder):
@@ -490,6 +490,31 @@ class NewCaseTest(InATemporaryFolder):
         with self.assertRaisesRegex(ValueError, "two-hoists"):
             blocklift.new("two-hoist", "other")
         self.assertFalse(Path("other").exists())
+
+
+class HullTest(InATemporaryFolder):
+    def test_a_database_by_frequency_mode_and_heading(self):
+        sphere = VESSELS / "sphere-5m/vessel.yaml"
+        database = blocklift.hydro(sphere, "sphere.h5")
+        self.assertEqual(len(database.draughts), 1)
+        state = database.state()
+        self.assertEqual(state.added_mass.dims, ("frequency", "mode", "motion"))
+        self.assertEqual(state.frequency.attrs["units"], "rad s-1")
+        self.assertEqual(state.excitation.dims, ("frequency", "mode", "heading"))
+        # Haskind's relation of a body of revolution in deep water: B = k |X|^2 / (4 rho g c), c the
+        # waves' group velocity g / (2 omega). Where most is sent out, within 3 %.
+        rho, g = 1000.0, 9.80665
+        heave = state.sel(mode="heave").sel(heading=0.0)
+        damping = heave.damping.sel(motion="heave")
+        omega = state.frequency
+        by_waves = omega**2 / g * abs(heave.excitation) ** 2 / (4 * rho * g * g / (2 * omega))
+        self.assertLess(float(abs(by_waves - damping).max() / damping.max()), 0.03)
+        with self.assertRaisesRegex(IndexError, "from 0 to 0, and 1 is none"):
+            database.state(1)
+        with self.assertRaises(blocklift.InputError):
+            blocklift.hydro(sphere.with_name("no.yaml"), "none.h5")
+        with self.assertRaises(FileNotFoundError):
+            blocklift.Hydrodynamics("none.h5")
 
 
 class ProgramTest(unittest.TestCase):
