@@ -40,9 +40,9 @@ set -euo pipefail
 mkdir "$1/over"
 mount -t tmpfs none "$1/over" && mkdir "$1"/over/{upper,work,root} &&
   mount -t overlay overlay "$1/over/root" \
-    -o "lowerdir=/,upperdir=$1/over/upper,workdir=$1/over/work" || exit 77
+    -o "lowerdir=/,upperdir=$1/over/upper,workdir=$1/over/work" &&
+  mount --rbind /proc "$1/over/root/proc" && mount --rbind /dev "$1/over/root/dev" || exit 77
 cp "$1"/*.deb "$1/over/root/mnt"
-mount --bind /proc "$1/over/root/proc"
 env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root chroot "$1/over/root" bash -euo pipefail -c '
   cd /root
   dpkg --install /mnt/*.deb >/dev/null
@@ -52,7 +52,7 @@ env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root chroot "$1/over/root" bash 
   /usr/bin/python3 -c "import blocklift; print(\"blocklift\", blocklift.version(), \"from Python\")"
   dpkg --purge python3-blocklift libblocklift-dev blocklift >/dev/null
   test ! -e /usr/bin/blocklift
-  test -z "$(find /usr -path "*blocklift*" -print -quit)"'
+  test -z "$(find /usr/{bin,lib,include,share} -path "*blocklift*" -print -quit)"'
 END
 code=77
 # Neither who is not root nor root of a container without the right to mount can make one.
