@@ -38,12 +38,12 @@ say "Packages in a root of their own"
 cat >"$place/in-own-root.sh" <<'END'
 set -euo pipefail
 mkdir "$1/over"
-mount -t tmpfs none "$1/over" && mkdir "$1"/over/{upper,work,root} &&
-  mount -t overlay overlay "$1/over/root" \
+mount -t tmpfs none "$1/over" && mkdir "$1"/over/{upper,work,whole} &&
+  mount -t overlay overlay "$1/over/whole" \
     -o "lowerdir=/,upperdir=$1/over/upper,workdir=$1/over/work" &&
-  mount --rbind /proc "$1/over/root/proc" && mount --rbind /dev "$1/over/root/dev" || exit 77
-cp "$1"/*.deb "$1/over/root/mnt"
-env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root chroot "$1/over/root" bash -euo pipefail -c '
+  mount --rbind /proc "$1/over/whole/proc" && mount --rbind /dev "$1/over/whole/dev" || exit 77
+cp "$1"/*.deb "$1/over/whole/mnt"
+env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root chroot "$1/over/whole" bash -euo pipefail -c '
   cd /root
   dpkg --install /mnt/*.deb >/dev/null
   blocklift --version

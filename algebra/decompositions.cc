@@ -9,11 +9,11 @@ namespace blocklift::algebra {
 namespace {
 
 // Small sizes share one instantiation, which needs no memory of the heap. Each would take the
-// compiler 3 to 6 s more.
+// compiler some 5 s more.
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
 // What a decomposition of a matrix of this size works on. Principal stresses are asked for at
-// millions of places, so that size 3 has its own.
+// so many places that size 3 has its own.
 template <int size>
 using WorkingMatrix =
     std::conditional_t<size == Eigen::Dynamic, Eigen::MatrixXd,

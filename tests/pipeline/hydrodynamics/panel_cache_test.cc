@@ -14,6 +14,7 @@
 #include "pipeline/build/build_mechanism.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
+#include "tests/pipeline/formats/hydrodynamics/same_database.h"
 #include "tests/pipeline/hydrodynamics/own_cache.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -139,27 +140,8 @@ void expect_same(const HydrodynamicFile& one, const HydrodynamicFile& other) {
   EXPECT_EQ(one.identity, other.identity);
   EXPECT_EQ(one.series.draughts, other.series.draughts);
   ASSERT_EQ(one.series.databases.size(), other.series.databases.size());
-  for (std::size_t k = 0; k < one.series.databases.size(); ++k) {
-    const dynamics::HydrodynamicDatabase& a = one.series.databases[k];
-    const dynamics::HydrodynamicDatabase& b = other.series.databases[k];
-    EXPECT_EQ(a.body_names, b.body_names);
-    EXPECT_EQ(a.reference_points, b.reference_points);
-    EXPECT_EQ(a.displaced_volumes, b.displaced_volumes);
-    EXPECT_EQ(a.centres_of_buoyancy, b.centres_of_buoyancy);
-    EXPECT_EQ(a.centres_of_mass, b.centres_of_mass);
-    EXPECT_EQ(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
-    EXPECT_EQ(a.infinite_added_mass, b.infinite_added_mass);
-    EXPECT_EQ(a.time_step, b.time_step);
-    EXPECT_EQ(a.retardation, b.retardation);
-    EXPECT_EQ(a.added_mass, b.added_mass);
-    EXPECT_EQ(a.damping, b.damping);
-    EXPECT_EQ(a.froude_krylov, b.froude_krylov);
-    EXPECT_EQ(a.diffraction, b.diffraction);
-    EXPECT_EQ(a.change_from_coarser, b.change_from_coarser);
-    EXPECT_EQ(a.excitation_change_from_coarser, b.excitation_change_from_coarser);
-    EXPECT_EQ(a.cut_off_by_end, b.cut_off_by_end);
-    EXPECT_EQ(a.mean_drift, b.mean_drift);
-  }
+  for (std::size_t k = 0; k < one.series.databases.size(); ++k)
+    test::expect_same(one.series.databases[k], other.series.databases[k]);
 }
 
 /// The file of a problem, and what is said meanwhile.

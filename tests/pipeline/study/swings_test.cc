@@ -92,16 +92,22 @@ TEST(Swings, OfInputsThatGoTogetherAreNotCountedTwice) {
   EXPECT_NEAR(swings.of[1].value, 0, 1e-6);
 }
 
-// One input at -1, 0 and 1, three times each, and residuals that have nothing in common with it:
-// the slope's error is s / sqrt(Sxx), 7 freedoms are left, and Student's 97.5 % quantile of 7 is
-// 2.3646.
-TEST(Swings, HaveTheIntervalOfAStraightLine) {
+/// A grid of one input, x at -1, 0 and 1.
+StudyFile grid_of_one() {
   StudyFile study;
   study.design = StudyDesign::grid;
   StudyVariable variable;
   variable.name = {"x", {}};
   for (const double value : {-1.0, 0.0, 1.0}) variable.values.push_back({{value, {}}, {}});
   study.variables = {variable};
+  return study;
+}
+
+// One input at -1, 0 and 1, three times each, and residuals that have nothing in common with it:
+// the slope's error is s / sqrt(Sxx), 7 freedoms are left, and Student's 97.5 % quantile of 7 is
+// 2.3646.
+TEST(Swings, HaveTheIntervalOfAStraightLine) {
+  const StudyFile study = grid_of_one();
   Eigen::MatrixXd design(9, 1);
   design.col(0) << -1, -1, -1, 0, 0, 0, 1, 1, 1;
   const std::vector<double> values{-3, -1, -2, 1, -1, 0, 1, 3, 2};  // 2 x and -1, 1, 0
@@ -118,12 +124,7 @@ TEST(Swings, HaveTheIntervalOfAStraightLine) {
 // One freedom is left of three members: Student's quantile is that of Cauchy's law, 12.706. Nothing
 // is said on the terminal of what such a law lacks.
 TEST(Swings, OfThreeMembersHaveAWideIntervalInSilence) {
-  StudyFile study;
-  study.design = StudyDesign::grid;
-  StudyVariable variable;
-  variable.name = {"x", {}};
-  for (const double value : {-1.0, 0.0, 1.0}) variable.values.push_back({{value, {}}, {}});
-  study.variables = {variable};
+  const StudyFile study = grid_of_one();
   const Eigen::MatrixXd design = Eigen::Vector3d(-1, 0, 1);
   ::testing::internal::CaptureStderr();
   const Swings swings = find_swings(study, design, {-1, -2, 3}, {0, 1, 2});  // 2 x and 1, -2, 1

@@ -9,6 +9,7 @@
 #include "dynamics/errors.h"
 #include "pipeline/formats/content_hash.h"
 #include "pipeline/formats/hdf5_handle.h"
+#include "tests/pipeline/formats/hydrodynamics/same_database.h"
 #include "tests/pipeline/formats/hydrodynamics/sample_database.h"
 #include "tests/pipeline/run_program.h"
 #include "tests/pipeline/temporary_folder.h"
@@ -30,30 +31,6 @@ std::string message_of(const Action& action) {
     return error.what();
   }
   return {};
-}
-
-void expect_same(const HydrodynamicDatabase& a, const HydrodynamicDatabase& b) {
-  EXPECT_EQ(a.water.density, b.water.density);
-  EXPECT_EQ(a.water.gravity, b.water.gravity);
-  EXPECT_EQ(a.water.depth, b.water.depth);
-  EXPECT_EQ(a.body_names, b.body_names);
-  EXPECT_EQ(a.reference_points, b.reference_points);
-  EXPECT_EQ(a.displaced_volumes, b.displaced_volumes);
-  EXPECT_EQ(a.centres_of_buoyancy, b.centres_of_buoyancy);
-  EXPECT_EQ(a.centres_of_mass, b.centres_of_mass);
-  EXPECT_EQ(a.hydrostatic_stiffness, b.hydrostatic_stiffness);
-  EXPECT_EQ(a.infinite_added_mass, b.infinite_added_mass);
-  EXPECT_EQ(a.change_from_coarser, b.change_from_coarser);
-  EXPECT_EQ(a.excitation_change_from_coarser, b.excitation_change_from_coarser);
-  EXPECT_EQ(a.cut_off_by_end, b.cut_off_by_end);
-  EXPECT_EQ(a.time_step, b.time_step);
-  EXPECT_EQ(a.retardation, b.retardation);
-  EXPECT_EQ(a.frequencies, b.frequencies);
-  EXPECT_EQ(a.added_mass, b.added_mass);
-  EXPECT_EQ(a.damping, b.damping);
-  EXPECT_EQ(a.headings, b.headings);
-  EXPECT_EQ(a.froude_krylov, b.froude_krylov);
-  EXPECT_EQ(a.diffraction, b.diffraction);
 }
 
 /// Replaces one number of a dataset in a file.
@@ -95,7 +72,7 @@ TEST(HydrodynamicDatabaseFile, ReadsExactlyWhatWasWritten) {
   database.excitation_change_from_coarser = 2.0 * database.change_from_coarser;
   database.cut_off_by_end = 0.1 * database.change_from_coarser;
   write_hydrodynamic_database("db.h5", database, "0123", "made up");
-  expect_same(read_hydrodynamic_database("db.h5"), database);
+  test::expect_same(read_hydrodynamic_database("db.h5"), database);
   EXPECT_EQ(read_identity("db.h5"), "0123");
   EXPECT_EQ(read_hydrodynamic_file("db.h5").origin, "made up");
 }
@@ -159,7 +136,7 @@ TEST(HydrodynamicDatabaseFile, KeepsWhatIsUnknownUnknown) {
     for (Eigen::MatrixXcd& matrix : *force) matrix.resize(12, 0);
   }
   write_hydrodynamic_database("db.h5", database);
-  expect_same(read_hydrodynamic_database("db.h5"), database);
+  test::expect_same(read_hydrodynamic_database("db.h5"), database);
 }
 
 TEST(HydrodynamicDatabaseFile, HoldsSeveralDraughts) {
@@ -172,7 +149,7 @@ TEST(HydrodynamicDatabaseFile, HoldsSeveralDraughts) {
   const HydrodynamicFile found = read_hydrodynamic_file("db.h5");
   EXPECT_EQ(found.series.draughts, file.series.draughts);
   EXPECT_EQ(found.series.lowered_body, 1);
-  expect_same(found.series.databases[1], deep);
+  test::expect_same(found.series.databases[1], deep);
   EXPECT_THAT(message_of([] { read_hydrodynamic_database("db.h5"); }),
               HasSubstr("holds 2 draughts where a single database is due"));
 }
@@ -239,8 +216,8 @@ TEST(HydrodynamicSeries, IsLinearBetweenItsDraughts) {
   const HydrodynamicDatabase between = series.at(2.25), dry = series.at(-1.0), half = series.at(1);
   EXPECT_TRUE(between.infinite_added_mass.isApprox(1.25 * shallow.infinite_added_mass, 1e-14));
   EXPECT_TRUE(between.damping[1].isApprox(1.5 * shallow.damping[1], 1e-14));
-  expect_same(series.at(2.0 + 1e-300), shallow);
-  expect_same(series.at(7.0), deep);
+  test::expect_same(series.at(2.0 + 1e-300), shallow);
+  test::expect_same(series.at(7.0), deep);
   EXPECT_EQ(dry.infinite_added_mass.bottomRows(6).norm(), 0.0);
   EXPECT_EQ(dry.infinite_added_mass.rightCols(6).norm(), 0.0);
   EXPECT_EQ(dry.infinite_added_mass.topLeftCorner(6, 6),
