@@ -229,6 +229,8 @@ void assess_lifted_block(const LiftCase& the_case, const LiftRun& lift,
   progress("block: every instant", 0.7, "");
   block.history = assess_history(*block.responses, recovery, attachment, at_rest, in_motion,
                                  block.assessment, history_settings(the_case.structure));
+  block.stages =
+      find_stage_stresses(find_stage_spans(lift), *block.responses, recovery, *block.history);
   progress("block: panels", 0.85, "");
   block.buckling = assess_buckling(the_case, *block.responses, *block.history);
   progress("block: padeyes", 0.9, "");

@@ -13,6 +13,7 @@
 #include "pipeline/lift/history_assessment.h"
 #include "pipeline/lift/lift_run.h"
 #include "pipeline/lift/sling_lengths.h"
+#include "pipeline/lift/stage_stresses.h"
 #include "pipeline/measures/measure.h"
 #include "pipeline/standards/standard_assessment.h"
 #include "structure/accuracy/accuracy.h"
@@ -28,6 +29,7 @@ struct BlockRun {
   double first_elastic_period = 0;  ///< of the free block, s; on the mesh that was begun with
   BlockAssessment assessment;
   std::optional<HistoryAssessment> history;  ///< every sample of the lift; none for a load table
+  std::vector<StageStress> stages;           ///< of a lift; none for a load table
   structure::CheckedAccuracy accuracy;       ///< of the checked stress
   structure::BlockError error;               ///< estimated, at the load that governs the stress
   BucklingAssessment buckling;               ///< of every panel

@@ -133,7 +133,19 @@ void print_motion(const LiftRun& lift) {
              cost.right_hand_sides, cost.jacobians);
 }
 
-void print_block(const BlockAssessment& block, const HistoryAssessment* history) {
+/// The largest checked stress of each stage, rows of print_block's table.
+void add_stages(const std::vector<StageStress>& stages, TextTable& table) {
+  if (stages.size() < 2) return;
+  for (const StageStress& stage : stages) {
+    const std::optional<double> increase = stage.increase_percent();
+    table.add_row({"  " + stage.stage, stage.at_rest.at.value / 1e6, stage.in_motion.at.value / 1e6,
+                   increase ? change_text(*increase) : "-"});
+  }
+}
+
+void print_block(const BlockRun& run) {
+  const BlockAssessment& block = run.assessment;
+  const HistoryAssessment* history = run.history ? &*run.history : nullptr;
   TextTable table({{"block"},
                    {"static MPa", 4},
                    {"dyn. MPa", 4},
@@ -161,6 +173,7 @@ void print_block(const BlockAssessment& block, const HistoryAssessment* history)
                    change_text(history->stress_increase_percent()),
                    1e3 * at_rest.displacement.at.value, 1e3 * in_motion.displacement.at.value,
                    change_text(history->deformation_increase_percent())});
+    add_stages(run.stages, table);
   }
   fmt::print("\nchecked von Mises stress and displacement, at rest and in motion\n{}",
              table.text());
@@ -269,8 +282,7 @@ void print_results(const Assessment& assessment) {
     print_wrapped(describe_balances(*balances));
   }
   if (assessment.block.model) {
-    print_block(assessment.block.assessment,
-                assessment.block.history ? &*assessment.block.history : nullptr);
+    print_block(assessment.block);
     print_details(assessment.block);
   }
   if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));

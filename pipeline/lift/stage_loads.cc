@@ -9,29 +9,14 @@ namespace blocklift::pipeline {
 
 namespace {
 
-/// Samples of a history within a stage.
-struct Window {
-  Eigen::Index first = 0;
-  Eigen::Index count = 0;
-};
-
-Window samples_between(const Eigen::VectorXd& time, double start, double end) {
-  // Samples at the ends belong to the stage in spite of rounding.
-  constexpr double rounding = 1e-6;  // s
-  const double* const begin = time.data();
-  const double* const first = std::lower_bound(begin, begin + time.size(), start - rounding);
-  const double* const last = std::upper_bound(begin, begin + time.size(), end + rounding);
-  return {first - begin, last - first};
-}
-
 /// The largest values of a series within a stage.
 class StageMaxima {
  public:
-  StageMaxima(const LiftRun& lift, double start, double end)
+  StageMaxima(const LiftRun& lift, const StageSpan& stage)
       : at_rest_(lift.static_history),
         in_motion_(lift.dynamic_history()),
-        still_(samples_between(at_rest_.time, start, end)),
-        moving_(samples_between(in_motion_.time, start, end)) {}
+        still_(samples_within(stage, at_rest_.time)),
+        moving_(samples_within(stage, in_motion_.time)) {}
 
   bool has_samples() const { return still_.count > 0 && moving_.count > 0; }
 
@@ -55,33 +40,48 @@ class StageMaxima {
  private:
   const dynamics::History& at_rest_;
   const dynamics::History& in_motion_;
-  Window still_, moving_;
+  SampleSpan still_, moving_;
 };
 
 }  // namespace
 
-std::vector<StageLoads> find_stage_loads(const LiftRun& lift) {
-  std::vector<StageLoads> all;
+SampleSpan samples_within(const StageSpan& stage, const Eigen::VectorXd& time) {
+  // Samples at the ends belong to the stage in spite of rounding.
+  constexpr double rounding = 1e-6;  // s
+  const double* const begin = time.data();
+  const double* const end = begin + time.size();
+  const double* const first = std::lower_bound(begin, end, stage.start - rounding);
+  const double* const last = std::upper_bound(begin, end, stage.end + rounding);
+  return {first - begin, last - first};
+}
+
+std::vector<StageSpan> find_stage_spans(const LiftRun& lift) {
+  std::vector<StageSpan> spans;
   const auto& stages = lift.model.system.operation().stages();
   double start = 0;
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const double end = i + 1 < stages.size() ? stages[i].end : lift.simulated_s();
-    const StageMaxima maxima(lift, start, end);
-    if (maxima.has_samples()) {
-      StageLoads& loads = all.emplace_back();
-      loads.stage = stages[i].name;
-      loads.start = start;
-      loads.end = end;
-      if (const auto& stop = lift.model.schedule.stages[i].stop) loads.met = stop->met;
-      for (const LiftRope& rope : lift.model.ropes)
-        loads.ropes.push_back(maxima.of_rope(rope.name, rope.rope));
-      for (const LiftHoist& hoist : lift.model.hoists)
-        loads.hoists.push_back(maxima.of_rope(hoist.name, hoist.rope));
-      loads.load = maxima.of("load", [&](const dynamics::History& history) {
-        return load_on_slings(lift.model, history);
-      });
-    }
+    const auto& stop = lift.model.schedule.stages[i].stop;
+    spans.push_back({stages[i].name, start, end, stop ? std::optional(stop->met) : std::nullopt});
     start = end;
+  }
+  return spans;
+}
+
+std::vector<StageLoads> find_stage_loads(const LiftRun& lift) {
+  std::vector<StageLoads> all;
+  for (const StageSpan& stage : find_stage_spans(lift)) {
+    const StageMaxima maxima(lift, stage);
+    if (!maxima.has_samples()) continue;
+    StageLoads& loads = all.emplace_back();
+    static_cast<StageSpan&>(loads) = stage;
+    for (const LiftRope& rope : lift.model.ropes)
+      loads.ropes.push_back(maxima.of_rope(rope.name, rope.rope));
+    for (const LiftHoist& hoist : lift.model.hoists)
+      loads.hoists.push_back(maxima.of_rope(hoist.name, hoist.rope));
+    loads.load = maxima.of("load", [&](const dynamics::History& history) {
+      return load_on_slings(lift.model, history);
+    });
   }
   return all;
 }

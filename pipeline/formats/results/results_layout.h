@@ -157,6 +157,8 @@
 ///                      max_dynamic_von_mises_Pa, cycles_per_lift, largest_range_Pa,
 ///                      damage_per_lift, damage}], hot_spot_curve, hot_spots: the same with
 ///                      largest_normal_Pa, smallest_normal_Pa (structural stress across the weld)
+///     stages       (o) [{name, start_s, end_s, static_checked_von_mises: {value, time_s, point_m,
+///                      part}, dynamic_checked_von_mises: the same, stress_increase_percent}]
 ///     estimated_error (o) {relative, worst_part, worst_point_m, groups: {name: relative}}: of the
 ///                      stress field in the energy norm, at the instant of the largest checked
 ///                      stress

@@ -1,6 +1,7 @@
 #include "pipeline/results/summaries/history_summary.h"
 
 #include <cmath>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -102,6 +103,20 @@ Json hot_spots_json(const HistoryAssessment& history) {
 }
 
 }  // namespace
+
+Json stage_stresses_json(const std::vector<StageStress>& stages) {
+  Json rows = Json::array();
+  for (const StageStress& stage : stages) {
+    const std::optional<double> increase = stage.increase_percent();
+    rows.push_back({{"name", stage.stage},
+                    {"start_s", stage.start},
+                    {"end_s", stage.end},
+                    {"static_checked_von_mises", extreme_json(stage.at_rest)},
+                    {"dynamic_checked_von_mises", extreme_json(stage.in_motion)},
+                    {"stress_increase_percent", increase ? Json(*increase) : Json()}});
+  }
+  return rows;
+}
 
 Json history_json(const HistoryAssessment& history) {
   return {{"static", state_json(history.static_state)},

@@ -359,6 +359,8 @@ Json structure_json(const Assessment& assessment) {
   if (const auto balances = find_table_balances(assessment))
     json["load_table"] = table_balances_json(*balances);
   if (assessment.block.history) json["history"] = history_json(*assessment.block.history);
+  if (!assessment.block.stages.empty())
+    json["stages"] = stage_stresses_json(assessment.block.stages);
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/checks/lift_checks.h"
+#include "pipeline/lift/stage_stresses.h"
 #include "tests/pipeline/small_lift.h"
 
 namespace blocklift::pipeline {
@@ -78,6 +79,48 @@ TEST_F(SmallLiftHistory, IsTheLargestOfEverySample) {
   EXPECT_LT(history.dynamic_state.largest_force_residual, largest_balance_residual);
   EXPECT_GT(history.dynamic_state.largest_principal.at.value, 0);
   EXPECT_LT(history.dynamic_state.smallest_principal.at.value, 0);
+}
+
+// Against every sample of each half of the lift, one by one.
+TEST_F(SmallLiftHistory, StagesHaveTheLargestOfTheirSamples) {
+  const dynamics::History& in_motion = small_lift().run.dynamic_history();
+  const HistoryAssessment history = assess(in_motion);
+  const double end = in_motion.time(in_motion.sample_count() - 1);
+  const std::vector<StageStress> stages = find_stage_stresses(
+      {{"first", 0, end / 2}, {"second", end / 2, end}, {"never", end + 1, end + 2}}, *responses_,
+      *recovery_, history);
+  ASSERT_EQ(stages.size(), 2U);
+  double largest_of_stages = 0;
+  for (const StageStress& stage : stages) {
+    double largest = 0;
+    for (Eigen::Index sample = 0; sample < in_motion.sample_count(); ++sample) {
+      if (in_motion.time(sample) < stage.start - 1e-6 || in_motion.time(sample) > stage.end + 1e-6)
+        continue;
+      largest = std::max(
+          largest,
+          recovery_->checked().von_mises(history.dynamic_state.factors.col(sample)).maxCoeff());
+    }
+    const HistoryExtreme& found = stage.in_motion;
+    EXPECT_NEAR(found.at.value, largest, 1e-9 * largest) << stage.stage;
+    EXPECT_GE(found.time, stage.start - 1e-6);
+    EXPECT_LE(found.time, stage.end + 1e-6);
+    EXPECT_EQ(found.time, in_motion.time(found.at.instant));
+    EXPECT_FALSE(found.at.part.empty());
+    ASSERT_TRUE(stage.increase_percent());
+    EXPECT_NEAR(*stage.increase_percent(), 100 * (largest / stage.at_rest.at.value - 1), 1e-6);
+    largest_of_stages = std::max(largest_of_stages, found.at.value);
+  }
+  EXPECT_NEAR(largest_of_stages, history.dynamic_state.checked_von_mises.at.value,
+              1e-12 * largest_of_stages);
+}
+
+TEST(StageStress, StandingOnSupportsHasNoIncrease) {
+  StageStress stage;
+  stage.in_motion.at.value = 100e6;
+  stage.at_rest.at.value = 0.9e6;
+  EXPECT_FALSE(stage.increase_percent());
+  stage.at_rest.at.value = 80e6;
+  EXPECT_NEAR(*stage.increase_percent(), 25, 1e-12);
 }
 
 // The instants of the ropes' maxima are among all instants: alone they cannot give more.

@@ -126,6 +126,14 @@ export interface AccuracyStep {
   unknowns?: number; elements?: number; smallest_edge_m?: Maybe<number>;
   static_checked_von_mises_Pa?: Maybe<number>; dynamic_checked_von_mises_Pa?: Maybe<number>; stress_increase_percent?: Maybe<number>;
 }
+/** The block in one stage of the operation. */
+export interface StageStress {
+  name: string; start_s?: number; end_s?: number; static_checked_von_mises?: TimedStress; dynamic_checked_von_mises?: TimedStress;
+  stress_increase_percent?: Maybe<number>;
+}
+export interface TimedStress {
+  value?: Maybe<number>; time_s?: number; point_m?: number[]; part?: string;
+}
 export interface CheckedAccuracy {
   asked?: number; is_reached?: boolean; stress_change?: Maybe<number>; increase_change_percent?: Maybe<number>; steps?: AccuracyStep[];
 }
@@ -134,7 +142,7 @@ export interface Structure {
   unknowns?: number; elements?: number; element_degree?: number; mesh_size_m?: number;
   material?: string; yield_Pa?: Maybe<number>;
   per_rope_maxima?: StructureWay; simultaneous?: StructureWay; history?: StructureHistory; simultaneous_by_rope?: StructureWay[];
-  padeyes?: PadeyeSummary[]; buckling?: Buckling; load_table?: unknown;
+  stages?: StageStress[]; padeyes?: PadeyeSummary[]; buckling?: Buckling; load_table?: unknown;
   estimated_error?: { relative?: Maybe<number>; worst_part?: string; worst_point_m?: number[] };
   lugs?: { name: string; rope?: string; simultaneous?: LugStress; per_rope_maxima?: LugStress }[];
   mass?: {

@@ -87,6 +87,18 @@ function historyTables(structure: Structure): Child {
       { head: "Dynamic, MPa" }, { head: "Largest range, MPa" }, { head: "Cycles a lift" }, { head: "Damage a lift" }, { head: "Damage" }], wear)];
 }
 
+/** One phase does not hide another: a blow at lifting off says nothing of how the block fares on the hook. */
+function stagesTable(structure: Structure): Child {
+  const stages = structure.stages ?? [];
+  if (stages.length < 2) return null;
+  const cells = (one: (typeof stages)[number]["static_checked_von_mises"]): Child[] =>
+    [megapascals(one?.value), seconds(one?.time_s), one?.part ?? missing];
+  return table("Stage by stage: the largest checked stress at rest and in motion", [left("Stage"),
+    { head: "Static, MPa" }, { head: "at, s" }, left("in"), { head: "Dynamic, MPa" }, { head: "at, s" }, left("in"), { head: "more" }],
+  stages.map((stage) => [stage.name, ...cells(stage.static_checked_von_mises), ...cells(stage.dynamic_checked_von_mises),
+    change(stage.stress_increase_percent)]));
+}
+
 function placesTable(structure: Structure): Child {
   const rows: Child[][] = [];
   for (const [name, way] of [["Simultaneous", structure.simultaneous], ["Per-rope maxima", structure.per_rope_maxima],
@@ -226,6 +238,6 @@ export function structureSection(data: PageData): Section | null {
             + "then; the "
         + "largest of these instants. Per-rope maxima: every rope at its own largest load, all at "
         + "once. "), modelText(structure)),
-      waysTable(data, structure), accuracyTable(structure), historyTables(structure), lugsTable(structure), bucklingTable(structure), barsTable(structure), massTable(structure)],
+      waysTable(data, structure), accuracyTable(structure), historyTables(structure), stagesTable(structure), lugsTable(structure), bucklingTable(structure), barsTable(structure), massTable(structure)],
   };
 }
