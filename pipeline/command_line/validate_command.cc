@@ -31,8 +31,8 @@
 #include "pipeline/results/documents/mesh_page.h"
 #include "pipeline/results/doubts/doubts.h"
 #include "pipeline/results/summaries/table_summary.h"
-#include "pipeline/study/members.h"
-#include "pipeline/study/study_design.h"
+#include "pipeline/study/design/study_design.h"
+#include "pipeline/study/members/members.h"
 #include "pipeline/terminal/run_log.h"
 
 namespace blocklift::pipeline {

@@ -24,9 +24,11 @@
 #include "pipeline/simulation/lift_simulation.h"
 #include "pipeline/simulation/mechanism_results.h"
 #include "pipeline/simulation/mechanism_run.h"
-#include "pipeline/study/study_blocks.h"
-#include "pipeline/study/study_lock.h"
-#include "pipeline/study/study_run.h"
+#include "pipeline/study/members/study_blocks.h"
+#include "pipeline/study/pages/study_files.h"
+#include "pipeline/study/results/study_results.h"
+#include "pipeline/study/run/study_lock.h"
+#include "pipeline/study/run/study_run.h"
 #include "pipeline/version.h"
 
 namespace blocklift::pipeline {
