@@ -133,14 +133,17 @@ void print_motion(const LiftRun& lift) {
              cost.right_hand_sides, cost.jacobians);
 }
 
-/// The largest checked stress of each stage, rows of print_block's table.
-void add_stages(const std::vector<StageStress>& stages, TextTable& table) {
+/// The largest checked stress of each stage of the operation.
+void print_stages(const std::vector<StageStress>& stages) {
   if (stages.size() < 2) return;
-  for (const StageStress& stage : stages) {
-    const std::optional<double> increase = stage.increase_percent();
-    table.add_row({"  " + stage.stage, stage.at_rest.at.value / 1e6, stage.in_motion.at.value / 1e6,
-                   increase ? change_text(*increase) : "-"});
-  }
+  TextTable table({{"stage"}, {"static MPa", 4}, {"dyn. MPa", 4}, {"%", 3}, {"at s", 4}, {"in"}});
+  for (const StageStress& stage : stages)
+    table.add_row({stage.stage, stage.at_rest.at.value / 1e6, stage.in_motion.at.value / 1e6,
+                   stage.increase_percent ? change_text(*stage.increase_percent) : "-",
+                   stage.in_motion.time, stage.in_motion.at.part});
+  fmt::print(
+      "\nchecked von Mises stress stage by stage, when and where it is largest in motion\n{}",
+      table.text());
 }
 
 void print_block(const BlockRun& run) {
@@ -173,7 +176,6 @@ void print_block(const BlockRun& run) {
                    change_text(history->stress_increase_percent()),
                    1e3 * at_rest.displacement.at.value, 1e3 * in_motion.displacement.at.value,
                    change_text(history->deformation_increase_percent())});
-    add_stages(run.stages, table);
   }
   fmt::print("\nchecked von Mises stress and displacement, at rest and in motion\n{}",
              table.text());
@@ -283,6 +285,7 @@ void print_results(const Assessment& assessment) {
   }
   if (assessment.block.model) {
     print_block(assessment.block);
+    print_stages(assessment.block.stages);
     print_details(assessment.block);
   }
   if (assessment.standard) fmt::print("{}", standard_text(*assessment.standard));

@@ -21,11 +21,6 @@ HistoryExtreme largest_within(const SampleSpan& span, const structure::UnitRespo
 
 }  // namespace
 
-std::optional<double> StageStress::increase_percent() const {
-  if (at_rest.at.value < 0.01 * in_motion.at.value) return std::nullopt;
-  return percent_above(in_motion.at.value, at_rest.at.value);
-}
-
 std::vector<StageStress> find_stage_stresses(const std::vector<StageSpan>& stages,
                                              const structure::UnitResponses& responses,
                                              const structure::StressRecovery& recovery,
@@ -39,6 +34,9 @@ std::vector<StageStress> find_stage_stresses(const std::vector<StageSpan>& stage
     static_cast<StageSpan&>(stress) = stage;
     stress.at_rest = largest_within(still, responses, recovery, history.static_state);
     stress.in_motion = largest_within(moving, responses, recovery, history.dynamic_state);
+    const double at_rest = stress.at_rest.at.value;
+    if (at_rest > 0 && at_rest >= 0.01 * history.static_state.checked_von_mises.at.value)
+      stress.increase_percent = percent_above(stress.in_motion.at.value, at_rest);
   }
   return all;
 }

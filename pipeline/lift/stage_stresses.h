@@ -11,10 +11,9 @@ namespace blocklift::pipeline {
 /// Largest checked stress of the block within a stage of the operation.
 struct StageStress : StageSpan {
   HistoryExtreme at_rest, in_motion;  ///< Pa; the rope is not looked up
-
-  /// Per cent by which motion raises it; none where the block at rest has less than a hundredth of
-  /// its stress in motion, as when it stands on its supports.
-  std::optional<double> increase_percent() const;
+  /// By which motion raises it; none where the block at rest has less than a hundredth of the
+  /// lift's largest stress at rest, as when it stands on its supports.
+  std::optional<double> increase_percent;
 };
 
 /// The block stage by stage, so that one phase does not hide another: a blow while the slings

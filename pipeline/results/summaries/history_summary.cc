@@ -107,7 +107,7 @@ Json hot_spots_json(const HistoryAssessment& history) {
 Json stage_stresses_json(const std::vector<StageStress>& stages) {
   Json rows = Json::array();
   for (const StageStress& stage : stages) {
-    const std::optional<double> increase = stage.increase_percent();
+    const std::optional<double>& increase = stage.increase_percent;
     rows.push_back({{"name", stage.stage},
                     {"start_s", stage.start},
                     {"end_s", stage.end},
