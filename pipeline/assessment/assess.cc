@@ -287,14 +287,15 @@ void check_motion(const Progress& progress, Assessment& assessment) {
 /// The motion of a lift with what follows from it alone, and the block on the mesh that is begun
 /// with. Neither needs the other if the block moves as a rigid body: they go side by side.
 void lift_and_begin_block(const std::optional<KeptRefinement>& earlier, const Progress& progress,
-                          UnfinishedRun* unfinished, Assessment& assessment) {
+                          UnfinishedRun* unfinished, const fs::path& cache,
+                          Assessment& assessment) {
   const LiftCase& the_case = assessment.lift_case;
   BlockRun& block = assessment.block;
   const std::optional<LoadFlexibility> flexibility =
       find_flexibility(the_case, progress, unfinished, block);
   const LoadFlexibility* const gives_way = flexibility ? &*flexibility : nullptr;
   const LoadMass mass = load_mass(block.model->mass_properties());
-  BuiltLift model = prepare_lift(the_case, mass, progress, gives_way);
+  BuiltLift model = prepare_lift(the_case, mass, progress, gives_way, cache);
   const auto lift = [&] {
     assessment.lift = find_motion(the_case, std::move(model), progress, unfinished);
     check_motion(progress, assessment);
@@ -310,14 +311,16 @@ void lift_and_begin_block(const std::optional<KeptRefinement>& earlier, const Pr
 
 }  // namespace
 
-Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* unfinished) {
+Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* unfinished,
+                  const fs::path& cache) {
   Stopwatch total;
   Assessment assessment{std::move(lift_case), {}, {}, {}, {}, {}, 0};
   const LiftCase& the_case = assessment.lift_case;
 
   if (!the_case.has_structure()) {
     assessment.lift = find_motion(
-        the_case, prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress),
+        the_case,
+        prepare_lift(the_case, load_mass(the_case.load.vessel->model), progress, nullptr, cache),
         progress, unfinished);
     check_motion(progress, assessment);
     find_lengths(load_mass(the_case.load.vessel->model), nullptr, progress, assessment);
@@ -336,7 +339,7 @@ Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* u
 
   const std::optional<KeptRefinement> earlier = find_refinement(unfinished);
   if (!the_case.load_table) {
-    lift_and_begin_block(earlier, progress, unfinished, assessment);
+    lift_and_begin_block(earlier, progress, unfinished, cache, assessment);
     assess_lifted_block(the_case, *assessment.lift, earlier, progress, unfinished, block);
   } else {
     begin_block(the_case, earlier, progress, block);

@@ -5,6 +5,7 @@
 
 #include "pipeline/assessment/unfinished_run.h"
 #include "pipeline/checks/assessment.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/results/files/load_case_decks.h"
 
 namespace blocklift::pipeline {
@@ -14,9 +15,10 @@ namespace blocklift::pipeline {
 /// @param unfinished what an earlier run of the same case had done, which is taken over bit for
 ///   bit,
 /// and where this one keeps what it has done; null: nothing is kept.
+/// @param cache of what is computed of the vessels' water.
 /// @throws dynamics::SimulationError, structure::ModelError, std::runtime_error as the stages do.
-Assessment assess(LiftCase lift_case, const Progress& progress,
-                  UnfinishedRun* unfinished = nullptr);
+Assessment assess(LiftCase lift_case, const Progress& progress, UnfinishedRun* unfinished = nullptr,
+                  const std::filesystem::path& cache = cache_folder());
 
 /// Asks before a run whether its results can be written, by trying it; leaves nothing behind.
 /// @throws InputError if the folder is a file or lies in one, or the user may not write there.

@@ -10,10 +10,21 @@
 
 namespace blocklift::pipeline {
 
+/// The water, the waves, and how the flow about hulls is computed in them.
+struct PanelSettings {
+  dynamics::Water water;
+  std::vector<double> frequencies;  ///< rad/s, ascending
+  std::vector<double> headings;     ///< rad
+  dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
+  std::vector<dynamics::DampingLid> lids = {};  ///< in D
+  bool symmetry = true;                         ///< use what planes of symmetry there are
+  bool far_field = false;                       ///< compute HydrodynamicDatabase::far_field as well
+};
+
 /// Hulls at rest in calm water whose linear flow is to be computed: all that the database of the
 /// panel method follows from, whether a lift asks for it or a file of vessels. The bodies stay
 /// where they are: of a hull that is lowered each draught is a problem.
-struct PanelProblem {
+struct PanelProblem : PanelSettings {
   struct Body {
     std::string name;
     std::shared_ptr<const dynamics::Hull> hull;
@@ -22,13 +33,6 @@ struct PanelProblem {
     dynamics::Vector3 p_BoR_B = dynamics::Vector3::Zero();
   };
   std::vector<Body> bodies;
-  dynamics::Water water;
-  std::vector<double> frequencies;  ///< rad/s, ascending
-  std::vector<double> headings;     ///< rad
-  dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
-  std::vector<dynamics::DampingLid> lids = {};  ///< in D
-  bool symmetry = true;                         ///< use what planes of symmetry there are
-  bool far_field = false;                       ///< compute HydrodynamicDatabase::far_field as well
 };
 
 /// The panels of a problem: hulls cut at the water, and the surface about them. There are none on

@@ -27,6 +27,7 @@
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results/summary_file.h"
 #include "pipeline/formats/results_store.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/processes/exit_code.h"
 #include "pipeline/processes/processor.h"
 #include "pipeline/report/lift_frames.h"
@@ -308,13 +309,13 @@ void say_what_is_gone_on_with(const UnfinishedRun& unfinished) {
 
 }  // namespace
 
-int assess_case(const std::string& path, const std::optional<std::string>& output, bool decks,
-                const std::optional<std::string>& expect, const std::vector<std::string>& set) {
+int assess_case(const AssessOptions& options) {
   std::vector<ExpectedFigure> expected;
-  if (expect) expected = read_expected_figures(*expect);
-  LiftCase lift_case = read_lift_case(path, read_asked_changes(set));
-  const std::filesystem::path folder =
-      output ? std::filesystem::path(*output) : std::filesystem::path("results") / lift_case.name;
+  if (options.expect) expected = read_expected_figures(*options.expect);
+  LiftCase lift_case = read_lift_case(options.path, read_asked_changes(options.set));
+  const std::filesystem::path folder = options.output
+                                           ? std::filesystem::path(*options.output)
+                                           : std::filesystem::path("results") / lift_case.name;
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder)) {
     fmt::print(
         stderr,
@@ -333,10 +334,10 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
       [&](const std::string& stage, double fraction, const std::string& detail) {
         line.show(stage, fraction, detail);
       },
-      &unfinished);
+      &unfinished, options.anew ? no_cache() : cache_folder());
   line.show("writing results", 0, "");
   std::vector<LoadCaseFile> files;
-  if (decks) files = load_case_files(assessment);
+  if (options.decks) files = load_case_files(assessment);
   const std::filesystem::path report = [&] {
     const HeldSignals until_all_is_in_place;
     std::filesystem::path page = write_results(assessment, folder, files);
@@ -350,8 +351,8 @@ int assess_case(const std::string& path, const std::optional<std::string>& outpu
   for (const auto& warning : summary.value("warnings", nlohmann::ordered_json::array()))
     say_warning(warning.get<std::string>());
   print_checks(assessment);
-  if (decks) print_decks(files, folder);
-  const bool as_expected = !expect || figures_are_held(expected, summary);
+  if (options.decks) print_decks(files, folder);
+  const bool as_expected = !options.expect || figures_are_held(expected, summary);
   if (!is_quiet()) fmt::print("report: {}\n", report.string());
   return assessment.pass() && as_expected ? exit_code::done : exit_code::lift_fails;
 }

@@ -22,9 +22,9 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/foreign_hydrodynamics.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/hydrodynamic_report.h"
-#include "pipeline/hydrodynamics/panel_cache.h"
 #include "pipeline/processes/exit_code.h"
 #include "pipeline/terminal/progress_bar.h"
 #include "pipeline/terminal/run_log.h"
@@ -79,7 +79,7 @@ void say_doubts_about_sizes(const HydrodynamicProblem& problem) {
     const std::string who = "vessel " + body.name;
     for (const std::string& doubt :
          {doubt_about_size(who, *body.hull),
-          doubt_about_lightness(who, *body.hull, body.body.mass, problem.water.density)}) {
+          doubt_about_lightness(who, *body.hull, body.body.mass, problem.settings.water.density)}) {
       if (!doubt.empty()) say_warning(doubt);
     }
   }
@@ -107,13 +107,13 @@ void say_doubts_about_hulls(const HydrodynamicProblem& problem,
     const HydrodynamicBody& body = problem.bodies[b];
     const dynamics::Pose& X_WB = states.back().panels.bodies[b].X_DB;
     const std::string mass =
-        body.as_meshed
-            ? doubt_about_mass(body.name, displaced_mass(body, X_WB, problem.water.density),
-                               body.body.mass)
-            : std::string();
+        body.as_meshed ? doubt_about_mass(
+                             body.name, displaced_mass(body, X_WB, problem.settings.water.density),
+                             body.body.mass)
+                       : std::string();
     for (const std::string& doubt :
          {mass, doubt_about_inclination(body.name, X_WB.R),
-          doubt_about_keel(body.name, *body.hull, X_WB, problem.water.depth)}) {
+          doubt_about_keel(body.name, *body.hull, X_WB, problem.settings.water.depth)}) {
       if (!doubt.empty()) say_warning(doubt);
     }
   }
@@ -136,8 +136,9 @@ std::vector<HydrodynamicState> prepare(const HydrodynamicProblem& problem) {
   return states;
 }
 
+/// @param cache folder of it.
 HydrodynamicFile compute(const HydrodynamicProblem& problem,
-                         const std::vector<HydrodynamicState>& states) {
+                         const std::vector<HydrodynamicState>& states, const fs::path& cache) {
   for (const HydrodynamicState& state : states) print_panels(state);
   std::vector<std::string> said;
   HydrodynamicFile file;
@@ -150,6 +151,7 @@ HydrodynamicFile compute(const HydrodynamicProblem& problem,
           done = fraction;
           bar.show(fraction, what);
         },
+        cache,
         [&](const std::string& what) {
           log_entry(what);
           said.push_back(what);
@@ -216,7 +218,7 @@ int compute_vessel(const HydroOptions& options) {
   if (known) {
     file = read_hydrodynamic_file(output);
   } else {
-    file = compute(*problem, states);
+    file = compute(*problem, states, options.anew ? no_cache() : cache_folder());
   }
   const auto page = [&] { return hydrodynamic_page(file, problem->title, masses); };
   if (!known)
@@ -388,7 +390,6 @@ int convert(const HydroOptions& options) {
 }  // namespace
 
 int hydro(const HydroOptions& options) {
-  if (options.anew) forbid_cache();
   require_wamit(options);
   if (options.import) return convert(options);
   if (options.vessel && !options.export_format) return compute_vessel(options);

@@ -28,7 +28,6 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/files/schema/schema.h"
 #include "pipeline/formats/hdf5_exit.h"
-#include "pipeline/hydrodynamics/panel_cache.h"
 #include "pipeline/processes/exit_code.h"
 #include "pipeline/processes/processor.h"
 #include "pipeline/templates/new_case.h"
@@ -50,10 +49,10 @@ void add_allow_outside(CLI::App& command) {
 }
 
 /// Of each command that may compute the radiation of vessels.
-void add_no_cache(CLI::App& command) {
-  command.add_flag_callback("--no-cache", forbid_cache,
-                            "compute the water about vessels anew: take nothing from the cache, "
-                            "and put nothing there");
+void add_no_cache(CLI::App& command, bool& anew) {
+  command.add_flag("--no-cache", anew,
+                   "compute the water about vessels anew: take nothing from the cache, and put "
+                   "nothing there");
 }
 
 void add_set(CLI::App& command, std::vector<std::string>& changes) {
@@ -67,27 +66,21 @@ void add_set(CLI::App& command, std::vector<std::string>& changes) {
 void add_assess(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "assess", "Run a lift case: dynamics, loads on the block, stress, checks, report");
-  auto path = std::make_shared<std::string>();
-  auto output = std::make_shared<std::optional<std::string>>();
-  command->add_option("CASE", *path, "case file, or folder with a case.yaml")->required();
-  command->add_option("-o,--output", *output,
+  auto options = std::make_shared<AssessOptions>();
+  command->add_option("CASE", options->path, "case file, or folder with a case.yaml")->required();
+  command->add_option("-o,--output", options->output,
                       "folder of the results (results/<name of the case> if not given)");
-  auto decks = std::make_shared<bool>(false);
-  command->add_flag("--decks", *decks,
+  command->add_flag("--decks", options->decks,
                     "write the governing load cases for other solvers as well: load-cases.inp "
                     "(Abaqus, CalculiX) and load-cases.bdf (Nastran)");
-  auto expect = std::make_shared<std::optional<std::string>>();
-  command->add_option("--expect", *expect,
+  command->add_option("--expect", options->expect,
                       "file of figures that the lift is held to (\"expect\" writes one); exit code "
                       "3 if one is off");
-  auto set = std::make_shared<std::vector<std::string>>();
-  add_set(*command, *set);
+  add_set(*command, options->set);
   add_limits(*command);
-  add_no_cache(*command);
+  add_no_cache(*command, options->anew);
   add_allow_outside(*command);
-  command->callback([path, output, decks, expect, set, &code] {
-    code = assess_case(*path, *output, *decks, *expect, *set);
-  });
+  command->callback([options, &code] { code = assess_case(*options); });
 }
 
 void add_compare(CLI::App& app, int& code) {
@@ -302,7 +295,7 @@ void add_simulate(CLI::App& app, int& code) {
   command->add_flag("--csv", options->csv, "write a CSV file beside the HDF5 one");
   add_set(*command, options->set);
   add_limits(*command);
-  add_no_cache(*command);
+  add_no_cache(*command, options->anew);
   add_allow_outside(*command);
   command->callback([options, &code] { code = simulate_file(*options); });
 }

@@ -18,6 +18,7 @@
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/results_layout.h"
 #include "pipeline/formats/results/summary_file.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/processes/exit_code.h"
 #include "pipeline/results/summaries/radiation_summary.h"
 #include "pipeline/simulation/lift_simulation.h"
@@ -81,6 +82,10 @@ void print_mechanism(const MechanismFile& file, const MechanismRun& run) {
   print_statistics(run.result.statistics, run.elapsed);
 }
 
+fs::path cache_of(const SimulateOptions& options) {
+  return options.anew ? no_cache() : cache_folder();
+}
+
 int simulate_mechanism(const SimulateOptions& options) {
   ModelLibrary library = ModelLibrary::of_installation();
   library.set_changes(read_asked_changes(options.set));
@@ -96,9 +101,10 @@ int simulate_mechanism(const SimulateOptions& options) {
     if (!doubt.empty()) say_warning(doubt);
   }
   auto bar = std::make_unique<ProgressBar>("time integration");
-  const MechanismRun run = run_mechanism(*file, [&](double fraction, double time) {
-    bar->show(fraction, fmt::format("t = {:.3g} s", time));
-  });
+  const MechanismRun run = run_mechanism(
+      *file,
+      [&](double fraction, double time) { bar->show(fraction, fmt::format("t = {:.3g} s", time)); },
+      cache_of(options));
   bar.reset();
   for (const std::string& doubt : run.doubts) say_warning(doubt);
   {
@@ -136,16 +142,17 @@ int simulate_lift_case(const SimulateOptions& options) {
   const fs::path folder = result_folder(options, lift_case.name);
   std::unique_ptr<ProgressBar> bar;
   std::string shown;
-  const LiftSimulation simulation =
-      simulate_lift(std::move(lift_case),
-                    [&](const std::string& stage, double fraction, const std::string& detail) {
-                      if (stage != shown) {
-                        bar.reset();
-                        bar = std::make_unique<ProgressBar>(stage);
-                        shown = stage;
-                      }
-                      bar->show(fraction, detail);
-                    });
+  const LiftSimulation simulation = simulate_lift(
+      std::move(lift_case),
+      [&](const std::string& stage, double fraction, const std::string& detail) {
+        if (stage != shown) {
+          bar.reset();
+          bar = std::make_unique<ProgressBar>(stage);
+          shown = stage;
+        }
+        bar->show(fraction, detail);
+      },
+      {}, cache_of(options));
   bar.reset();
   {
     const HeldSignals until_all_is_in_place;

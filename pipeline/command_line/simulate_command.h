@@ -12,6 +12,7 @@ struct SimulateOptions {
   std::optional<std::string> output;  ///< folder; results/<name> if none
   bool csv = false;                   ///< a CSV file beside the HDF5 one
   std::vector<std::string> set = {};  ///< keys with other values, as read_asked_changes takes them
+  bool anew = false;                  ///< nothing is taken from the cache or put there
 };
 
 /// `blocklift simulate FILE`: the motion of a mechanism or lift case into results.h5.

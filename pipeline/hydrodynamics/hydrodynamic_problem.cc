@@ -51,14 +51,7 @@ Pose pose_at_rest(const HydrodynamicBody& body, std::size_t index) {
 }
 
 PanelProblem panel_problem(const HydrodynamicProblem& problem, std::size_t index) {
-  PanelProblem panels;
-  panels.water = problem.water;
-  panels.frequencies = problem.frequencies;
-  panels.headings = problem.headings;
-  panels.method = problem.method;
-  panels.lids = problem.lids;
-  panels.symmetry = problem.symmetry;
-  panels.far_field = problem.mean_drift;
+  PanelProblem panels{problem.settings, {}};
   for (const HydrodynamicBody& body : problem.bodies) {
     panels.bodies.push_back({body.name, body.hull, pose_at_rest(body, index), body.body.p_BoBcm_B});
   }
@@ -91,7 +84,7 @@ void require_apart(const HydrodynamicProblem& problem, const PanelProblem& panel
 
 void require_panels(const HydrodynamicProblem& problem, const dynamics::PanelModel& model) {
   try {
-    require_panels_for_waves(model, problem.frequencies.back());
+    require_panels_for_waves(model, problem.settings.frequencies.back());
   } catch (const dynamics::ModelError& error) {
     Diagnostics diagnostics;
     diagnostics.error(problem.frequencies_place, error.what());
@@ -131,7 +124,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
       state.panels.bodies[static_cast<std::size_t>(problem.lowered_body())];
   state.draught = -lowest_point(*lowered.hull, lowered.X_DB);
   state.model = std::make_shared<const dynamics::PanelModel>(make_panel_model(state.panels));
-  const bool with_surface = problem.method == dynamics::PanelMethod::marched_surface;
+  const bool with_surface = problem.settings.method == dynamics::PanelMethod::marched_surface;
   if (with_surface && state.model->surface_mesh().size() == 0) {
     throw dynamics::ModelError(
         fmt::format("at a draught of {:.6g} m no hull reaches the water's surface, and a hull that "
@@ -139,11 +132,12 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
                     "function, which computes hulls wholly under water, too",
                     state.draught));
   }
-  if (with_surface) state.groups = find_distant_groups(*state.model, problem.frequencies.back());
+  if (with_surface)
+    state.groups = find_distant_groups(*state.model, problem.settings.frequencies.back());
   state.settings = database_settings(state.panels);
   state.settings.rankine.memory_limit = problem.memory_limit;
   require_panels(problem, *state.model);
-  state.bytes = bytes_by_method(problem.method, *state.model, state.settings);
+  state.bytes = bytes_by_method(problem.settings.method, *state.model, state.settings);
   refuse_if_too_large(
       state, problem.memory_limit > 0.0 ? problem.memory_limit : dynamics::usable_memory());
   return state;
@@ -153,7 +147,7 @@ std::string identity_of(const HydrodynamicProblem& problem,
                         const std::vector<HydrodynamicState>& states) {
   ContentHash hash;
   hash.add(std::string_view(program_version));
-  hash.add(std::int64_t{problem.mean_drift ? dynamics::mean_drift_version : 0});
+  hash.add(std::int64_t{problem.settings.far_field ? dynamics::mean_drift_version : 0});
   hash.add(std::int64_t{problem.lowered_body()});
   for (const HydrodynamicBody& body : problem.bodies) add(hash, body.body.p_BoBcm_B);
   for (const HydrodynamicState& state : states) {
@@ -188,12 +182,12 @@ void add_masses(const HydrodynamicProblem& problem, const HydrodynamicState& sta
     database.centres_of_mass.push_back(X_WB.p + p_BoBcm_W);
     const Eigen::Index first = dynamics::modes_per_body * static_cast<Eigen::Index>(b);
     database.hydrostatic_stiffness.block<6, 6>(first, first) =
-        problem.water.density * problem.water.gravity *
+        problem.settings.water.density * problem.settings.water.gravity *
         calc_floating_stiffness_over_rho_g(rest, p_BoBcm_W);
   }
-  if (problem.mean_drift) {
+  if (problem.settings.far_field) {
     database.mean_drift = calc_mean_drift(database, calc_response_amplitudes(database, state.mass),
-                                          {}, !problem.lids.empty());
+                                          {}, !problem.settings.lids.empty());
   }
 }
 
@@ -215,7 +209,7 @@ HydrodynamicFile make_file(
     databases.push_back(std::move(database));
   }
   std::string origin = fmt::format("computed by blocklift {}", program_version);
-  if (problem.method == dynamics::PanelMethod::green_function) {
+  if (problem.settings.method == dynamics::PanelMethod::green_function) {
     origin += ", wave Green function";
   }
   for (const HydrodynamicState& state : states) {
@@ -251,6 +245,7 @@ HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
 HydrodynamicFile find_hydrodynamics(const HydrodynamicProblem& problem,
                                     const std::vector<HydrodynamicState>& states,
                                     const HydrodynamicProgress& progress,
+                                    const std::filesystem::path& cache,
                                     const std::function<void(const std::string&)>& say) {
   return make_file(problem, states, progress, [&](const HydrodynamicState& state) {
     const std::string name = name_of(state);
@@ -259,7 +254,7 @@ HydrodynamicFile find_hydrodynamics(const HydrodynamicProblem& problem,
                                 return FoundDatabase{compute_panels(state), find_waves_lost(state)};
                               },
                               [&] { return find_waves_lost(state); }};
-    return find_database(state.panels, maker,
+    return find_database(state.panels, maker, cache,
                          [&](const std::string& what) {
                            if (say) say(name + ": " + what);
                          })

@@ -32,13 +32,9 @@ struct HydrodynamicBody {
 struct HydrodynamicProblem {
   std::string title;
   std::vector<HydrodynamicBody> bodies;
-  dynamics::Water water;
-  std::vector<double> frequencies;  ///< rad/s
-  std::vector<double> headings;     ///< rad
-  dynamics::PanelMethod method = dynamics::PanelMethod::marched_surface;
-  bool mean_drift = false;  ///< of the single body as it floats freely
-  std::vector<dynamics::DampingLid> lids;
-  bool symmetry = true;       ///< use what planes of symmetry there are
+  /// Of all draughts, D being W. From the far field follows the mean drift of the single body as it
+  /// floats freely.
+  PanelSettings settings;
   double memory_limit = 0.0;  ///< bytes; 0: dynamics::usable_memory()
   Mark place;
   Mark frequencies_place;
@@ -92,10 +88,12 @@ HydrodynamicFile compute_hydrodynamics(const HydrodynamicProblem& problem,
 /// The same, in which what the panel method finds is taken from the cache where it lies there, and
 /// put there where it does not (find_database): to the last bit the numbers of the run that
 /// computed them.
+/// @param cache folder of it (cache_folder).
 /// @param say called with a sentence about each draught that is in the cache, or waited for.
 HydrodynamicFile find_hydrodynamics(const HydrodynamicProblem& problem,
                                     const std::vector<HydrodynamicState>& states,
                                     const HydrodynamicProgress& progress,
+                                    const std::filesystem::path& cache,
                                     const std::function<void(const std::string&)>& say);
 
 }  // namespace blocklift::pipeline

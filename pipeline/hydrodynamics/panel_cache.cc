@@ -1,7 +1,6 @@
 #include "pipeline/hydrodynamics/panel_cache.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
 #include <span>
 #include <utility>
@@ -48,15 +47,6 @@ FoundDatabase take_entry(const PanelProblem& problem, const DatabaseMaker& maker
 
 }  // namespace
 
-fs::path cache_folder() {
-  if (const char* folder = std::getenv("BLOCKLIFT_CACHE")) return folder;
-  if (const char* folder = std::getenv("XDG_CACHE_HOME")) return fs::path(folder) / "blocklift";
-  if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "blocklift";
-  return {};
-}
-
-void forbid_cache() { ::setenv("BLOCKLIFT_CACHE", "", 1); }
-
 std::string identity_of(const PanelProblem& problem) {
   ContentHash hash;
   hash.add(std::int64_t{dynamics::panel_method_version});
@@ -65,7 +55,7 @@ std::string identity_of(const PanelProblem& problem) {
     hash.add(body.name);
     add(hash, *body.hull);
     for (Eigen::Index column = 0; column < 3; ++column) {
-      add(hash, Vector3(body.X_DB.R.col(column)));
+      add(hash, dynamics::Vector3(body.X_DB.R.col(column)));
     }
     add(hash, body.X_DB.p);
     add(hash, body.p_BoR_B);
@@ -92,11 +82,11 @@ bool may_lose_waves(const PanelProblem& problem) {
 }
 
 FoundDatabase find_database(const PanelProblem& problem, const DatabaseMaker& maker,
+                            const fs::path& cache,
                             const std::function<void(const std::string&)>& say) {
-  const fs::path folder = cache_folder();
-  if (folder.empty()) return maker.compute();
+  if (cache.empty()) return maker.compute();
   const std::string identity = identity_of(problem);
-  const fs::path file = folder / (identity + ".h5");
+  const fs::path file = cache / (identity + ".h5");
   const auto read = [&]() -> std::optional<FoundDatabase> {
     std::optional<HydrodynamicFile> entry = read_entry(file, identity);
     if (!entry) return std::nullopt;

@@ -9,15 +9,6 @@
 
 namespace blocklift::pipeline {
 
-/// Where computed databases are kept: the folder that BLOCKLIFT_CACHE names, or `blocklift` in that
-/// of XDG_CACHE_HOME, or `.cache/blocklift` in the user's home. Empty if none of these is set, or
-/// BLOCKLIFT_CACHE is empty: nothing is kept then.
-std::filesystem::path cache_folder();
-
-/// From now on nothing is taken from the cache or put there, by this process and those that it
-/// begins: BLOCKLIFT_CACHE is empty.
-void forbid_cache();
-
 /// What tells databases apart: a hash of all that is in a problem. Equal problems have one database
 /// in the cache, whoever asks for it.
 std::string identity_of(const PanelProblem& problem);
@@ -43,9 +34,11 @@ struct DatabaseMaker {
 /// The database of a problem: from the cache if it lies there, else computed and put there. What
 /// another run is computing is waited for and taken from there (CacheLock). A cache that cannot be
 /// written is no error: the database is computed again next time.
+/// @param cache folder of it (cache_folder).
 /// @param say called with a sentence if the database is in the cache, or waited for.
 /// @throws what `maker` throws.
 FoundDatabase find_database(const PanelProblem& problem, const DatabaseMaker& maker,
+                            const std::filesystem::path& cache,
                             const std::function<void(const std::string&)>& say);
 
 }  // namespace blocklift::pipeline

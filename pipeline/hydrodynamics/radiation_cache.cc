@@ -120,11 +120,12 @@ std::vector<std::string> say_doubts(const RadiationProblem& problem,
   return sentences;
 }
 
-/// Where a problem stands in its file, and who is told what is done about it.
+/// Where a problem stands in its file, who is told what is done about it, and where it is kept.
 struct Asker {
   Mark place;
   Say say;
   Tell tell;
+  fs::path cache;
 };
 
 /// Computes the database of bodies that stay.
@@ -158,7 +159,7 @@ FoundDatabase find_for(const Asker& asker, const PanelProblem& problem, const st
                             return find_waves_lost(problem, make_panel_model(problem));
                           });
                         }},
-                       asker.say);
+                       asker.cache, asker.say);
 }
 
 /// What is found of a problem, for all draughts.
@@ -174,9 +175,10 @@ FoundSeries find_series(const RadiationProblem& problem, const Asker& asker) {
   const PanelProblem others = without_lowered(problem);
   double done = 0.0;
   const double all = static_cast<double>(deeper.size()) + (others.bodies.empty() ? 0.0 : 1.0);
-  const Asker of_all{asker.place, asker.say, [&](double fraction, const std::string& what) {
-                       asker.tell((done + fraction) / all, what);
-                     }};
+  const Asker of_all{
+      asker.place, asker.say,
+      [&](double fraction, const std::string& what) { asker.tell((done + fraction) / all, what); },
+      asker.cache};
   std::optional<dynamics::HydrodynamicDatabase> alone;
   if (!others.bodies.empty()) {
     alone = find_for(of_all, others, "").database;
@@ -203,7 +205,7 @@ FoundSeries find_series(const RadiationProblem& problem, const Asker& asker) {
 
 std::vector<dynamics::MemoryStateSpace> find_memories(
     const std::vector<dynamics::HydrodynamicDatabase>& databases, const dynamics::MemoryFit& fit,
-    const std::function<void(const std::string&)>& report) {
+    const fs::path& cache, const std::function<void(const std::string&)>& report) {
   const Say say = [&](const std::string& text) {
     if (report) report(text);
   };
@@ -211,10 +213,9 @@ std::vector<dynamics::MemoryStateSpace> find_memories(
     say("fitting the memory of the water");
     return fit_memories(databases, fit);
   };
-  const fs::path folder = cache_folder();
-  if (folder.empty()) return compute();
+  if (cache.empty()) return compute();
   const std::string identity = identity_of(databases, fit);
-  const fs::path file = folder / (identity + ".h5");
+  const fs::path file = cache / (identity + ".h5");
   const auto read = [&] {
     auto known = read_memories(file, identity);
     if (known && known->size() != databases.size()) known.reset();
@@ -253,7 +254,8 @@ void add_mean_drift(const RadiationProblem& problem, dynamics::HydrodynamicDatab
 
 FoundRadiation find_radiation(const RadiationProblem& problem,
                               const std::function<void(const std::string&)>& report,
-                              const std::function<void(double, const std::string&)>& progress) {
+                              const std::function<void(double, const std::string&)>& progress,
+                              const fs::path& cache) {
   if (problem.bodies.empty() || problem.direct) return {};
   const Say say = [&](const std::string& text) {
     if (report) report(text);
@@ -261,7 +263,7 @@ FoundRadiation find_radiation(const RadiationProblem& problem,
   const Tell tell = [&](double fraction, const std::string& what) {
     if (progress) progress(fraction, what);
   };
-  const Asker asker{problem.place, say, tell};
+  const Asker asker{problem.place, say, tell, cache};
   dynamics::HydrodynamicSeries series;
   WavesLost lost;
   if (problem.given) {
@@ -284,7 +286,7 @@ FoundRadiation find_radiation(const RadiationProblem& problem,
       problem.given ? std::span(problem.given.get(), 1)
                     : std::span(std::as_const(series.databases));
   std::vector<std::string> doubts = say_doubts(problem, doubted, lost, say);
-  series.memories = find_memories(series.databases, memory_fit_of_vessels(), say);
+  series.memories = find_memories(series.databases, memory_fit_of_vessels(), cache, say);
   return {std::make_shared<const dynamics::HydrodynamicSeries>(std::move(series)),
           std::move(doubts)};
 }

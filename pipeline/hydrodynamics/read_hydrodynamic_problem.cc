@@ -54,15 +54,16 @@ std::shared_ptr<const dynamics::Hull> with_name(dynamics::Hull hull, const std::
 }
 
 void take_settings(const HydrodynamicSettings& settings, HydrodynamicProblem& problem) {
-  problem.frequencies = settings.frequencies.list();
+  PanelSettings& panels = problem.settings;
+  panels.water.density = settings.water_density;
+  if (settings.water_depth) panels.water.depth = *settings.water_depth;
+  panels.frequencies = settings.frequencies.list();
+  panels.headings = settings.headings.value_or(default_headings());
+  panels.method = settings.method;
+  panels.lids = make_lids(settings.lids);
+  panels.symmetry = settings.symmetry;
+  panels.far_field = settings.mean_drift;
   problem.frequencies_place = settings.frequencies.place;
-  problem.headings = settings.headings.value_or(default_headings());
-  problem.water.density = settings.water_density;
-  if (settings.water_depth) problem.water.depth = *settings.water_depth;
-  problem.method = settings.method;
-  problem.symmetry = settings.symmetry;
-  problem.mean_drift = settings.mean_drift;
-  problem.lids = make_lids(settings.lids);
   for (HydrodynamicBody& body : problem.bodies) body.body.water_density = settings.water_density;
 }
 
@@ -91,7 +92,7 @@ double within_turn(double angle) {
 /// its bow, and what lies in the world moves along.
 bool take_own_frame(HydrodynamicProblem& problem, Diagnostics& diagnostics) {
   HydrodynamicBody& body = problem.bodies.front();
-  if (!problem.lids.empty() && body.heading != 0.0) {
+  if (!problem.settings.lids.empty() && body.heading != 0.0) {
     diagnostics.error(
         problem.place,
         "lids are rectangles along the world's axes, and the only vessel lies turned to them",
@@ -99,13 +100,13 @@ bool take_own_frame(HydrodynamicProblem& problem, Diagnostics& diagnostics) {
          "database is in that frame anyway"});
     return false;
   }
-  for (dynamics::DampingLid& lid : problem.lids) {
+  for (dynamics::DampingLid& lid : problem.settings.lids) {
     lid.low -= body.position;
     lid.high -= body.position;
   }
   if (body.heading != 0.0) {
-    for (double& heading : problem.headings) heading = within_turn(heading - body.heading);
-    std::sort(problem.headings.begin(), problem.headings.end());
+    for (double& heading : problem.settings.headings) heading = within_turn(heading - body.heading);
+    std::sort(problem.settings.headings.begin(), problem.settings.headings.end());
   }
   body.position.setZero();
   body.heading = 0.0;
@@ -143,7 +144,7 @@ std::optional<HydrodynamicProblem> read_group(const fs::path& file, const ModelL
   }
   if (diagnostics.error_count() > before) return std::nullopt;
   take_settings(group.hydrodynamics, problem);
-  if (problem.mean_drift && problem.bodies.size() > 1) {
+  if (problem.settings.far_field && problem.bodies.size() > 1) {
     diagnostics.error(group.place,
                       "mean drift is asked for vessels that share their water: the waves far away "
                       "tell that of all together only",

@@ -165,17 +165,17 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 }
 
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
-                       const LoadFlexibility* flexibility) {
+                       const LoadFlexibility* flexibility, const std::filesystem::path& cache) {
   const RadiationProblem problem = radiation_problem(lift_case);
   double radiation_share = 0;
   const auto tell = [&](const std::string& what) {
     progress("radiation of vessels", radiation_share, what);
   };
-  const FoundRadiation radiation =
-      find_radiation(problem, tell, [&](double share, const std::string& what) {
-        radiation_share = share;
-        tell(what);
-      });
+  const auto tell_share = [&](double share, const std::string& what) {
+    radiation_share = share;
+    tell(what);
+  };
+  const FoundRadiation radiation = find_radiation(problem, tell, tell_share, cache);
   FoundMotion found;
   const auto build = [&](std::optional<double> fault) {
     found.fault = fault;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "dynamics/simulation/time_integration.h"
 #include "pipeline/build/build_lift.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/lift/natural_modes.h"
 
 namespace blocklift::pipeline {
@@ -80,8 +82,10 @@ LiftRun run_lift(const LiftCase& lift_case, BuiltLift model, const Progress& pro
 /// @throws InputError, dynamics::ModelError, dynamics::SimulationError as find_radiation and
 /// build_lift.
 /// @param flexibility of the load; null: it is rigid.
+/// @param cache of what is computed of the vessels' water.
 BuiltLift prepare_lift(const LiftCase& lift_case, const LoadMass& load, const Progress& progress,
-                       const LoadFlexibility* flexibility = nullptr);
+                       const LoadFlexibility* flexibility = nullptr,
+                       const std::filesystem::path& cache = cache_folder());
 
 /// Sum of the tackle tensions of a crane's hoists at each sample, N.
 Eigen::VectorXd crane_load(const BuiltLift& model, const dynamics::History& history,

@@ -77,10 +77,11 @@ void require_no_verdict(const std::filesystem::path& folder) {
   throw InputError(diagnostics);
 }
 
-LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress,
-                             const RunExtent& extent) {
+LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress, const RunExtent& extent,
+                             const std::filesystem::path& cache) {
   if (!lift_case.has_structure()) {
-    BuiltLift model = prepare_lift(lift_case, load_mass(lift_case.load.vessel->model), progress);
+    BuiltLift model =
+        prepare_lift(lift_case, load_mass(lift_case.load.vessel->model), progress, nullptr, cache);
     require_memory(lift_case, model);
     LiftRun run = run_lift(lift_case, std::move(model), progress, extent);
     std::vector<structure::LiftingPoint> lugs = vessel_lugs(lift_case.load);
@@ -100,13 +101,13 @@ LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress,
   return simulate_lift(
       std::move(lift_case),
       {load_mass(block->mass_properties()), block->mesh().lifting_points, std::move(flexibility)},
-      progress, extent);
+      progress, extent, cache);
 }
 
 LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
-                             const RunExtent& extent) {
+                             const RunExtent& extent, const std::filesystem::path& cache) {
   BuiltLift model = prepare_lift(lift_case, block.mass, progress,
-                                 block.flexibility ? &*block.flexibility : nullptr);
+                                 block.flexibility ? &*block.flexibility : nullptr, cache);
   require_memory(lift_case, model);
   LiftRun run = run_lift(lift_case, std::move(model), progress, extent);
   return {std::move(lift_case), std::move(block.lugs), std::move(run)};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pipeline/build/build_lift.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/lift/lift_run.h"
 #include "structure/mesh/mesh.h"
 
@@ -26,9 +27,11 @@ void require_no_verdict(const std::filesystem::path& folder);
 
 /// Static sweep and time integration of a lift case. The load's mass is that of its mesh, as for
 /// `assess`.
+/// @param cache of what is computed of the vessels' water.
 /// @throws InputError if the block cannot be meshed, dynamics::SimulationError as the stages do.
 LiftSimulation simulate_lift(LiftCase lift_case, const Progress& progress,
-                             const RunExtent& extent = {});
+                             const RunExtent& extent = {},
+                             const std::filesystem::path& cache = cache_folder());
 
 /// What the motion of a lift takes from its block.
 struct KnownBlock {
@@ -39,7 +42,8 @@ struct KnownBlock {
 
 /// The same of a case whose block is known already.
 LiftSimulation simulate_lift(LiftCase lift_case, KnownBlock block, const Progress& progress,
-                             const RunExtent& extent = {});
+                             const RunExtent& extent = {},
+                             const std::filesystem::path& cache = cache_folder());
 
 /// Writes results.h5, summary.json and report.html into a folder (made if missing), with the parts
 /// that `assess` writes of the motion, and, if asked, results.csv: time, tension of each rope,

@@ -55,10 +55,11 @@ std::vector<dynamics::Course> find_courses(const MechanismFile& file,
 }  // namespace
 
 MechanismRun run_mechanism(const MechanismFile& file,
-                           const std::function<void(double, double)>& progress) {
+                           const std::function<void(double, double)>& progress,
+                           const std::filesystem::path& cache) {
   const auto start = std::chrono::steady_clock::now();
   const RadiationProblem problem = radiation_problem(file);
-  FoundRadiation radiation = find_radiation(problem, {});
+  FoundRadiation radiation = find_radiation(problem, {}, {}, cache);
   const auto build = [&](const FoundMotion& found) {
     return build_mechanism(file, radiation.series.get(), find_marched_water(problem), found);
   };

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "dynamics/simulation/time_integration.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/lift/natural_modes.h"
 #include "pipeline/simulation/mechanism_outputs.h"
 
@@ -25,10 +27,12 @@ struct MechanismRun {
 
 /// Simulates a mechanism file over its duration.
 /// @param progress called with the fraction done and the time; may be empty.
+/// @param cache of what is computed of the vessels' water.
 /// @throws dynamics::ModelError, dynamics::SimulationError as the build, equilibrium and
 /// integration do.
 MechanismRun run_mechanism(const MechanismFile& file,
-                           const std::function<void(double, double)>& progress);
+                           const std::function<void(double, double)>& progress,
+                           const std::filesystem::path& cache = cache_folder());
 
 /// Text of a CSV file: header "time [s],tip.x [m],...", then a line a sample, numbers with all
 /// digits.

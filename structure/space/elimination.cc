@@ -3,6 +3,7 @@
 #include <metis.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 #include <unordered_map>
 
@@ -66,6 +67,10 @@ std::vector<int> dissection_order(const std::vector<UnknownGroup>& groups,
   }
   idx_t count = static_cast<idx_t>(groups.size());
   std::vector<idx_t> permutation(groups.size()), inverse(groups.size());
+  // METIS draws from rand(), whose state the whole process shares: of two orders that are sought at
+  // once each would follow from when the other draws, and with it the last bits of all solutions.
+  static std::mutex drawing;
+  const std::lock_guard lock(drawing);
   if (METIS_NodeND(&count, start.data(), neighbours.data(), weights.data(), nullptr,
                    permutation.data(), inverse.data()) != METIS_OK)
     throw ModelError("METIS could not order the unknowns");

@@ -47,12 +47,12 @@ TEST_F(HydrodynamicProblemOfFile, ASingleVesselLiesInItsOwnFrame) {
   ASSERT_TRUE(upright) << diagnostics_.to_text();
   constexpr double degree = std::numbers::pi / 180.0;
   const std::vector<double> expected = {0, 90 * degree, 180 * degree, 270 * degree, 330 * degree};
-  ASSERT_EQ(turned->headings.size(), expected.size());
+  ASSERT_EQ(turned->settings.headings.size(), expected.size());
   for (std::size_t h = 0; h < expected.size(); ++h) {
-    EXPECT_NEAR(turned->headings[h], expected[h], 1e-12);
+    EXPECT_NEAR(turned->settings.headings[h], expected[h], 1e-12);
   }
   HydrodynamicProblem same = *turned;
-  same.headings = upright->headings;
+  same.settings.headings = upright->settings.headings;
   EXPECT_EQ(identity_of(same, {prepare_state(same, 0)}),
             identity_of(*upright, {prepare_state(*upright, 0)}));
   // The mass matrix of the printed periods is along the hull's own axes.
@@ -64,18 +64,19 @@ TEST_F(HydrodynamicProblemOfFile, ASingleVesselLiesInItsOwnFrame) {
 TEST_F(HydrodynamicProblemOfFile, WavesComeFromEveryFiveDegrees) {
   const auto common = problem("position: [0 m, 0 m]", "panel_size: 4 m");
   ASSERT_TRUE(common) << diagnostics_.to_text();
-  ASSERT_EQ(common->headings.size(), 72U);
-  EXPECT_NEAR(common->headings[1] - common->headings[0], std::numbers::pi / 36, 1e-12);
+  ASSERT_EQ(common->settings.headings.size(), 72U);
+  EXPECT_NEAR(common->settings.headings[1] - common->settings.headings[0], std::numbers::pi / 36,
+              1e-12);
   const auto none = problem("position: [0 m, 0 m]", "headings: []");
   ASSERT_TRUE(none) << diagnostics_.to_text();
-  EXPECT_TRUE(none->headings.empty());
+  EXPECT_TRUE(none->settings.headings.empty());
 }
 
 TEST_F(HydrodynamicProblemOfFile, LidsMoveAlongAndDoNotTurn) {
   const std::string lids = "lids: [{from: [99 m, -1 m], to: [101 m, 1 m], rate: 0.1 rad/s}]";
   const auto moved = problem("position: [100 m, 0 m]", lids);
   ASSERT_TRUE(moved) << diagnostics_.to_text();
-  EXPECT_EQ(moved->lids.at(0).low, Eigen::Vector2d(-1, -1));
+  EXPECT_EQ(moved->settings.lids.at(0).low, Eigen::Vector2d(-1, -1));
   EXPECT_FALSE(problem("position: [100 m, 0 m], heading: 30 deg", lids));
   EXPECT_THAT(diagnostics_.to_text(), HasSubstr("lies turned to them"));
 }

@@ -13,6 +13,7 @@
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "pipeline/formats/hydrodynamics/convention_check.h"
 #include "pipeline/formats/hydrodynamics/hydrodynamic_database_file.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "tests/pipeline/hydrodynamics/own_cache.h"
 
@@ -50,8 +51,8 @@ struct Found {
 Found find(const std::vector<dynamics::HydrodynamicDatabase>& databases,
            const dynamics::MemoryFit& how = fit) {
   Found found;
-  found.memories =
-      find_memories(databases, how, [&](const std::string& text) { found.said.push_back(text); });
+  found.memories = find_memories(databases, how, cache_folder(),
+                                 [&](const std::string& text) { found.said.push_back(text); });
   return found;
 }
 

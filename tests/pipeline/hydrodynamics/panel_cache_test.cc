@@ -1,6 +1,7 @@
 // One problem of panels with one identity and one cache, whoever asks for its database.
 #include "pipeline/hydrodynamics/panel_cache.h"
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include "dynamics/marine/hull/hull_shapes.h"
 #include "pipeline/build/build_mechanism.h"
+#include "pipeline/hydrodynamics/cache_folder.h"
 #include "pipeline/hydrodynamics/hydrodynamic_problem.h"
 #include "pipeline/hydrodynamics/radiation_cache.h"
 #include "tests/pipeline/formats/hydrodynamics/same_database.h"
@@ -21,9 +23,11 @@
 namespace blocklift::pipeline {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::shared_ptr<const dynamics::Hull> box_of(double length) {
   return std::make_shared<const dynamics::Hull>(
@@ -145,9 +149,10 @@ void expect_same(const HydrodynamicFile& one, const HydrodynamicFile& other) {
 }
 
 /// The file of a problem, and what is said meanwhile.
-HydrodynamicFile find(const HydrodynamicProblem& problem, std::vector<std::string>& said) {
+HydrodynamicFile find(const HydrodynamicProblem& problem, std::vector<std::string>& said,
+                      const std::filesystem::path& cache = cache_folder()) {
   said.clear();
-  return find_hydrodynamics(problem, {prepare_state(problem, 0)}, {},
+  return find_hydrodynamics(problem, {prepare_state(problem, 0)}, {}, cache,
                             [&](const std::string& what) { said.push_back(what); });
 }
 
@@ -186,14 +191,18 @@ TEST_F(PanelsOfFiles, WhatALiftHasComputedServesHydroAndTheReverse) {
   EXPECT_EQ(again.series->databases[0].added_mass, hulls.series.databases[0].added_mass);
 }
 
-TEST_F(PanelsOfFiles, NothingIsKeptWhereTheCacheIsForbidden) {
-  forbid_cache();
+// Nothing is taken, either: what lies in the cache is computed anew.
+TEST_F(PanelsOfFiles, NothingIsKeptWithoutACache) {
   std::vector<std::string> said;
   for (int run = 0; run < 2; ++run) {
-    find(of_hydro(), said);
+    find(of_hydro(), said, no_cache());
     EXPECT_THAT(said, IsEmpty());
+    const auto listen = [&](const std::string& what) { said.push_back(what); };
+    find_radiation(of_mechanism(), listen, {}, no_cache());
+    EXPECT_THAT(said, Not(Contains(HasSubstr("cache"))));
+    EXPECT_EQ(cache_.entries().size(), run == 0 ? 0U : 2U);
+    if (run == 0) find_radiation(of_mechanism(), {});
   }
-  EXPECT_THAT(cache_.entries(), IsEmpty());
 }
 
 }  // namespace
