@@ -37,6 +37,7 @@ std::optional<Quantity> read_quantity(const YAML::Node& node, const std::string&
     }
     return parse_quantity(written, dimensions);
   } catch (const UnreadParameter&) {
+    reading.pass_over_value();
     return std::nullopt;
   } catch (const ExpressionError& error) {
     reading.error(node, fmt::format("{} {}", reading.key(), error.what()), error.hints());

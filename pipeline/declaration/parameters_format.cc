@@ -13,6 +13,7 @@ std::optional<Measure> read_measure(const YAML::Node& node, const std::string& w
     return is_expression(written) ? evaluate_expression(written, reading.parameters())
                                   : parse_measure(written);
   } catch (const UnreadParameter&) {
+    reading.pass_over_value();
     return std::nullopt;
   } catch (const ExpressionError& error) {
     reading.error(node, fmt::format("{} {}", reading.key(), error.what()), error.hints());

@@ -116,8 +116,11 @@ bool Reading::with_key(const std::string& key, const std::function<bool()>& read
 
 bool Reading::with_owner(const std::string& owner, const std::function<bool()>& read) {
   const std::string outer = std::exchange(owner_, owner);
+  const std::size_t unsound_before =
+      std::exchange(unsound_before_owner_, unread_count_ + diagnostics_.error_count());
   const bool done = read();
   owner_ = outer;
+  unsound_before_owner_ = unsound_before;
   return done;
 }
 

@@ -63,6 +63,14 @@ class Reading {
   const std::string& key() const { return key_; }
   /// What the table being read describes: "rope R1".
   const std::string& owner() const { return owner_; }
+  /// Has something of that table, or of what stands in it, been complained of, or left out because
+  /// its parameter was? What a rule misses then may be what could not be read. Complaints about
+  /// other tables do not count.
+  bool is_owner_unsound() const {
+    return unread_count_ + diagnostics_.error_count() > unsound_before_owner_;
+  }
+  /// Tells that a value was not read without a complaint of its own: its parameter has one.
+  void pass_over_value() { ++unread_count_; }
 
   /// What expressions in this document may use.
   Parameters& parameters() { return parameters_; }
@@ -96,6 +104,8 @@ class Reading {
   std::string key_;
   std::string owner_ = "the file";
   std::string name_;
+  std::size_t unread_count_ = 0;
+  std::size_t unsound_before_owner_ = 0;  ///< values passed over and complaints
 };
 
 }  // namespace blocklift::pipeline

@@ -133,7 +133,7 @@ void check_stand(const CraneModel& crane, Reading& reading) {
                               stand.body.value, tie),
                   {"leave stands_on out"});
   }
-  if (stand.supports.empty() && reading.diagnostics().has_errors()) return;  // may be unread
+  if (stand.supports.empty() && reading.is_owner_unsound()) return;  // may be unread
   if (stand.supports.size() < 3 || are_in_line(stand.supports))
     reading.error(stand.place, "a crane stands on three supports or more that are not in line",
                   {fmt::format("{} {} given", stand.supports.size(),

@@ -173,20 +173,6 @@ void check_ground(const LiftCase& lift_case, Diagnostics& diagnostics) {
                         {"names that begin with ground_ are those of ground_contact"});
 }
 
-/// The keys of the natural modes, which one kind of flexibility alone reads.
-void check_flexibility(const DynamicsSettings& dynamics, Diagnostics& diagnostics) {
-  if (dynamics.flexibility == Flexibility::modal) return;
-  if (diagnostics.has_errors()) return;  // the kind may be what could not be read
-  const auto refuse = [&](const auto& key, const char* name) {
-    if (!key) return;
-    diagnostics.error(key->mark,
-                      fmt::format("{} is given, and the block has no natural modes", name),
-                      {"they are those of flexibility: modal"});
-  };
-  refuse(dynamics.elastic_modes, "elastic_modes");
-  refuse(dynamics.modal_damping, "modal_damping");
-}
-
 /// Limits of what the case does not have: they would hold nothing, and nobody would see it.
 void check_limits_hold_something(const LiftCase& lift_case, Diagnostics& diagnostics) {
   const CheckSettings& checks = lift_case.checks;
@@ -317,7 +303,6 @@ void check_lift_case(const LiftCase& lift_case, Diagnostics& diagnostics) {
   check_rigging(lift_case, diagnostics);
   check_afloat(lift_case, diagnostics);
   check_ground(lift_case, diagnostics);
-  check_flexibility(lift_case.dynamics, diagnostics);
   if (!lift_case.load_table) check_limits_hold_something(lift_case, diagnostics);
   check_comparison(lift_case, diagnostics);
   if (lift_case.load_table) check_load_table(lift_case, *lift_case.load_table, diagnostics);

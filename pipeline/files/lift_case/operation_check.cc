@@ -39,9 +39,8 @@ class FaultCheck {
  public:
   FaultCheck(const LiftCase& lift_case, const Schedule& schedule, Diagnostics& diagnostics)
       : diagnostics_(diagnostics),
-        any_unread_(diagnostics.has_errors()),
         // Of an operation with mistakes nobody knows how long it lasts.
-        duration_(any_unread_ ? 0 : schedule.duration) {
+        duration_(diagnostics.has_errors() ? 0 : schedule.duration) {
     for (const given::Rope& rope : lift_case.ropes) ropes_.push_back(rope.name.value);
     for (const given::Crane& crane : lift_case.cranes) {
       if (!crane.model) continue;
@@ -56,11 +55,6 @@ class FaultCheck {
   }
 
   void check(const given::Fault& fault) {
-    // A list that could not be read has been complained of.
-    if (!any_unread_ && fault.parts.empty() && fault.stops.empty() && fault.runs_away.empty())
-      diagnostics_.error(fault.place, "the fault says not what goes wrong",
-                         {"give parts, ropes that break, stops, drives that come to a stand, or "
-                          "runs_away, winches that pay out"});
     check_instant(fault);
     for (const Located<std::string>& rope : fault.parts)
       check_name(rope, ropes_, "parts", "its ropes and hoists are", parted_);
@@ -124,7 +118,6 @@ class FaultCheck {
   }
 
   Diagnostics& diagnostics_;
-  bool any_unread_;  ///< something of the case, maybe of a fault
   double duration_;
   std::vector<std::string> ropes_, drives_, winches_;
   std::set<std::string> parted_, stopped_;

@@ -115,6 +115,19 @@ Format<given::Stage> steered_stage_format(const Format<given::Keep>& keeps) {
   return stage_format_with(move_format(keeps, "the drive is steered by a law of your own"), false);
 }
 
+namespace {
+
+/// A list that could not be read has been complained of.
+void check_what_goes_wrong(const given::Fault& fault, Reading& reading, const Mark& mark) {
+  if (!fault.parts.empty() || !fault.stops.empty() || !fault.runs_away.empty()) return;
+  if (reading.is_owner_unsound()) return;
+  reading.error(mark, "the fault says not what goes wrong",
+                {"give parts, ropes that break, stops, drives that come to a stand, or "
+                 "runs_away, winches that pay out"});
+}
+
+}  // namespace
+
 Format<given::Fault> fault_format() {
   Table<given::Fault> table("fault",
                             "What goes wrong in motion; the equilibria at rest are those of the "
@@ -150,7 +163,8 @@ Format<given::Fault> fault_format() {
                   "0.5 s",
                   "in which drives come to a stand, evenly, and winches that run away to their "
                   "speed, and to a stand when they are caught")
-      .place(&given::Fault::place);
+      .place(&given::Fault::place)
+      .rule(check_what_goes_wrong);
   return table.format();
 }
 

@@ -2,6 +2,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "pipeline/declaration/table.h"
 #include "pipeline/files/lift_case/case_formats.h"
 #include "structure/practice/fatigue.h"
@@ -36,6 +38,19 @@ Format<FatigueSettings> fatigue_format() {
   return table.format();
 }
 
+/// The keys of the natural modes, which one kind of flexibility alone reads.
+void check_flexibility(const DynamicsSettings& dynamics, Reading& reading, const Mark&) {
+  if (dynamics.flexibility == Flexibility::modal) return;
+  if (reading.is_owner_unsound()) return;  // the kind may be what could not be read
+  const auto refuse = [&](const auto& key, const char* name) {
+    if (!key) return;
+    reading.error(key->mark, fmt::format("{} is given, and the block has no natural modes", name),
+                  {"they are those of flexibility: modal"});
+  };
+  refuse(dynamics.elastic_modes, "elastic_modes");
+  refuse(dynamics.modal_damping, "modal_damping");
+}
+
 }  // namespace
 
 Format<DynamicsSettings> dynamics_format() {
@@ -65,7 +80,8 @@ Format<DynamicsSettings> dynamics_format() {
                 "left out")
       .optional("modal_damping", &DynamicsSettings::modal_damping,
                 located(number(Range::between(0, 0.5))),
-                "damping of each of these modes over the critical one; 0.01 if left out");
+                "damping of each of these modes over the critical one; 0.01 if left out")
+      .rule(check_flexibility);
   return table.format();
 }
 

@@ -17,7 +17,7 @@ class MechanismCheck {
 
   void run() {
     check_parts(file_, reading_);
-    if (file_.bodies.empty() && !reading_.diagnostics().has_errors()) {
+    if (file_.bodies.empty() && !reading_.is_owner_unsound()) {
       reading_.error(file_.place, "the mechanism has no bodies");
     }
     for (const given::Rope& rope : file_.ropes) check_rope(rope);

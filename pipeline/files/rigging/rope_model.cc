@@ -69,7 +69,7 @@ void check_stretching(const RopeModel& rope, Reading& reading, const Mark& mark)
                   {"leave one of the two out"});
   } else if (rope.tension_curve) {
     check_curve(rope, reading);
-  } else if (!std::isfinite(rope.axial_stiffness) && !reading.diagnostics().has_errors()) {
+  } else if (!std::isfinite(rope.axial_stiffness) && !reading.is_owner_unsound()) {
     reading.error(mark, "the rope has neither axial_stiffness nor tension_curve",
                   {"give its stiffness, axial_stiffness: 100 MN, or its tension over the strain"});
   }

@@ -117,7 +117,7 @@ Format<PadeyePart> padeye_part_format() {
                   "(API RP 2A)");
   add_padeye_keys(table);
   table.rule([](const PadeyePart& padeye, Reading& reading, const Mark& mark) {
-    if (reading.diagnostics().has_errors()) return;
+    if (reading.is_owner_unsound()) return;
     for (const std::string& fault : structure::padeye_faults(padeye.geometry()))
       reading.error(mark, fault);
     for (const std::string& fault : doubler_faults(padeye, padeye.base[0] + padeye.base[1]))

@@ -15,6 +15,7 @@
 #include "pipeline/files/lift_case/input_hash.h"
 #include "pipeline/formats/json_values.h"
 #include "pipeline/lift/history_figures.h"
+#include "pipeline/results/doubts/blow_doubts.h"
 #include "pipeline/results/doubts/bounce_doubts.h"
 #include "pipeline/results/doubts/doubts.h"
 #include "pipeline/results/doubts/torsion_doubts.h"
@@ -214,7 +215,13 @@ class LoadTables {
     };
     std::optional<Peak> at_rest;
     if (lift_.is_swept()) at_rest = peak(static_maxima_);
-    return maxima_json(name, at_rest, peak(dynamic_maxima_), "tension_N");
+    Json row = maxima_json(name, at_rest, peak(dynamic_maxima_), "tension_N");
+    if (const std::optional<Blow> blow = find_blow_before_peak(lift_, rope))
+      row["after_blow"] = {{"slack_rope", lift_.model.system.ropes()[blow->rope].name()},
+                           {"slack_from_s", blow->slack_from},
+                           {"taut_again_s", blow->taut_again},
+                           {"within_s", reach_of_blow}};
+    return row;
   }
 
   Json linked(const std::vector<LinkedMaximum>& maxima, int rope) const {
@@ -478,6 +485,7 @@ void add_watched(const LiftRun& lift, const std::vector<LiftMeasure>& measures,
 void add_doubts(const LiftCase& lift_case, const LiftRun& lift, Json& summary) {
   for (std::string& doubt : list_doubts(lift_case, lift))
     summary["warnings"].push_back(std::move(doubt));
+  for (std::string& doubt : list_blow_doubts(lift)) summary["warnings"].push_back(std::move(doubt));
 }
 
 void add_motion(const LiftCase& lift_case, const LiftRun& lift, const WantedParts& wanted,

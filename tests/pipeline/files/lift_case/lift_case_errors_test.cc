@@ -413,6 +413,43 @@ TEST(LiftCaseErrors, BendsThatCannotBe) {
             "    a rope is not bent round less than its own diameter\n1 error\n");
 }
 
+// A mistake in one table hushes what another lacks no more; what a table lacks because it could not
+// be read is not said once more.
+TEST(LiftCaseErrors, OneMistakeDoesNotHushAnother) {
+  const std::string other = "settle: 10 m\n";
+  const std::string faults =
+      complaints_about_case("settle: 10 s\n", other + "faults: [{at: 5 s}]\n");
+  EXPECT_THAT(faults, HasSubstr("the fault says not what goes wrong"));
+  EXPECT_THAT(faults, ::testing::EndsWith("2 errors\n"));
+  EXPECT_THAT(
+      complaints_about_case("settle: 10 s\n", "settle: 10 s\nfaults: [{at: 5 s, parts: {}}]\n"),
+      ::testing::EndsWith("\n1 error\n"));
+
+  const std::string modes =
+      complaints_about_case("settle: 10 s\n", other + "dynamics: {elastic_modes: 5}\n");
+  EXPECT_THAT(modes, HasSubstr("the block has no natural modes"));
+  EXPECT_THAT(modes, ::testing::EndsWith("2 errors\n"));
+  EXPECT_THAT(
+      complaints_about_case("settle: 10 s\n",
+                            "settle: 10 s\ndynamics: {flexibility: mdal, elastic_modes: 5}\n"),
+      ::testing::EndsWith("\n1 error\n"));
+
+  SampleLift lift;
+  lift.lift_case = with(lift.lift_case, "settle: 10 s\n", other);
+  lift.rope = with(lift.rope, "axial_stiffness: 200 MN\n", "");
+  EXPECT_THAT(complaints_about(lift), HasSubstr("neither axial_stiffness nor tension_curve"));
+}
+
+// A value whose parameter has been complained of is not missed.
+TEST(LiftCaseErrors, ParameterThatCannotBeReadIsToldOnce) {
+  SampleLift lift;
+  lift.crane = with(lift.crane, "bodies:\n", "parameters: {stiffness: 200 MNN}\nbodies:\n");
+  lift.crane = with(lift.crane, "axial_stiffness: 200 MN", "axial_stiffness: = stiffness");
+  const std::string complaints = complaints_about(lift);
+  EXPECT_THAT(complaints, HasSubstr("200 MNN"));
+  EXPECT_THAT(complaints, ::testing::EndsWith("1 error\n"));
+}
+
 TEST(LiftCaseErrors, FaultsThatCannotBe) {
   const auto complaints = [](const std::string& faults) {
     return complaints_about_case("settle: 10 s\n", "settle: 10 s\nfaults:\n  - " + faults + "\n");
