@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,8 @@
 #include "structure/error.h"
 #include "structure/large_pages.h"
 #include "structure/system/linear_solver.h"
+#include "structure/system/supernodal_factorisation.h"
+#include "structure/system/supernodal_solution.h"
 
 namespace blocklift::structure {
 
@@ -48,10 +49,15 @@ struct CholeskyFactor::Implementation
     cholmod().print = 0;
   }
 
+  /// Values of the factor, which are yet to be written; null where the memory did not suffice.
+  double* make_values() {
+    if (factor().xtype == CHOLMOD_PATTERN)
+      cholmod_l_change_factor(CHOLMOD_REAL, 1, 1, 1, 1, m_cholmodFactor, &cholmod());
+    return static_cast<double*>(factor().x);
+  }
   const cholmod_factor& factor() const { return *m_cholmodFactor; }
   /// Eigen does not ask whether CHOLMOD found the memory for its analysis.
   bool is_analysed() const { return m_cholmodFactor != nullptr; }
-  bool is_short_of_memory() { return cholmod().status == CHOLMOD_OUT_OF_MEMORY; }
 
   const long* first_columns() const { return static_cast<const long*>(factor().super); }
   const long* row_starts() const { return static_cast<const long*>(factor().pi); }
@@ -69,22 +75,7 @@ struct CholeskyFactor::Implementation
     return result;
   }
 
-  // CHOLMOD's workspace serves one thread at a time.
-  Eigen::MatrixXd solve_with(int system, Eigen::MatrixXd loads) {
-    const std::lock_guard lock(solving_);
-    cholmod_dense view = Eigen::viewAsCholmod(loads);
-    cholmod_dense* found = cholmod_l_solve(system, m_cholmodFactor, &view, &cholmod());
-    if (!found)
-      throw NotEnoughMemory(
-          fmt::format("the memory did not suffice to solve for {} loads", loads.cols()));
-    Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(found->x),
-                                                               loads.rows(), loads.cols());
-    cholmod_l_free_dense(&found, &cholmod());
-    return result;
-  }
-
- private:
-  std::mutex solving_;
+  SupernodalPattern pattern;
 };
 
 CholeskyFactor::CholeskyFactor(const SparseLower& matrix) : implementation_(new Implementation) {
@@ -94,6 +85,8 @@ CholeskyFactor::CholeskyFactor(const SparseLower& matrix) : implementation_(new 
         fmt::format("the memory did not suffice to analyse the stiffness matrix of {} unknowns for "
                     "its factorisation",
                     matrix.rows()));
+  implementation_->pattern = {supernodes(), implementation_->row_starts(),
+                              implementation_->value_starts(), implementation_->rows()};
 }
 
 CholeskyFactor::~CholeskyFactor() = default;
@@ -120,18 +113,19 @@ std::vector<Supernode> CholeskyFactor::supernodes() const {
   return all;
 }
 
-void CholeskyFactor::factorise(const SparseLower& matrix, const Eigen::VectorXd& held) {
+void CholeskyFactor::factorise(const SparseLower& matrix, const Eigen::VectorXd& held,
+                               int threads) {
   Implementation& factor = *implementation_;
-  factor.factorize(matrix);
-  if (factor.is_short_of_memory())
+  double* const values = factor.make_values();
+  if (values == nullptr)
     throw NotEnoughMemory(fmt::format(
         "the memory did not suffice to factorise the stiffness matrix of {} unknowns; use larger "
         "elements or a lower element degree",
         matrix.rows()));
   const char* const loose =
       "the stiffness matrix is not positive definite: the supports leave a part free to move";
-  if (factor.info() != Eigen::Success)
-    throw LooseUnknown(loose, static_cast<int>(factor.factor().minor));
+  const long failed = factorise_supernodes(factor.pattern, matrix, values, threads);
+  if (failed < matrix.cols()) throw LooseUnknown(loose, static_cast<int>(failed));
   // What is left of an unknown's stiffness where nothing resists it: rounding, some tens of the
   // unit of it. Slender blocks leave 1e-9 and more.
   constexpr double rounding = 1e-14;
@@ -141,15 +135,17 @@ void CholeskyFactor::factorise(const SparseLower& matrix, const Eigen::VectorXd&
 }
 
 Eigen::MatrixXd CholeskyFactor::solve(Eigen::MatrixXd loads) const {
-  return implementation_->solve_with(CHOLMOD_A, std::move(loads));
+  return solve_upper(solve_lower(std::move(loads)));
 }
 
 Eigen::MatrixXd CholeskyFactor::solve_lower(Eigen::MatrixXd loads) const {
-  return implementation_->solve_with(CHOLMOD_L, std::move(loads));
+  structure::solve_lower(implementation_->pattern, implementation_->values(), loads);
+  return loads;
 }
 
 Eigen::MatrixXd CholeskyFactor::solve_upper(Eigen::MatrixXd reduced) const {
-  return implementation_->solve_with(CHOLMOD_Lt, std::move(reduced));
+  structure::solve_upper(implementation_->pattern, implementation_->values(), reduced);
+  return reduced;
 }
 
 Eigen::MatrixXd CholeskyFactor::corner(long first) const {

@@ -17,9 +17,9 @@ struct Supernode {
   int parent = -1;   ///< supernode of the next row below; -1: there is none
 };
 
-/// K = L L' of a symmetric, positive definite sparse matrix by CHOLMOD's supernodal Cholesky
-/// factorisation, in the order of the unknowns. Several threads may ask for solutions: one at a
-/// time gets them.
+/// K = L L' of a symmetric, positive definite sparse matrix by supernodal Cholesky factorisation, in
+/// the order of the unknowns; CHOLMOD finds the pattern of L. Neither L nor solutions depend on the
+/// number of threads.
 class CholeskyFactor {
  public:
   /// Finds the pattern of L. @throws NotEnoughMemory
@@ -35,10 +35,11 @@ class CholeskyFactor {
   /// @param matrix of the pattern that was analysed.
   /// @param held stiffness of each unknown with all others held, which tells what of its pivot is
   ///   rounding.
+  /// @param threads 0: as many as are usable.
   /// @throws NotEnoughMemory; LooseUnknown if the matrix is not positive definite but for rounding.
-  void factorise(const SparseLower& matrix, const Eigen::VectorXd& held);
+  void factorise(const SparseLower& matrix, const Eigen::VectorXd& held, int threads = 0);
 
-  /// x of K x = f, a column a load vector. @throws NotEnoughMemory
+  /// x of K x = f, a column a load vector.
   Eigen::MatrixXd solve(Eigen::MatrixXd loads) const;
   /// y of L y = f.
   Eigen::MatrixXd solve_lower(Eigen::MatrixXd loads) const;

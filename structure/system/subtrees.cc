@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -11,14 +12,6 @@
 namespace blocklift::structure {
 
 namespace {
-
-/// Multiplications and additions that a factorisation spends on a supernode's columns.
-double work_of(const Supernode& supernode) {
-  double work = 0;
-  for (long k = 0; k < supernode.columns; ++k)
-    work += std::pow(static_cast<double>(supernode.rows - k), 2);
-  return work;
-}
 
 /// The supernodes as a forest, with the work of each subtree.
 struct Forest {
@@ -32,7 +25,7 @@ Forest make_forest(const std::vector<Supernode>& supernodes) {
   forest.of_subtree.assign(supernodes.size(), 0);
   forest.children.resize(supernodes.size());
   for (std::size_t s = 0; s < supernodes.size(); ++s) {
-    forest.own.push_back(work_of(supernodes[s]));
+    forest.own.push_back(elimination_work(supernodes[s]));
     forest.of_subtree[s] += forest.own[s];
     const int parent = supernodes[s].parent, number = static_cast<int>(s);
     if (parent < 0) {
@@ -45,6 +38,13 @@ Forest make_forest(const std::vector<Supernode>& supernodes) {
   return forest;
 }
 
+/// The heaviest subtree first.
+void sort_by_work(const Forest& forest, std::vector<int>& roots) {
+  std::sort(roots.begin(), roots.end(), [&](int a, int b) {
+    return std::make_pair(-forest.of_subtree[a], a) < std::make_pair(-forest.of_subtree[b], b);
+  });
+}
+
 /// Subtrees dealt out, the heaviest first, each to the process that has least.
 struct Deal {
   std::vector<int> roots, processes;
@@ -52,9 +52,7 @@ struct Deal {
 };
 
 Deal deal_out(const Forest& forest, std::vector<int> roots, int processes) {
-  std::sort(roots.begin(), roots.end(), [&](int a, int b) {
-    return std::make_pair(-forest.of_subtree[a], a) < std::make_pair(-forest.of_subtree[b], b);
-  });
+  sort_by_work(forest, roots);
   using Load = std::pair<double, int>;
   std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
   for (int process = 0; process < processes; ++process) loads.emplace(0.0, process);
@@ -96,7 +94,20 @@ Deal best_deal(const Forest& forest, const std::vector<Supernode>& supernodes, i
   return best;
 }
 
+/// Gives supernodes of which nothing is said what is said of their parents, which come after them.
+void hand_down(const std::vector<Supernode>& supernodes, std::vector<int>& said) {
+  for (std::size_t s = supernodes.size(); s-- > 0;)
+    if (said[s] < 0 && supernodes[s].parent >= 0) said[s] = said[supernodes[s].parent];
+}
+
 }  // namespace
+
+double elimination_work(const Supernode& supernode) {
+  double work = 0;
+  for (long k = 0; k < supernode.columns; ++k)
+    work += std::pow(static_cast<double>(supernode.rows - k), 2);
+  return work;
+}
 
 std::vector<int> deal_out_subtrees(const std::vector<Supernode>& supernodes, int processes) {
   const Forest forest = make_forest(supernodes);
@@ -104,14 +115,27 @@ std::vector<int> deal_out_subtrees(const std::vector<Supernode>& supernodes, int
   std::vector<int> of_supernode(supernodes.size(), -1);
   for (std::size_t i = 0; i < deal.roots.size(); ++i)
     of_supernode[deal.roots[i]] = deal.processes[i];
-  // Parents come after their children.
-  for (std::size_t s = supernodes.size(); s-- > 0;)
-    if (of_supernode[s] < 0 && supernodes[s].parent >= 0)
-      of_supernode[s] = of_supernode[supernodes[s].parent];
+  hand_down(supernodes, of_supernode);
   std::vector<int> of_column;
   for (std::size_t s = 0; s < supernodes.size(); ++s)
     of_column.insert(of_column.end(), at(supernodes[s].columns), of_supernode[s]);
   return of_column;
+}
+
+std::vector<int> independent_subtrees(const std::vector<Supernode>& supernodes, double share) {
+  const Forest forest = make_forest(supernodes);
+  const double most = share * std::accumulate(forest.own.begin(), forest.own.end(), 0.0);
+  std::vector<int> roots;
+  for (std::size_t s = 0; s < supernodes.size(); ++s) {
+    const int parent = supernodes[s].parent;
+    if (forest.of_subtree[s] <= most && (parent < 0 || forest.of_subtree[parent] > most))
+      roots.push_back(static_cast<int>(s));
+  }
+  sort_by_work(forest, roots);
+  std::vector<int> subtree_of(supernodes.size(), -1);
+  for (std::size_t i = 0; i < roots.size(); ++i) subtree_of[roots[i]] = static_cast<int>(i);
+  hand_down(supernodes, subtree_of);
+  return subtree_of;
 }
 
 }  // namespace blocklift::structure

@@ -17,4 +17,14 @@ namespace blocklift::structure {
 /// @returns the process of each column; -1 where it is in the interface.
 std::vector<int> deal_out_subtrees(const std::vector<Supernode>& supernodes, int processes);
 
+/// Multiplications and additions that a factorisation spends on a supernode's columns.
+double elimination_work(const Supernode& supernode);
+
+/// The largest subtrees of the elimination tree none of which has more than a share of all work;
+/// they do not depend on each other.
+/// @param supernodes of all columns, as they follow each other.
+/// @returns the subtree of each supernode, the one with the most work being 0; -1 where it is above
+///   them.
+std::vector<int> independent_subtrees(const std::vector<Supernode>& supernodes, double share);
+
 }  // namespace blocklift::structure
