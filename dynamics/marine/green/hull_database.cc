@@ -284,13 +284,18 @@ void HullComputation::check_memory(const FoundPoles& found) {
   }
   account_.memory_error = calc_memory_error(database_, frequencies, forces);
   if (account_.memory_error <= allowed_error) return;
-  std::array<char, 320> text{};
+  std::array<char, 640> text{};
   std::snprintf(text.data(), text.size(),
-                "%zu frequencies do not tell the memory of the water: its retardation functions "
-                "miss the waves' forces by %.1f %% of the largest, and %.0f %% is allowed; take "
-                "smaller panels or a higher highest frequency, or a lid where water swings between "
-                "hulls or in a moonpool",
-                found.frequencies.size(), 100.0 * account_.memory_error, 100.0 * allowed_error);
+                "%zu frequencies up to %.3g rad/s do not tell the memory of the water: its "
+                "retardation functions miss the waves' forces by %.1f %% of the largest, and %.0f "
+                "%% is allowed. Mostly damping has not faded at the highest frequency: take a "
+                "higher highest_frequency, with panels that are small beside its waves, which are "
+                "%.1f m long at %.3g rad/s. Where water swings between hulls or in a moonpool, a "
+                "lid damps it. Or leave out method: green function, for the marched surface has "
+                "its memory from impulses",
+                found.frequencies.size(), highest_, 100.0 * account_.memory_error,
+                100.0 * allowed_error,
+                2.0 * std::numbers::pi / calc_wave_number(highest_, database_.water), highest_);
   throw ModelError(text.data());
 }
 

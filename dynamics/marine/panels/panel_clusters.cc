@@ -238,20 +238,37 @@ Eigen::MatrixXcd PanelClusters::spread(const Eigen::MatrixXcd& values) const {
   return values(of_panel, Eigen::all);
 }
 
+namespace {
+
+template <class Matrix>
+Matrix coarsen_matrix(const Matrix& matrix, const PanelClusters& rows,
+                      const Eigen::VectorXd& row_areas, const PanelClusters& columns) {
+  using Real = typename Matrix::Scalar;
+  if (matrix.size() == 0) return {};
+  const Eigen::VectorXd whole = rows.sum(row_areas);
+  const Eigen::VectorXd shares = row_areas.cwiseQuotient(whole(rows.of_panel));
+  const auto share = shares.cast<Real>().eval();
+  Matrix result = Matrix::Zero(rows.count, columns.count);
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    Real* const to = result.col(columns.of_panel[column]).data();
+    const Real* const from = matrix.col(column).data();
+    for (Eigen::Index k = 0; k < matrix.rows(); ++k) to[rows.of_panel[k]] += share[k] * from[k];
+  }
+  return result;
+}
+
+}  // namespace
+
 Eigen::MatrixXd PanelClusters::coarsen(const Eigen::MatrixXd& matrix, const PanelClusters& rows,
                                        const Eigen::VectorXd& row_areas,
                                        const PanelClusters& columns) {
-  if (matrix.size() == 0) return {};
-  const Eigen::VectorXd whole = rows.sum(row_areas);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows.count, columns.count);
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
-    const int to = columns.of_panel[column];
-    for (Eigen::Index k = 0; k < matrix.rows(); ++k) {
-      const int cluster = rows.of_panel[k];
-      result(cluster, to) += row_areas[k] / whole[cluster] * matrix(k, column);
-    }
-  }
-  return result;
+  return coarsen_matrix(matrix, rows, row_areas, columns);
+}
+
+Eigen::MatrixXf PanelClusters::coarsen(const Eigen::MatrixXf& matrix, const PanelClusters& rows,
+                                       const Eigen::VectorXd& row_areas,
+                                       const PanelClusters& columns) {
+  return coarsen_matrix(matrix, rows, row_areas, columns);
 }
 
 PanelClusters cluster_panels(const PanelMesh& mesh, double largest, LeftOver left_over) {

@@ -49,6 +49,8 @@ struct PanelClusters {
   /// hold in the mean over each.
   static Eigen::MatrixXd coarsen(const Eigen::MatrixXd& matrix, const PanelClusters& rows,
                                  const Eigen::VectorXd& row_areas, const PanelClusters& columns);
+  static Eigen::MatrixXf coarsen(const Eigen::MatrixXf& matrix, const PanelClusters& rows,
+                                 const Eigen::VectorXd& row_areas, const PanelClusters& columns);
 };
 
 /// What becomes of a panel whose neighbours all have a partner.

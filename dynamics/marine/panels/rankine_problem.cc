@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "dynamics/algebra/single_precision.h"
 #include "dynamics/errors.h"
@@ -54,33 +55,47 @@ PointColumns image_of(PointColumns points, const Symmetry& symmetry, int image, 
   return points;
 }
 
+/// Adds a panel's potentials at all image points. What is null is not due.
+void add_column(const PanelMesh& panels, int j, const std::vector<ImagePoints>& images,
+                double* source, double* dipole) {
+  const Panel& panel = panels.panels[j];
+  for (const ImagePoints& image : images) {
+    const bool with_source = source != nullptr && image.source_sign != 0.0;
+    const bool with_dipole = dipole != nullptr && image.dipole_sign != 0.0 && !image.coplanar;
+    if (with_source && with_dipole) {
+      add_panel_potentials(panel, image.points, PanelIntegral::both, image.source_sign, source,
+                           dipole);
+    } else if (with_source) {
+      add_panel_potentials(panel, image.points,
+                           image.coplanar ? PanelIntegral::coplanar_source : PanelIntegral::source,
+                           image.source_sign, source, nullptr);
+    } else if (with_dipole) {
+      add_panel_potentials(panel, image.points, PanelIntegral::dipole, image.dipole_sign, nullptr,
+                           dipole);
+    }
+    if (image.own != nullptr && with_dipole && (*image.own)[j] >= 0) dipole[(*image.own)[j]] = 0.0;
+  }
+}
+
 /// Adds the panels' potentials at all image points: a column of the matrices for each panel. An
 /// empty matrix is not due.
 void add_influence(const PanelMesh& panels, const std::vector<ImagePoints>& images, int threads,
                    MatrixXd& source, MatrixXd& dipole) {
   parallel::for_each(panels.size(), threads, [&](int j) {
-    double* const source_column = source.size() > 0 ? source.col(j).data() : nullptr;
-    double* const dipole_column = dipole.size() > 0 ? dipole.col(j).data() : nullptr;
-    const Panel& panel = panels.panels[j];
-    for (const ImagePoints& image : images) {
-      const bool with_source = source_column != nullptr && image.source_sign != 0.0;
-      const bool with_dipole =
-          dipole_column != nullptr && image.dipole_sign != 0.0 && !image.coplanar;
-      if (with_source && with_dipole) {
-        add_panel_potentials(panel, image.points, PanelIntegral::both, image.source_sign,
-                             source_column, dipole_column);
-      } else if (with_source) {
-        add_panel_potentials(
-            panel, image.points,
-            image.coplanar ? PanelIntegral::coplanar_source : PanelIntegral::source,
-            image.source_sign, source_column, nullptr);
-      } else if (with_dipole) {
-        add_panel_potentials(panel, image.points, PanelIntegral::dipole, image.dipole_sign, nullptr,
-                             dipole_column);
-      }
-      if (image.own != nullptr && with_dipole && (*image.own)[j] >= 0)
-        dipole_column[(*image.own)[j]] = 0.0;
-    }
+    add_column(panels, j, images, source.size() > 0 ? source.col(j).data() : nullptr,
+               dipole.size() > 0 ? dipole.col(j).data() : nullptr);
+  });
+}
+
+/// The same with the sources' columns in single precision, which they are taken in afterwards: in
+/// double precision the matrix of a surface would be the largest of all.
+void find_influence(const PanelMesh& panels, const std::vector<ImagePoints>& images, int threads,
+                    MatrixXf& source, MatrixXd& dipole) {
+  parallel::for_each(panels.size(), threads, [&](int j) {
+    VectorXd column = VectorXd::Zero(source.rows());
+    add_column(panels, j, images, column.data(),
+               dipole.size() > 0 ? dipole.col(j).data() : nullptr);
+    source.col(j) = column.cast<float>();
   });
 }
 
@@ -127,7 +142,8 @@ struct RankinePart::Influence {
   MatrixXd S_BB, D_BB;  ///< bodies on bodies, with the images in z = 0
   MatrixXd S_BF, D_BF;  ///< of the surface on bodies; S_BF is empty in deep water
   MatrixXd S_FB, D_FB;  ///< bodies on surface
-  MatrixXd S_FF, D_FF;  ///< surface on surface; D_FF is empty in deep water
+  MatrixXf S_FF;        ///< surface on surface
+  MatrixXd D_FF;        ///< empty in deep water
 };
 
 struct RankinePart::Factors {
@@ -201,10 +217,10 @@ RankinePart::Influence RankinePart::compute_influence(const PanelModel& model, i
   Influence influence;
   add_at_bodies(model, PointColumns(bodies), count_up(bodies.size()), threads, influence);
   influence.S_FB = influence.D_FB = MatrixXd::Zero(nf, nb);
-  influence.S_FF = MatrixXd::Zero(nf, nf);
+  influence.S_FF.resize(nf, nf);
   if (!deep) influence.D_FF = MatrixXd::Zero(nf, nf);
   add_influence(bodies, of_bodies, threads, influence.S_FB, influence.D_FB);
-  add_influence(surface, of_surface, threads, influence.S_FF, influence.D_FF);
+  find_influence(surface, of_surface, threads, influence.S_FF, influence.D_FF);
   return influence;
 }
 
@@ -232,8 +248,8 @@ RankinePart::RankinePart(const PanelModel& model, const Parity& parity,
 void RankinePart::solve_coarser(const PanelModel& model, const Influence& influence,
                                 const Areas& areas, const RankineSettings& settings) {
   const PanelClusters &b = settings.coarser->bodies, &f = settings.coarser->surface;
-  const auto coarsen = [](const MatrixXd& matrix, const PanelClusters& rows,
-                          const VectorXd& row_areas, const PanelClusters& columns) {
+  const auto coarsen = [](const auto& matrix, const PanelClusters& rows, const VectorXd& row_areas,
+                          const PanelClusters& columns) {
     return PanelClusters::coarsen(matrix, rows, row_areas, columns);
   };
   Influence coarse{
@@ -293,13 +309,13 @@ void RankinePart::reduce(Influence influence, const Areas& areas, bool keep_fact
   MatrixXd& U = influence.S_BF;
   if (!deep) {
     factors->body.solve_in_place(U);
-    multiply(1.0, influence.D_FB, U, 1.0, influence.S_FF);
+    multiply(1.0F, influence.D_FB.cast<float>(), U.cast<float>(), 1.0F, influence.S_FF);
   }
 
   // The surface: (S_FF + D_FB U) w = (2 pi - D_FF - D_FB P) phi_F + (S_FB n - D_FB Phi) v. In
   // single precision, which the march takes the operator in: it costs most of all, and added mass,
   // damping and excitation change by a few millionths.
-  factors->surface = SingleLuFactorisation(take_single(influence.S_FF),
+  factors->surface = SingleLuFactorisation(std::move(influence.S_FF),
                                            "the matrix of the free surface's panels", bad_panels);
   timing_.factorisation_s = seconds_since(start);
   start = std::chrono::steady_clock::now();
@@ -363,10 +379,10 @@ void RankinePart::solve(const MatrixXd& normal_velocities, MatrixXd& body_potent
 
 double rankine_part_bytes(int body_panels, int surface_panels, bool finite_depth) {
   const double nb = body_panels, nf = surface_panels;
-  // On the surface the sources' influence and, in single precision, its factors, later these and
-  // the reduced operator; D_FB, S_FB, P and its scaled copy; two matrices of the bodies. In finite
-  // depth S_BF and the dipoles' influence besides.
-  const double numbers = (finite_depth ? 2.5 : 1.5) * nf * nf + 4.0 * nb * nf + 2.0 * nb * nb +
+  // On the surface, in single precision, the sources' influence, in whose place its factors come,
+  // and the reduced operator; D_FB, S_FB, P and its scaled copy; two matrices of the bodies. In
+  // finite depth S_BF and the dipoles' influence besides.
+  const double numbers = (finite_depth ? 2.5 : 1.0) * nf * nf + 4.0 * nb * nf + 2.0 * nb * nb +
                          (finite_depth ? nb * nf : 0.0);
   return numbers * sizeof(double);
 }

@@ -159,11 +159,13 @@ void FreeSurfaceMarch::advance(const Eigen::MatrixXd& supply) {
   apply(single_potential_, single_velocity_, workspace_);
   if (damping_.rings.rows() > 0) differences_.noalias() = damping_.rings * elevation_;
   for (Eigen::Index j = 0; j < elevation_.cols(); ++j) {
-    for (Eigen::Index i = 0; i < elevation_.rows(); ++i) {
-      const double added = supply.size() > 0 ? supply(i, j) : 0.0;
-      elevation_(i, j) =
-          after_[i] * (before_[i] * elevation_(i, j) +
-                       step_ * (static_cast<double>(single_velocity_(i, j)) + added));
+    auto elevation = elevation_.col(j).array();
+    const auto velocity = single_velocity_.col(j).cast<double>().array();
+    if (supply.size() > 0) {
+      elevation = after_.array() *
+                  (before_.array() * elevation + step_ * (velocity + supply.col(j).array()));
+    } else {
+      elevation = after_.array() * (before_.array() * elevation + step_ * velocity);
     }
   }
   if (damping_.rings.rows() == 0) return;

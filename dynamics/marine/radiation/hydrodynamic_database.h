@@ -70,7 +70,7 @@ struct HydrodynamicDatabase {
 /// Changes whenever compute_database, or the meshing of the water's surface, gives other figures
 /// for the same bodies, or tells more of them: what was computed before is then not to be taken for
 /// what would be now.
-inline constexpr int panel_method_version = 15;
+inline constexpr int panel_method_version = 16;
 
 struct DatabaseSettings {
   std::vector<double> frequencies;  ///< rad/s, positive, ascending

@@ -19,6 +19,9 @@ using Eigen::VectorXd;
 
 constexpr double tapered_fraction = 0.4;
 constexpr Eigen::Index instants_together = 32;
+// Of a run beside another one: the share of the longest stable step, and radians of the highest
+// frequency, that its own longer step is at most.
+constexpr double share_of_stable_step = 0.8, most_radians_of_step = 0.5;
 
 /// Where the taper of a run of so many steps begins, if it is as long as was planned.
 double taper_begin(long steps) { return (1.0 - tapered_fraction) * static_cast<double>(steps); }
@@ -132,31 +135,48 @@ void ImpulseRun::keep_force() {
   forces_.push_back(symmetric_part(force));
 }
 
+double ImpulseRun::step_beside(double step) const {
+  return std::max(step, std::min(share_of_stable_step * step_limit(),
+                                 most_radians_of_step / frequencies_.back()));
+}
+
+void ImpulseRun::take_instant(long step, bool may_go_on) {
+  if (may_go_on && fade(step) < 1.0) keep_whole();
+  keep_force();
+  accumulate(step);
+}
+
 long ImpulseRun::run(double step, const RunLength& length, ImpulseRun* beside,
                      const std::function<void(long, long)>& progress) {
-  std::vector<ImpulseRun*> runs{this};
-  if (beside != nullptr) runs.push_back(beside);
-  for (ImpulseRun* run : runs) run->start(step, length.steps);
+  const double longer = beside != nullptr ? beside->step_beside(step) : step;
+  // How many of the longer steps so many steps hold.
+  const auto held = [&](long steps) {
+    return static_cast<long>(static_cast<double>(steps) * step / longer * (1.0 + 1e-12));
+  };
+  start(step, length.steps);
+  if (beside != nullptr) beside->start(longer, held(length.steps));
+  long next = 0;  // instant of the run beside
   for (long k = 0;; ++k) {
     const bool may_go_on = steps_ < length.most * length.steps;
-    for (ImpulseRun* run : runs) {
-      if (may_go_on && run->fade(k) < 1.0) run->keep_whole();
-      run->keep_force();
-      run->accumulate(k);
-    }
+    const bool both = beside != nullptr && held(k) == next;
+    take_instant(k, may_go_on);
+    if (both) beside->take_instant(next++, may_go_on);
     if (progress) progress(k, steps_);
     if (k == steps_) {
       integrate_force(steps_);
       const VectorXd shares = largest_shares(cut_off_);
       if (!may_go_on || shares.size() == 0 || shares.maxCoeff() <= length.share) break;
-      for (ImpulseRun* run : runs) run->go_on(length.steps);
+      go_on(length.steps);
+      if (beside != nullptr) beside->go_on(held(steps_) - beside->steps_);
     }
     const parallel::OneBlasThread for_marches_side_by_side;
-    parallel::for_each(static_cast<int>(runs.size()), 0,
-                       [&](int run) { runs[static_cast<std::size_t>(run)]->march_.advance(); });
+    parallel::for_each(both ? 2 : 1, 0,
+                       [&](int run) { (run == 0 ? *this : *beside).march_.advance(); });
   }
-  for (ImpulseRun* run : runs) run->end();
-  if (beside != nullptr) beside->integrate_force(steps_);
+  end();
+  if (beside == nullptr) return steps_;
+  beside->end();
+  beside->integrate_force(beside->steps_);
   return steps_;
 }
 

@@ -39,8 +39,9 @@ class ImpulseRun {
 
   /// Marches. `progress`, if any, is called with each step's number and how many there will be as
   /// far as is known.
-  /// @param step s. @param beside another run that is marched side by side with this one by the
-  ///   same steps and is as long; null: none. @returns the number of steps.
+  /// @param step s. @param beside another run that is marched side by side with this one and is as
+  ///   long, to less than a step, by longer steps where these are stable and at most half a radian
+  ///   of the highest frequency; null: none. @returns the number of steps of this one.
   long run(double step, const RunLength& length, ImpulseRun* beside,
            const std::function<void(long step, long steps)>& progress = {});
 
@@ -62,7 +63,11 @@ class ImpulseRun {
   const Eigen::MatrixXd& cut_off() const { return cut_off_; }
 
  private:
+  /// The step of this run beside one that takes this step, s: no shorter.
+  double step_beside(double step) const;
   void start(double step, long steps);
+  /// Takes what the surface is at a step into force and integrals.
+  void take_instant(long step, bool may_go_on);
   /// Integrates the force over all steps, of which there are now so many, and estimates the cut.
   void integrate_force(long steps);
   /// Keeps the force at a step.

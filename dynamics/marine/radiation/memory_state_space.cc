@@ -10,6 +10,7 @@
 #include "dynamics/algebra/dense_algebra.h"
 #include "dynamics/errors.h"
 #include "dynamics/marine/radiation/block_hankel.h"
+#include "parallel/blas_threads.h"
 #include "parallel/threads.h"
 
 namespace blocklift::dynamics {
@@ -90,11 +91,14 @@ class Stepping {
 /// Largest difference between the samples and C exp(A t) B, stepping through the samples.
 double largest_error(const ScaledSamples& samples, const MatrixXd& A, const MatrixXd& B,
                      const MatrixXd& C) {
+  const parallel::OneBlasThread for_many_small_products;
   Stepping stepping(A, samples.step);
   double error = 0.0;
-  MatrixXd state = B;
+  MatrixXd state = B, difference;
   for (const MatrixXd& K : samples.K) {
-    error = std::max(error, (K - C * state).cwiseAbs().maxCoeff());
+    difference = K;
+    if (state.rows() > 0) multiply(-1.0, C, state, 1.0, difference);
+    error = std::max(error, difference.cwiseAbs().maxCoeff());
     stepping.advance(state);
   }
   return error;

@@ -157,8 +157,11 @@ TEST(HullDatabase, WhatCannotBeComputedIsRefused) {
   settings = round_settings();
   settings.duration = 0.5;
   EXPECT_THAT([&] { compute_hull_database(model, settings); },
-              ::testing::ThrowsMessage<ModelError>(
-                  ::testing::HasSubstr("retardation functions miss the waves' forces by")));
+              ::testing::ThrowsMessage<ModelError>(::testing::AllOf(
+                  ::testing::HasSubstr("retardation functions miss the waves' forces by"),
+                  ::testing::HasSubstr("10 % is allowed"),
+                  ::testing::HasSubstr("take a higher highest_frequency"),
+                  ::testing::HasSubstr("leave out method: green function"))));
 }
 
 }  // namespace

@@ -208,8 +208,8 @@ TEST(RankineProblem, RefusesWhatDoesNotFitIntoMemory) {
   settings.memory_limit = 1e5;
   EXPECT_THAT([&] { RankinePart(model, {}, settings); },
               ThrowsMessage<SimulationError>(HasSubstr("GB may be used")));
-  // One and a half square matrices of the surface are most of it.
-  EXPECT_NEAR(rankine_part_bytes(1000, 10000, false), 8.0 * (1.5e8 + 4e7 + 2e6), 1.0);
+  // Two square matrices of the surface in single precision are most of it.
+  EXPECT_NEAR(rankine_part_bytes(1000, 10000, false), 8.0 * (1e8 + 4e7 + 2e6), 1.0);
 }
 
 TEST(RankineProblem, MemoryCountsTheCoarserSolution) {

@@ -103,6 +103,33 @@ TEST(ImpulseRun, ForceIsThatOfTheElevationHoweverLongItLasts) {
   }
 }
 
+// A run beside another one takes longer steps where the other's are short. As the integrals know
+// the march's dispersion, the forces stay the same but for what the damping zone makes of the step
+// and for an end that lies up to a step earlier. With steps that are as long as they may be both
+// take the same, and agree to the last bit.
+TEST(ImpulseRun, BesideAnotherByLongerStepsTheForcesAreTheSame) {
+  const PanelModel model = make_boxes(false);
+  const RankinePart part(model, {1, 1});
+  const SurfaceDamping damping = DampingZone{1.1}.damping(model.surface(), open_water.gravity);
+  for (const bool longer : {true, false}) {
+    ImpulseRun run(part, damping, open_water, band, true);
+    ImpulseRun beside(part, damping, open_water, band, true);
+    const double step = (longer ? 0.47 : 0.81) * run.step_limit();
+    const auto steps = static_cast<long>(three_periods / step);
+    ASSERT_EQ(run.run(step, {.steps = steps, .most = 2, .share = 0.0}, &beside), 2 * steps);
+    const double allowed = longer ? 2e-3 : 0.0;
+    for (std::size_t k = 0; k < band.size(); ++k) {
+      const Eigen::MatrixXd changes[] = {run.damping(k) - beside.damping(k),
+                                         band[k] * (run.added_mass(k) - beside.added_mass(k))};
+      const double force = std::hypot(run.damping(k).norm(), band[k] * run.added_mass(k).norm());
+      EXPECT_LE(std::hypot(changes[0].norm(), changes[1].norm()), allowed * force) << band[k];
+      const Eigen::MatrixXcd elevation = run.elevation(k);
+      EXPECT_LE((elevation - beside.elevation(k)).norm(), 10.0 * allowed * elevation.norm())
+          << band[k];
+    }
+  }
+}
+
 TEST(ImpulseRun, EndsSoonWhereNothingSwings) {
   const HydrodynamicDatabase alone = compute_database(make_boxes(false), settings_for(0.0));
   EXPECT_NEAR(duration_of(alone), three_periods, alone.time_step);
