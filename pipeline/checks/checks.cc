@@ -30,7 +30,10 @@ Check make_check(std::string name, double demand, double limit, std::string unit
 }
 
 std::string text_of_utilisation(const Check& check) {
-  if (check.utilisation >= beyond_any_limit) return fmt::format("{}: beyond any limit", check.name);
+  if (check.utilisation >= beyond_any_limit)
+    return std::isfinite(check.demand) || check.note.empty()
+               ? fmt::format("{}: beyond any limit", check.name)
+               : fmt::format("{}: {}", check.name, check.note);
   return fmt::format("{}: utilisation {:.2f}", check.name, check.utilisation);
 }
 

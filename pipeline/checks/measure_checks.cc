@@ -202,8 +202,22 @@ class MeasureChecks {
                         peak.value, 1, "1");
       check.time = peak.time;
       check.note = "hook block included" + derating_of(measure.subject);
+      if (!std::isfinite(peak.value))
+        check.note = why_beyond_chart(measure.subject) + "; " + check.note;
       checks_.push_back(std::move(check));
     }
+  }
+
+  /// Why a chart allows nothing: the hook is further out than it goes, or wind or sea are beyond
+  /// the tables that derate it.
+  std::string why_beyond_chart(const std::string& hook) const {
+    const std::size_t dot = hook.find('.');
+    const CraneModel& crane = *case_.find_crane(hook.substr(0, dot))->model;
+    if (!(find_chart_factor(crane, case_).value > 0))
+      return "wind or sea are beyond the tables by which the chart is derated";
+    return fmt::format("beyond the chart: the hook is out to {:.2f} m, the chart ends at {:g} m",
+                       find_peak(lift_, *find(hook, "radius")).value,
+                       crane.find_hoist(hook.substr(dot + 1))->load_chart->value.back().radius);
   }
 
   /// How the charts of the crane that has a hook are derated; empty where they are not.

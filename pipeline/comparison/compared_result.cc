@@ -11,6 +11,7 @@
 #include "pipeline/declaration/diagnostics.h"
 #include "pipeline/declaration/document.h"
 #include "pipeline/declaration/quantity.h"
+#include "pipeline/files/named_file.h"
 #include "pipeline/formats/atomic_file.h"
 #include "pipeline/formats/results/results_folder.h"
 #include "pipeline/formats/results/results_layout.h"
@@ -114,8 +115,8 @@ bool is_same_part(const std::string& a, const std::string& b) {
              rounding * std::max(std::abs(one->value), std::abs(other->value));
 }
 
-/// What files beside a case that may be a model of it say; none of a model from elsewhere.
-std::vector<std::string> texts_beside(const fs::path& folder, const std::string& model) {
+/// What files in a folder that may be a model say.
+std::vector<std::string> texts_in(const fs::path& folder, const std::string& model) {
   std::vector<std::string> texts;
   for (const char* ending : {"", ".yaml", "/block.yaml", "/crane.yaml", "/rope.yaml",
                              "/standard.yaml", "/vessel.yaml"}) {
@@ -126,14 +127,25 @@ std::vector<std::string> texts_beside(const fs::path& folder, const std::string&
   return texts;
 }
 
-/// The first file of a case, itself or a model beside it, that says other than its result was
+/// What files say that a case may mean by a model's name: beside it, or else in the first folder of
+/// models that has any. None of a model that is gone.
+std::vector<std::string> texts_of_model(const fs::path& beside, const std::string& model) {
+  std::vector<std::string> texts = texts_in(beside, model);
+  for (const fs::path& folder : model_path()) {
+    if (!texts.empty()) break;
+    texts = texts_in(folder, model);
+  }
+  return texts;
+}
+
+/// The first file of a case, itself or a model that it names, that says other than its result was
 /// computed from; empty if there is none.
 std::string find_changed_file(const ComparedResult& result, const Document& document,
                               const fs::path& folder) {
   if (result.input.empty() || !say_the_same(result.input[0].yaml, document.text)) return "the case";
   for (const InputText& input : result.input) {
     if (input.name.empty()) continue;
-    const std::vector<std::string> texts = texts_beside(folder, input.name);
+    const std::vector<std::string> texts = texts_of_model(folder, input.name);
     const auto is_it = [&](const std::string& text) { return say_the_same(input.yaml, text); };
     if (!texts.empty() && std::ranges::none_of(texts, is_it))
       return "the case's model " + input.name;

@@ -181,7 +181,7 @@ bool check_name(const Mark& mark, const std::string& text, Reading& reading) {
   });
   if (allowed) return true;
   reading.error(mark, fmt::format("\"{}\" cannot be a name", text),
-                {"names have letters, digits, _ and - only"});
+                {"names have letters (a to z, A to Z), digits, _ and - only"});
   return false;
 }
 

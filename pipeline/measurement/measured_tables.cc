@@ -1,5 +1,6 @@
 #include "pipeline/measurement/measured_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,6 +27,12 @@ MeasuredTable clocks_table(const MeasuredLift& lift) {
   return table;
 }
 
+/// Zero for what rounding leaves of a difference between quantities of a size.
+double without_rounding(double difference, double size) {
+  constexpr double rounding = 1e-9;
+  return std::abs(difference) < rounding * size ? 0 : difference;
+}
+
 MeasuredTable differences_table(const MeasuredLift& lift) {
   MeasuredTable table{"Measured less computed",
                       {{"quantity"},
@@ -42,10 +49,13 @@ MeasuredTable differences_table(const MeasuredLift& lift) {
     if (!channel.agreement) continue;
     const Agreement& one = *channel.agreement;
     const auto [unit, factor] = shown_unit(channel.unit);
-    table.rows.push_back({channel.name, unit, factor * one.mean_difference,
-                          factor * one.rms_difference, factor * one.peak_difference,
-                          one.time_of_peak, one.correlation, one.scale.value_or(unknown),
-                          one.scale ? factor * one.zero : unknown});
+    const double size = std::max(std::abs(one.largest_measured), std::abs(one.largest_computed));
+    const auto shown = [&, factor = factor](double difference) {
+      return factor * without_rounding(difference, size);
+    };
+    table.rows.push_back({channel.name, unit, shown(one.mean_difference), shown(one.rms_difference),
+                          shown(one.peak_difference), one.time_of_peak, one.correlation,
+                          one.scale.value_or(unknown), one.scale ? shown(one.zero) : unknown});
   }
   return table;
 }

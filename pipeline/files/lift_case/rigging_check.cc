@@ -28,6 +28,18 @@ void check_sheaves(const given::Rope& rope, Diagnostics& diagnostics) {
   }
 }
 
+/// A rope that stays on one body pulls at nothing else, as an eye or a lug of the wrong name makes
+/// it: what it was to hold hangs without it.
+void check_bodies_of(const LiftCase& lift_case, const given::Rope& rope, Diagnostics& diagnostics) {
+  if (rope.path.empty()) return;
+  const std::string first = rope.path.front().body_name(lift_case.cranes);
+  for (const ResolvedPoint& point : rope.path)
+    if (point.body_name(lift_case.cranes) != first) return;
+  diagnostics.error(rope.to.mark,
+                    fmt::format("rope {} begins and ends at {}", rope.name.value, first),
+                    {"a rope leads from one body to another"});
+}
+
 /// Slings from one hook to both ends of a bar must reach around it.
 void check_reach(const LiftCase& lift_case, const given::Spreader& bar, Diagnostics& diagnostics) {
   for (const given::Rope& one : lift_case.ropes) {
@@ -373,6 +385,7 @@ void check_rigging(const LiftCase& lift_case, Diagnostics& diagnostics) {
   for (const given::Crane& crane : lift_case.cranes)
     if (crane.model && !lift_case.load_table) check_equalised(crane, diagnostics);
   check_ropes(lift_case, diagnostics);
+  for (const given::Rope& rope : lift_case.ropes) check_bodies_of(lift_case, rope, diagnostics);
   check_spreaders(lift_case, diagnostics);
   check_rope_weight(lift_case, diagnostics);
   check_friction(lift_case, diagnostics);

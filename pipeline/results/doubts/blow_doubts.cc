@@ -29,6 +29,12 @@ std::optional<double> slack_since(const std::vector<dynamics::ContactEvent>& eve
   return std::nullopt;
 }
 
+/// "25.6 kN", "203252 kN": never with a power of ten.
+std::string kilonewtons(double force) {
+  return force < 1e6 ? fmt::format("{:.4g} kN", force / 1e3)
+                     : fmt::format("{:.0f} kN", force / 1e3);
+}
+
 std::string name_of(const LiftRun& lift, int rope) {
   return lift.model.system.ropes()[static_cast<std::size_t>(rope)].name();
 }
@@ -71,11 +77,11 @@ std::vector<std::string> list_blow_doubts(const LiftRun& lift) {
     others += (others.empty() ? " So do those of " : ", ") + name_of(lift, largest[i].second);
   if (!others.empty()) others += ".";
   return {fmt::format(
-      "The largest load of {}, {:.4g} kN at {:.2f} s, follows a blow within {:g} s: {} was slack "
+      "The largest load of {}, {} at {:.2f} s, follows a blow within {:g} s: {} was slack "
       "from {:.2f} s to {:.2f} s.{} Such loads depend on the instant: a slightly different run has "
       "others, which may be larger. Judge them by a study over the phase of waves and gusts or the "
       "start of the drives, or keep the ropes taut.",
-      name_of(lift, rope), tension / 1e3, largest_tension(lift.dynamic_history(), rope).time,
+      name_of(lift, rope), kilonewtons(tension), largest_tension(lift.dynamic_history(), rope).time,
       reach_of_blow, name_of(lift, blow.rope), blow.slack_from, blow.taut_again, others)};
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -188,6 +190,36 @@ std::string unit_text(const StudyVariable& variable) { return unit_of(exponents_
 std::string value_text(const StudyVariable& variable, double value, int digits) {
   const std::string unit = unit_text(variable);
   return fmt::format("{:.{}g}{}{}", value, digits, unit.empty() ? "" : " ", unit);
+}
+
+std::string shown_value(const StudyVariable& variable, double value, int digits) {
+  struct Multiple {
+    const char* unit;
+    double least;  ///< sizes from which it is used, SI
+  };
+  // Larger ones first; of one kind they share their exponents.
+  static constexpr std::array<Multiple, 15> multiples = {{{"deg", 0},
+                                                          {"deg/s", 0},
+                                                          {"deg/s^2", 0},
+                                                          {"MN", 1e6},
+                                                          {"kN", 1e3},
+                                                          {"MN m", 1e6},
+                                                          {"kN m", 1e3},
+                                                          {"MN m/rad", 1e6},
+                                                          {"kN m/rad", 1e3},
+                                                          {"MN/m", 1e6},
+                                                          {"kN/m", 1e3},
+                                                          {"GPa", 1e10},
+                                                          {"MPa", 1e5},
+                                                          {"kPa", 1e3},
+                                                          {"t", 1e4}}};
+  const Exponents exponents = exponents_of(variable);
+  for (const Multiple& multiple : multiples) {
+    const std::optional<Measure> one = find_unit(multiple.unit);
+    if (!one || one->exponents != exponents || std::abs(value) < multiple.least) continue;
+    return fmt::format("{:.{}g} {}", value / one->value, digits, multiple.unit);
+  }
+  return value_text(variable, value, digits);
 }
 
 }  // namespace blocklift::pipeline

@@ -20,6 +20,9 @@ Eigen::MatrixXd make_design(const StudyFile& study);
 
 /// "9.98 m": a value of a variable as a key has it, in SI units.
 std::string value_text(const StudyVariable& variable, double value, int digits = 15);
+/// "273.5 MN", "18 deg": the same for people, angles in degrees, forces, moments, stiffnesses,
+/// stresses and masses in the multiple of their size.
+std::string shown_value(const StudyVariable& variable, double value, int digits);
 
 /// The dimension's unit of a variable's values, as UDUNITS reads it; empty for plain numbers.
 std::string unit_text(const StudyVariable& variable);

@@ -32,7 +32,7 @@ std::vector<KeyChange> changes_of(const StudyFile& study, const Eigen::VectorXd&
 
 /// "weight = 870 t".
 std::string describe(const StudyVariable& variable, double value) {
-  return fmt::format("{} = {}", variable.name.value, value_text(variable, value, 6));
+  return fmt::format("{} = {}", variable.name.value, shown_value(variable, value, 6));
 }
 
 /// "weight = 870 t, R1 = 9.98 m".

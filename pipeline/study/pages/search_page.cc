@@ -97,8 +97,8 @@ std::string search_text(const StudyResults& results) {
   TextTable values({{"value"}, {"best", 1}, {"", 0}});
   for (std::size_t v = 0; v < results.study.variables.size(); ++v)
     values.add_row({results.study.variables[v].name.value,
-                    value_text(results.study.variables[v],
-                               search.design(search.best, static_cast<Eigen::Index>(v)), 5),
+                    shown_value(results.study.variables[v],
+                                search.design(search.best, static_cast<Eigen::Index>(v)), 5),
                     edge_text(search.at_edge[v])});
   text += values.text();
   if (!search.bounds.empty()) {
@@ -129,7 +129,7 @@ std::string search_section(const StudyResults& results) {
   text += "<div class=\"scroll\"><table>\n" + row({"value", "best", "from", "to", ""}, "th");
   for (std::size_t v = 0; v < results.study.variables.size(); ++v) {
     const StudyVariable& variable = results.study.variables[v];
-    const auto shown = [&](double value) { return value_text(variable, value, 5); };
+    const auto shown = [&](double value) { return shown_value(variable, value, 5); };
     text +=
         row({variable.name.value, shown(search.design(search.best, static_cast<Eigen::Index>(v))),
              shown(variable.between[0].value.value), shown(variable.between[1].value.value),

@@ -189,7 +189,7 @@ std::string law_text(const StudyVariable& variable) {
                                        &std::pair<std::string, SpreadLaw::Kind>::second)
                          ->first;
   const auto add = [&](const char* name, const std::optional<Located<Measure>>& value) {
-    if (value) text += fmt::format(", {} {}", name, value_text(variable, value->value.value, 6));
+    if (value) text += fmt::format(", {} {}", name, shown_value(variable, value->value.value, 6));
   };
   add("mean", law.mean);
   add("deviation", law.deviation);
@@ -207,7 +207,7 @@ std::string values_text(const StudyVariable& variable) {
     text += (text.empty() ? ""
              : is_range   ? " to "
                           : "; ") +
-            value_text(variable, value.value.value, 6);
+            shown_value(variable, value.value.value, 6);
   return text;
 }
 
@@ -243,7 +243,7 @@ std::string what_is_joined(const StudyFile& study) {
   return text;
 }
 
-/// What the members differ in, in SI units as in study.csv.
+/// What the members differ in.
 std::string what_varies(const StudyFile& study) {
   std::string text = "<h2>What varies</h2>\n<div class=\"scroll\"><table class=\"words\">\n" +
                      cells({"value", "key", "takes"}, "th");
@@ -288,8 +288,8 @@ std::string tornado(const StudyResults& results, const Spread& spread) {
   for (const std::size_t v : order) {
     const StudyVariable& variable = results.study.variables[v];
     const Swing& swing = spread.swings.of[v];
-    text += cells({escape_html(variable.name.value), value_text(variable, swing.from, 4),
-                   value_text(variable, swing.to, 4),
+    text += cells({escape_html(variable.name.value), shown_value(variable, swing.from, 4),
+                   shown_value(variable, swing.to, 4),
                    bar(largest > 0 && std::isfinite(swing.value) ? swing.value / largest : 0),
                    swing_text(results, swing, scale),
                    fmt::format("{:+.2f}", spread.rank_correlation[static_cast<Eigen::Index>(v)])},

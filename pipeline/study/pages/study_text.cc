@@ -30,7 +30,7 @@ std::string swings_text(const StudyResults& results) {
       if (!std::isfinite(swing.value) || !spread.varies) break;
       const double shown = figure.scale * swing.value;
       table.add_row({is_first ? figure.name : "", is_first ? figure.unit : "", variable.name.value,
-                     value_text(variable, swing.from, 4), value_text(variable, swing.to, 4),
+                     shown_value(variable, swing.from, 4), shown_value(variable, swing.to, 4),
                      (shown > 0 ? "+" : "") + format_figure(shown, 3)});
       is_first = false;
     }

@@ -245,6 +245,20 @@ TEST_F(ComparedFolders, ACaseStandsForItsResults) {
               HasSubstr("the case was changed after its results in results/two-ropes"));
 }
 
+// A model of a folder of models is held against as well; one beside the case comes first.
+TEST_F(ComparedFolders, AModelOfTheLibraryThatWasChangedIsNamed) {
+  folder_.write("lift/case.yaml", "case: two-ropes\nsettle: 3 s\ngravity: 9.81 m/s^2\n");
+  std::filesystem::create_directory("results");
+  std::filesystem::copy("before", "results/two-ropes");
+  folder_.write("library/block/block.yaml", "kind: block\nmass: 9 t\n");
+  ASSERT_EQ(setenv("BLOCKLIFT_MODELS", "library", 1), 0);
+  EXPECT_THAT(refusal_of({"lift", "after"}),
+              HasSubstr("the case's model block was changed after its results"));
+  folder_.write("lift/block.yaml", "kind: block\nmass: 8 t\n");
+  EXPECT_EQ(read_compared_result("lift").name, "lift");
+  ASSERT_EQ(unsetenv("BLOCKLIFT_MODELS"), 0);
+}
+
 TEST_F(ComparedFolders, AModelBesideTheCaseThatWasChangedIsNamed) {
   folder_.write("lift/case.yaml", "case: two-ropes\nsettle: 3 s\ngravity: 9.81 m/s^2\n");
   std::filesystem::create_directory("results");

@@ -207,7 +207,7 @@ TEST(TableTest, RefusesAKeyGivenTwice) {
 TEST(TableTest, RefusesNamesThatNobodyCouldReferTo) {
   EXPECT_EQ(read_cart("mass: 1 t\nwheels: {\"front left\": {radius: 1 m}}\n").complaints,
             "cart.yaml:2:10: error: \"front left\" cannot be a name\n"
-            "    names have letters, digits, _ and - only\n1 error\n");
+            "    names have letters (a to z, A to Z), digits, _ and - only\n1 error\n");
 }
 
 TEST(TableTest, FollowsAnchorsAndMergeKeys) {

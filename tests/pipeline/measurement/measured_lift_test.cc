@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/declaration/diagnostics.h"
+#include "pipeline/measurement/measured_tables.h"
 #include "tests/pipeline/measurement/sample_record.h"
 #include "tests/pipeline/temporary_folder.h"
 
@@ -255,6 +256,25 @@ TEST_F(MeasuredLifts, AreShownInEightyColumnsAsJsonAndAsAPage) {
   const std::string page = measured_page(lift);
   EXPECT_THAT(page, AllOf(HasSubstr("<h1>Measured and computed</h1>"), HasSubstr("ropes.R1"),
                           HasSubstr("y m at z = 0.250 m"), Not(HasSubstr("%HEADING%"))));
+}
+
+// A record of what was computed differs by rounding alone, which is no difference.
+TEST(MeasuredTables, ShowNoRounding) {
+  MeasuredLift lift;
+  HeldChannel& channel = lift.channels.emplace_back();
+  channel.name = "R1";
+  channel.unit = "N";
+  channel.agreement.emplace();
+  channel.agreement->largest_measured = channel.agreement->largest_computed = 1e6;
+  channel.agreement->mean_difference = 1e-7;
+  channel.agreement->peak_difference = 2;
+  for (const MeasuredTable& table : measured_tables(lift)) {
+    if (table.caption != "Measured less computed") continue;
+    EXPECT_EQ(std::get<double>(table.rows.at(0).at(2)), 0);
+    EXPECT_DOUBLE_EQ(std::get<double>(table.rows.at(0).at(4)), 2e-3);
+    return;
+  }
+  FAIL() << "there is no table of differences";
 }
 
 TEST(Surroundings, HaveMeanGustHeightAndPeriod) {

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/checks/checks.h"
 #include "pipeline/checks/lift_checks.h"
 #include "pipeline/checks/measure_checks.h"
 #include "pipeline/lift/sling_ends.h"
@@ -526,6 +528,32 @@ TEST(Derating, DividesTheShareOfTheChartAndIsNamedByTheCheck) {
     named = named || (check.name == "hoist C1.left: load over the load chart at its radius" &&
                       check.note.find("maker's table 4") != std::string::npos);
   EXPECT_TRUE(named);
+}
+
+/// Why the verdict says that hook C1.left fails by its chart.
+std::string reason_of_chart(const WatchedLift& lift) {
+  for (const std::string& reason :
+       verdict_reasons(check_measures(lift.lift_case, lift.run, lift.measures)))
+    if (reason.starts_with("hoist C1.left: load over the load chart")) return reason;
+  return "";
+}
+
+// Beyond a chart's end, or beyond the tables that derate it, no figure says how far.
+TEST(Derating, SaysWhatAHookIsBeyond) {
+  const std::string short_of_wind =
+      "derating: {source: maker, wind: [{up_to: 5 m/s, factor: 1}]}\n";
+  EXPECT_THAT(reason_of_chart(watch("{crane_capacity: true}", short_of_wind,
+                                    "wind: {speed: 8 m/s, towards: 60 deg}\n")),
+              HasSubstr("radius: wind or sea are beyond the tables by which the chart is derated"));
+  WatchedLift lift = watch("{crane_capacity: true}", "");
+  CraneModel crane = *lift.lift_case.cranes[0].model;
+  for (HoistModel& hoist : crane.hoists)
+    if (hoist.name.value == "left") hoist.load_chart->value = {{0.5, 80e3}};
+  lift.lift_case.cranes[0].model = std::make_shared<CraneModel>(crane);
+  for (LiftMeasure& measure : lift.measures)
+    if (measure.name() == "C1.left: share of the chart")
+      measure.in_motion.setConstant(std::numeric_limits<double>::infinity());
+  EXPECT_THAT(reason_of_chart(lift), HasSubstr("m, the chart ends at 0.5 m; hook block included"));
 }
 
 /// The factor for a crane with a table of the sea, in a case with these waves.

@@ -185,6 +185,13 @@ TEST(LiftCaseErrors, SpreaderWhoseLengthHasNoUnit) {
   EXPECT_THAT(complaints, ::testing::Not(HasSubstr("nan")));
 }
 
+TEST(LiftCaseErrors, RopeThatStaysOnOneBody) {
+  const std::string complaints =
+      complaints_about_spreader("U2: {from: C1.left,", "U2: {from: B1.lower_a,");
+  EXPECT_THAT(complaints, HasSubstr("rope U2 begins and ends at B1\n    a rope leads from one body "
+                                    "to another"));
+}
+
 TEST(LiftCaseErrors, EyeThatASpreaderDoesNotHave) {
   EXPECT_EQ(
       complaints_about_spreader("to: B1.upper_b", "to: B1.uper_b"),

@@ -106,6 +106,28 @@ TEST(StudyDesign, ValuesAreWrittenWithTheirUnit) {
   EXPECT_EQ(value_text(stiffness, 5e6), "5000000 N/m");
 }
 
+TEST(StudyDesign, ValuesAreShownInTheUnitsOfEngineers) {
+  constexpr double degree = std::numbers::pi / 180;
+  const auto shown = [](const Exponents& exponents, double value) {
+    StudyVariable variable;
+    variable.values = {{{2, exponents}, {}}};
+    return shown_value(variable, value, 4);
+  };
+  EXPECT_EQ(shown({0, 0, 0, 1}, 18 * degree), "18 deg");
+  EXPECT_EQ(shown({0, 0, -1, 1}, -0.5 * degree), "-0.5 deg/s");
+  const Exponents force{1, 1, -2, 0};
+  EXPECT_EQ(shown(force, 2.735e8), "273.5 MN");
+  EXPECT_EQ(shown(force, -4e4), "-40 kN");
+  EXPECT_EQ(shown(force, 12), "12 N");
+  EXPECT_EQ(shown({0, 1, -2, 0}, 5e6), "5 MN/m");
+  EXPECT_EQ(shown({-1, 1, -2, 0}, 2.06e11), "206 GPa");
+  EXPECT_EQ(shown({-1, 1, -2, 0}, 355e6), "355 MPa");
+  EXPECT_EQ(shown({0, 1, 0, 0}, 8.6e5), "860 t");
+  EXPECT_EQ(shown({0, 1, 0, 0}, 7640), "7640 kg");
+  EXPECT_EQ(shown({1, 0, 0, 0}, 9.98), "9.98 m");
+  EXPECT_EQ(shown({}, 0.1), "0.1");
+}
+
 // Five standard deviations off there is a law; nine off nothing of it is left that a computer
 // knows.
 TEST(StudyDesign, SaysWhereNothingOfALawIsLeft) {
