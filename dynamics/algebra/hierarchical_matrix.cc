@@ -85,8 +85,7 @@ Group make_group(const Eigen::Matrix2Xd& points, const std::vector<int>& rows) {
   group.tree.reset(hmat_create_cluster_tree(among.data(), 2, count, leaves.get()));
   const int* order = hmat_cluster_get_indices(group.tree.get());
   group.order.resize(rows.size());
-  std::transform(order, order + count, group.order.begin(),
-                 [&](int place) { return rows[static_cast<std::size_t>(place)]; });
+  std::transform(order, order + count, group.order.begin(), [&](int place) { return rows[place]; });
   return group;
 }
 

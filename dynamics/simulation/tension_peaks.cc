@@ -117,12 +117,12 @@ TensionPeaks::TensionPeaks(History& history)
 }
 
 double TensionPeaks::bar(std::size_t rope) const {
-  return (1 + share_worth_a_sample) * largest_[static_cast<Eigen::Index>(rope)];
+  return (1 + share_worth_a_sample) * largest_[rope];
 }
 
 void TensionPeaks::note_sample(Eigen::Index sample) {
   for (std::size_t i = 0; i < history_.ropes.size(); ++i) {
-    double& largest = largest_[static_cast<Eigen::Index>(i)];
+    double& largest = largest_[i];
     largest = std::max(largest, history_.ropes[i].tension[sample]);
   }
 }

@@ -20,7 +20,7 @@ Eigen::MatrixXd compliance_of_frames(const TolerancedRigging& rigging,
     std::vector<Vector3> points, pulls;
     std::vector<Eigen::Index> ropes;
     for (Eigen::Index rope = 0; rope < count; ++rope) {
-      const RiggingRope& one = rigging.ropes[static_cast<std::size_t>(rope)];
+      const RiggingRope& one = rigging.ropes[rope];
       for (const RiggingEnd* end : {&one.lower, &one.upper}) {
         if (end->kind != RiggingEnd::Kind::bar || end->index != static_cast<int>(bar)) continue;
         points.push_back(in_place.centre + R_BW * end->r_W);

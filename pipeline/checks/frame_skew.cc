@@ -90,7 +90,7 @@ double frame_skew_by_tolerances(const given::Spreader& in_its_place, const LiftS
       if (!(as_meant > 0)) continue;
       for (std::size_t end = 0; end < forces.size(); ++end)
         if (frame.ends[end].rope == rigging.in_system[row])
-          forces[end].f *= tension[static_cast<Eigen::Index>(row)] / as_meant;
+          forces[end].f *= tension[row] / as_meant;
     }
     least = std::min(least, growth_to_failure(strength, strength.find_forces(forces)));
   });

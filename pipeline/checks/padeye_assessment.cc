@@ -306,7 +306,7 @@ PadeyesAssessment assess_at(const LiftCase& lift_case, const UnitResponses& resp
   }
   const auto models = wanted.make();
   parallel::for_each(static_cast<int>(all.size()), 0, [&](int i) {
-    Pulled& one = all[static_cast<std::size_t>(i)];
+    Pulled& one = all[i];
     one.run.solve(models[one.model], one.instants);
   });
   PadeyesAssessment result;

@@ -55,7 +55,7 @@ WetSamples wet_samples_of(const ShellPressure& pressure, Eigen::Index rows, cons
   const int count = static_cast<int>(history.sample_count());
   std::vector<WetSamples> parts(static_cast<std::size_t>((count + batch - 1) / batch));
   parallel::in_batches(count, batch, 0, [&](int first, int some) {
-    WetSamples& part = parts[static_cast<std::size_t>(first / batch)];
+    WetSamples& part = parts[first / batch];
     Eigen::MatrixXd wrenches(rows, some);
     Eigen::Index wet = 0;
     for (int sample = first; sample < first + some; ++sample) {
@@ -150,12 +150,12 @@ ShellPressure::ShellPressure(const dynamics::Hull& hull, const structure::ShellR
   std::vector<int> region_of(static_cast<std::size_t>(hull.panel_count()));
   parallel::in_batches(hull.panel_count(), 64, 0, [&](int first, int count) {
     for (int panel = first; panel < first + count; ++panel)
-      region_of[static_cast<std::size_t>(panel)] =
+      region_of[panel] =
           shell.nearest(hull.panel_midpoint(panel), hull.panel_area_vector(panel).normalized());
   });
   for (int panel = 0; panel < hull.panel_count(); ++panel) {
     const auto corners = hull.panel(panel);
-    const int region = region_of[static_cast<std::size_t>(panel)];
+    const int region = region_of[panel];
     for (std::size_t i = 2; i < corners.size(); ++i)
       panels_.push_back({{corners[0], corners[i - 1], corners[i]}, region});
   }

@@ -120,8 +120,7 @@ HydrodynamicState prepare_state(const HydrodynamicProblem& problem, std::size_t 
   state.panels = panel_problem(problem, index);
   state.mass = mass_matrix(problem, state.panels);
   require_apart(problem, state.panels);
-  const PanelProblem::Body& lowered =
-      state.panels.bodies[static_cast<std::size_t>(problem.lowered_body())];
+  const PanelProblem::Body& lowered = state.panels.bodies[problem.lowered_body()];
   state.draught = -lowest_point(*lowered.hull, lowered.X_DB);
   state.model = std::make_shared<const dynamics::PanelModel>(make_panel_model(state.panels));
   const bool with_surface = problem.settings.method == dynamics::PanelMethod::marched_surface;

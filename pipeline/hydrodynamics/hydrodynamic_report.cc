@@ -312,8 +312,8 @@ std::string doubt_about_excitation(const HydrodynamicDatabase& database) {
   return fmt::format(
       "the panels are coarse: the force of waves on {} in {} changes by {:.0f} % of its largest "
       "from panels of twice the size to these; take smaller panels until that is below {:.0f} %",
-      database.body_names[static_cast<std::size_t>(worst / modes_per_body)],
-      mode_names[worst % modes_per_body], 100.0 * change, 100.0 * acceptable_change_in_waves);
+      database.body_names[worst / modes_per_body], mode_names[worst % modes_per_body],
+      100.0 * change, 100.0 * acceptable_change_in_waves);
 }
 
 std::string doubt_about_runs(const HydrodynamicDatabase& database) {
@@ -326,8 +326,7 @@ std::string doubt_about_runs(const HydrodynamicDatabase& database) {
       "{:.0f} % of the radiation force of {} in {}; a lower lowest_frequency follows them longer, "
       "a "
       "lid damps the water, method: green function needs no such responses",
-      100.0 * cut, database.body_names[static_cast<std::size_t>(worst / modes_per_body)],
-      mode_names[worst % modes_per_body]);
+      100.0 * cut, database.body_names[worst / modes_per_body], mode_names[worst % modes_per_body]);
 }
 
 std::string doubt_about_mass(const std::string& name, double displaced, double mass) {

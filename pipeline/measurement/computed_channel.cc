@@ -77,8 +77,7 @@ TimeSeries read_pose_series(const ResultsReader& results, std::string_view histo
       continue;
     }
     const Eigen::Quaterniond turn(pose(i, 3), pose(i, 4), pose(i, 5), pose(i, 6));
-    values.push_back(roll_pitch_yaw_of(
-        turn.normalized().toRotationMatrix())[static_cast<Eigen::Index>(component) - 3]);
+    values.push_back(roll_pitch_yaw_of(turn.normalized().toRotationMatrix())[component - 3]);
   }
   // An angle goes on where it would jump by a turn.
   if (component >= 3)

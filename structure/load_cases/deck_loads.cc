@@ -60,7 +60,7 @@ class LoadAdder {
         cells_of_beams_(space.mesh().beams.size()),
         load_(load) {
     for (std::size_t cell = 0; cell < space.beams().size(); ++cell)
-      cells_of_beams_[static_cast<std::size_t>(space.beams()[cell].beam)].push_back(cell);
+      cells_of_beams_[space.beams()[cell].beam].push_back(cell);
   }
 
   void add(const PointLoad& point, double factor) {
@@ -170,7 +170,7 @@ class LoadAdder {
     constexpr double rounding = 1e-9;
     const Eigen::Vector2d last = cell.origin + Eigen::Vector2d::Constant(cell.size);
     const std::array<double, 4> gap{cell.origin.y(), 1 - last.x(), 1 - last.y(), cell.origin.x()};
-    return gap[static_cast<std::size_t>(side)] < rounding;
+    return gap[side] < rounding;
   }
 
   /// A point of a side of the unit square, a distance away from the side, as corners turn.

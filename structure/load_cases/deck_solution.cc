@@ -412,8 +412,7 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
     stresses[c].name = name_of(deck.load_cases[result.cases[c].load_case]);
     result.cases[c].stress = std::move(stresses[c]);
     result.cases[c].estimated_error = errors[c].relative;
-    if (hot != nullptr &&
-        expands_freely(result.cases[c], held_energy[static_cast<Eigen::Index>(c)]))
+    if (hot != nullptr && expands_freely(result.cases[c], held_energy[c]))
       result.cases[c].estimated_error = 0;
   }
   result.times.recovery = watch.lap();

@@ -50,13 +50,13 @@ ExpansionStrains turned(const ExpansionStrains& own, const Eigen::Matrix3d& axes
   Eigen::Matrix3d strain;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto [i, j] = places[k];
-    strain(i, j) = strain(j, i) = own[static_cast<Eigen::Index>(k)] / (i == j ? 1 : 2);
+    strain(i, j) = strain(j, i) = own[k] / (i == j ? 1 : 2);
   }
   const Eigen::Matrix3d seen = axes * strain * axes.transpose();
   ExpansionStrains result;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto [i, j] = places[k];
-    result[static_cast<Eigen::Index>(k)] = seen(i, j) * (i == j ? 1 : 2);
+    result[k] = seen(i, j) * (i == j ? 1 : 2);
   }
   return result;
 }

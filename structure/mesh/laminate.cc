@@ -121,7 +121,7 @@ LaminateExpansion expansion_of(const std::vector<Ply>& plies) {
                                         (std::pow(top, 3) - std::pow(bottom, 3)) / 3};
     for (std::size_t i = 0; i < moments.size(); ++i) {
       expansion.forces[i] += moments[i] * along_plate;
-      expansion.energies[static_cast<Eigen::Index>(i)] += moments[i] * energy;
+      expansion.energies[i] += moments[i] * energy;
     }
     bottom = top;
   }

@@ -71,7 +71,7 @@ SizeField find_sizes(const PartModel& model, const PartSolution& solution,
   constexpr double none = std::numeric_limits<double>::infinity();
   Eigen::VectorXd edges(solids), sizes = Eigen::VectorXd::Constant(mesh.nodes.cols(), none);
   for (Eigen::Index s = 0; s < solids; ++s) {
-    const int element = mesh.solids[static_cast<int>(s)];
+    const int element = mesh.solids[s];
     edges[s] = mean_edge(mesh, element);
     for (int i = 0; i < corners; ++i) {
       double& size = sizes[mesh.node(element, i)];  // a mean would spare the solids at a sharp edge
@@ -87,7 +87,7 @@ SizeField find_sizes(const PartModel& model, const PartSolution& solution,
   SizeField field{Eigen::Matrix3Xd(3, corners * solids), Eigen::VectorXd(corners * solids)};
   for (Eigen::Index s = 0; s < solids; ++s)
     for (int i = 0; i < corners; ++i) {
-      const int node = mesh.node(mesh.solids[static_cast<int>(s)], i);
+      const int node = mesh.node(mesh.solids[s], i);
       field.places.col(corners * s + i) = mesh.nodes.col(node);
       field.sizes[corners * s + i] = sizes[node];
     }

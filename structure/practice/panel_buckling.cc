@@ -150,7 +150,7 @@ FacingSides find_facing(const Mesh& mesh, const PlateField& field, const std::se
           in_plane(panel, mesh.vertices[piece.to]) - in_plane(panel, mesh.vertices[piece.from]);
       const Eigen::Vector2d outward(run.y(), -run.x());  // the field is on the left
       for (int across = 0; across < 2; ++across) {
-        Facing& side = result[static_cast<std::size_t>(across)][outward[across] > 0 ? 1 : 0];
+        Facing& side = result[across][outward[across] > 0 ? 1 : 0];
         const bool is_free = edge.is_free && beams.count(key) == 0;
         (cuts.count(key) != 0 ? side.cut
          : is_free            ? side.free

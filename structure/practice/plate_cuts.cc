@@ -259,7 +259,7 @@ class FlatField {
     for (std::size_t i = 0; i < field_.shells.size(); ++i)
       for (const int vertex : mesh_.shells[field_.shells[i]].vertices) {
         const auto moved = cut.straightened.find(vertex);
-        points[static_cast<std::size_t>(cut.piece_of_shell[i])].push_back(axes_.in_plane(
+        points[cut.piece_of_shell[i]].push_back(axes_.in_plane(
             moved == cut.straightened.end() ? known_.place(mesh_, vertex) : moved->second));
       }
     std::vector<PlateRectangle> rectangles;

@@ -84,8 +84,7 @@ Eigen::MatrixXd MembraneStrains::at(int cell, const Eigen::Vector2d& xi, const V
   const Known& known = know(cell);
   const Eigen::VectorXd shares = known.sampling->shares_at(xi);
   Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(3, motions_.cols());
-  for (std::size_t q = 0; q < known.strains.size(); ++q)
-    strain += shares[static_cast<Eigen::Index>(q)] * known.strains[q];
+  for (std::size_t q = 0; q < known.strains.size(); ++q) strain += shares[q] * known.strains[q];
   const Vector3 normal = (known.normals * shares).normalized();
   const auto on_surface = [&](const Vector3& way) -> Vector3 {
     return (way - normal * normal.dot(way)).normalized();

@@ -150,7 +150,7 @@ class SquarePlacer {
     const Vector3 around = Vector3::Constant(largest_spacing);
     bool is_near = false;
     placed.visit(square.centre_B - around, square.centre_B + around, [&](int other) {
-      const Vector3& known = squares_[static_cast<std::size_t>(other)].centre_B;
+      const Vector3& known = squares_[other].centre_B;
       is_near = is_near || (known - square.centre_B).norm() < 0.8 * largest_spacing;
     });
     if (is_near || !lies_inside(square)) return;

@@ -121,15 +121,14 @@ void DampingBeyond::find_tail(const std::vector<double>& at, const MatrixXd& add
     if (within.empty()) continue;
     VectorXd missing(static_cast<Eigen::Index>(within.size()));
     for (Eigen::Index k = 0; k < missing.size(); ++k) {
-      missing[k] = added_mass(m, columns[static_cast<std::size_t>(k)]) -
-                   known[static_cast<std::size_t>(k)](m, m);
+      missing[k] = added_mass(m, columns[k]) - known[k](m, m);
     }
     missing *= 0.5 * std::numbers::pi * highest;
     const auto tail = [&](double p, VectorXd& fall, VectorXd& hump) {
       fall.resize(missing.size());
       hump.resize(missing.size());
       for (Eigen::Index k = 0; k < missing.size(); ++k) {
-        const TailIntegrals integrals(p, within[static_cast<std::size_t>(k)] / highest);
+        const TailIntegrals integrals(p, within[k] / highest);
         fall[k] = integrals.fall * end(m, m);
         hump[k] = integrals.hump;
       }

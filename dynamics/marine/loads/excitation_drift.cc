@@ -25,7 +25,7 @@ void require_motions(const HydrodynamicDatabase& database, const std::vector<Mat
 /// Phase of R against the database's origin in waves of a number (rad/m), for each heading.
 Eigen::RowVectorXcd phases_at_reference(const HydrodynamicDatabase& database, int body,
                                         double wave_number) {
-  const Vector3& p = database.reference_points[static_cast<std::size_t>(body)];
+  const Vector3& p = database.reference_points[body];
   Eigen::RowVectorXcd phases(static_cast<Eigen::Index>(database.headings.size()));
   for (Eigen::Index j = 0; j < phases.size(); ++j) {
     const double heading = database.headings[j];

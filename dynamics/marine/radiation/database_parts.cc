@@ -97,7 +97,7 @@ HydrodynamicDatabase begin_database(const PanelModel& model, const DatabaseSetti
 Eigen::VectorXd largest_share(const std::vector<int>& modes, const MatrixXcd& forces,
                               const MatrixXd& amounts) {
   constexpr double negligible = 1e-3;
-  const auto way_of = [&](Eigen::Index m) { return modes[static_cast<std::size_t>(m)] / 3; };
+  const auto way_of = [&](Eigen::Index m) { return modes[m] / 3; };
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(forces.rows());
   for (Eigen::Index k = 0; k < forces.cols(); ++k) {
     for (Eigen::Index m = 0; m < shares.size(); ++m) {
@@ -184,7 +184,7 @@ Eigen::VectorXd calc_mean_excitation(const HydrodynamicDatabase& database) {
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(forces.rows());
   const Water& water = database.water;
   for (Eigen::Index k = 0; k < forces.cols(); ++k) {
-    const double w = database.frequencies[static_cast<std::size_t>(k)];
+    const double w = database.frequencies[k];
     const double per_damping = 4.0 * water.density * water.gravity * calc_group_velocity(w, water) /
                                calc_wave_number(w, water);
     for (Eigen::Index m = 0; m < squares.size(); ++m) {
@@ -252,7 +252,7 @@ Eigen::VectorXcd calc_coarser_arms(const PanelModel& model, const FlowOfPart& fl
     const MatrixXd means = panels.bodies.average(areas, values);
     MatrixXd result = values - means(panels.bodies.of_panel, Eigen::all);
     for (Eigen::Index k = 0; k < result.rows(); ++k) {
-      if (panels.flat.of_panel[static_cast<std::size_t>(k)] < 0) result.row(k).setZero();
+      if (panels.flat.of_panel[k] < 0) result.row(k).setZero();
     }
     return result;
   };

@@ -153,8 +153,7 @@ std::vector<std::string> hints_on_mesh(const Hull& hull) {
     if (panels.size() == 1) open.push_back(edge);
     if (panels.size() != 2) continue;
     const bool is_twisted = panels[0].is_forward == panels[1].is_forward;
-    for (const PanelAtEdge& at_edge : panels)
-      ++(is_twisted ? twisted : sound)[static_cast<std::size_t>(at_edge.panel)];
+    for (const PanelAtEdge& at_edge : panels) ++(is_twisted ? twisted : sound)[at_edge.panel];
   }
   std::vector<std::string> hints;
   if (const std::optional<int> half = plane_of_half(hull, open))

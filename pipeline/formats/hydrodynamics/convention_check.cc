@@ -25,8 +25,8 @@ constexpr double pi = std::numbers::pi, whole_circle = 2 * pi, of_degree = pi / 
 constexpr std::array<const char*, 3> displacement_names = {"surge", "sway", "heave"};
 
 std::string mode_of_body(const HydrodynamicDatabase& database, Eigen::Index mode) {
-  return fmt::format("{} {}", database.body_names[static_cast<std::size_t>(mode / modes_per_body)],
-                     displacement_names[static_cast<std::size_t>(mode % modes_per_body)]);
+  return fmt::format("{} {}", database.body_names[mode / modes_per_body],
+                     displacement_names[mode % modes_per_body]);
 }
 
 bool is_displacement(Eigen::Index mode) { return mode % modes_per_body < 3; }
@@ -403,11 +403,11 @@ LongWaves long_waves_of_body(const HydrodynamicDatabase& database, Eigen::Index 
       const double heading = m == 1 ? 0.5 * pi : 0;
       scale += std::norm(force_in_long_wave(database, k, mode, heading));
     }
-    if (scale > 0) shares[static_cast<std::size_t>(m)] = std::sqrt(given / scale);
+    if (scale > 0) shares[m] = std::sqrt(given / scale);
   }
   const double largest = *std::max_element(shares.begin(), shares.end());
   for (Eigen::Index m = 0; m < 3; ++m) {
-    const double share = shares[static_cast<std::size_t>(m)];
+    const double share = shares[m];
     if (share > 0 && share >= noise * largest) waves.modes.push_back(first + m);
   }
   return waves;
@@ -475,8 +475,7 @@ std::string doubt_about_phases(const HydrodynamicDatabase& database) {
     return fmt::format(
         "in long waves the excitation of {} does not go with the water that moves there (agreement "
         "{:.2f}, where 1 is due); it would if {}",
-        database.body_names[static_cast<std::size_t>(first / modes_per_body)], as_is,
-        fmt::join(reasons, ", or if "));
+        database.body_names[first / modes_per_body], as_is, fmt::join(reasons, ", or if "));
   }
   return {};
 }
@@ -519,8 +518,7 @@ std::string doubt_about_couplings(const HydrodynamicDatabase& database) {
         "{} has added mass in {}, and at no frequency anything that couples them, as if the "
         "diagonal alone had been written: a hull in the water's surface that goes sideways is "
         "pressed round, too",
-        database.body_names[static_cast<std::size_t>(first / modes_per_body)],
-        fmt::join(pairs, ", and in "));
+        database.body_names[first / modes_per_body], fmt::join(pairs, ", and in "));
   }
   return {};
 }

@@ -62,7 +62,7 @@ bool is_uncoupled(const HydrodynamicDatabase& database, const Signs& signs) {
   }
   for (Eigen::Index i = 0; i < modes_per_body; ++i)
     for (Eigen::Index j = 0; j < modes_per_body; ++j) {
-      if (signs[static_cast<std::size_t>(i)] == signs[static_cast<std::size_t>(j)]) continue;
+      if (signs[i] == signs[j]) continue;
       if (forces(i, j) > negligible * std::sqrt(forces(i, i) * forces(j, j))) return false;
     }
   return true;
@@ -83,8 +83,7 @@ bool is_pressed_along(const HydrodynamicDatabase& database, int axis, const Sign
       for (Eigen::Index m = 0; m < modes_per_body; ++m) {
         const std::size_t kind = m < 3 ? 0 : 1;
         largest[kind] = std::max(largest[kind], force[m]);
-        if (along && signs[static_cast<std::size_t>(m)] < 0)
-          across[kind] = std::max(across[kind], force[m]);
+        if (along && signs[m] < 0) across[kind] = std::max(across[kind], force[m]);
       }
     }
   }

@@ -20,8 +20,8 @@ constexpr std::array<const char*, modes_per_body> mode_names = {"surge", "sway",
 std::size_t kind_of(Eigen::Index mode) { return mode % modes_per_body < 3 ? 0 : 1; }
 
 std::string name_of(const HydrodynamicDatabase& database, Eigen::Index mode) {
-  return fmt::format("{} {}", database.body_names[static_cast<std::size_t>(mode / modes_per_body)],
-                     mode_names[static_cast<std::size_t>(mode % modes_per_body)]);
+  return fmt::format("{} {}", database.body_names[mode / modes_per_body],
+                     mode_names[mode % modes_per_body]);
 }
 
 void require_damping(const HydrodynamicDatabase& database) {

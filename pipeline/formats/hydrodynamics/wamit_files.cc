@@ -268,7 +268,7 @@ std::set<Eigen::Index> read_radiation(const fs::path& path, const WamitScales& s
   const std::vector<WamitBody> axes = axes_of_bodies(path, scales, bodies);
   for (Eigen::Index b = 0; b < bodies; ++b) {
     database.body_names.push_back("body" + std::to_string(b + 1));
-    database.reference_points.push_back(axes[static_cast<std::size_t>(b)].p_W);
+    database.reference_points.push_back(axes[b].p_W);
     database.displaced_volumes.push_back(0.0);
   }
   database.frequencies = periods.frequencies();

@@ -93,7 +93,7 @@ class Doubts {
 
   static const dynamics::BodyHistory& load_of(const LiftRun& lift,
                                               const dynamics::History& history) {
-    return history.bodies[static_cast<std::size_t>(lift.model.load) - 1];
+    return history.bodies[lift.model.load - 1];
   }
 
   /// Of a load on one hook: nothing holds its heading in the motion, as is taken at rest.

@@ -139,9 +139,8 @@ void MemberCases::blame_values(const Eigen::VectorXd& values, const Diagnostics&
     read(values, &alone, diagnostics);
     if (!have_common_place(diagnostics, of_all)) continue;
     const StudyVariable& variable = study_.variables[v];
-    blame.error(place_of_value(variable, values[static_cast<Eigen::Index>(v)]),
-                impossible_member + describe(variable, values[static_cast<Eigen::Index>(v)]),
-                lines_of(diagnostics));
+    blame.error(place_of_value(variable, values[v]),
+                impossible_member + describe(variable, values[v]), lines_of(diagnostics));
   }
 }
 

@@ -192,9 +192,8 @@ std::vector<Eigen::Index> in_order_of_blocks(const StudyFile& study, const Eigen
     keys.push_back(block_key(study, changing, design.row(member)));
     order.push_back(member);
   }
-  std::ranges::stable_sort(order, {}, [&](Eigen::Index member) -> const std::string& {
-    return keys[static_cast<std::size_t>(member)];
-  });
+  std::ranges::stable_sort(order, {},
+                           [&](Eigen::Index member) -> const std::string& { return keys[member]; });
   return order;
 }
 

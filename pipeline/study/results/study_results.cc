@@ -182,8 +182,8 @@ Spread spread_of(const StudyResults& results, const std::string& path) {
   const auto largest = std::max_element(all.begin(), all.end());
   spread.smallest = *smallest;
   spread.largest = *largest;
-  spread.member_of_smallest = numbers[static_cast<std::size_t>(smallest - all.begin())];
-  spread.member_of_largest = numbers[static_cast<std::size_t>(largest - all.begin())];
+  spread.member_of_smallest = numbers[smallest - all.begin()];
+  spread.member_of_largest = numbers[largest - all.begin()];
   return spread;
 }
 

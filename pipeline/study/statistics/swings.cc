@@ -29,8 +29,7 @@ VaryingInputs varying_inputs(const Eigen::MatrixXd& design, const std::vector<in
   Eigen::Index used = 0;
   for (Eigen::Index v = 0; v < design.cols(); ++v) {
     Eigen::VectorXd column(count);
-    for (Eigen::Index row = 0; row < count; ++row)
-      column[row] = design(members[static_cast<std::size_t>(row)], v);
+    for (Eigen::Index row = 0; row < count; ++row) column[row] = design(members[row], v);
     if (!values_vary({column.begin(), column.end()})) continue;
     column.array() -= column.mean();
     inputs.deviations[used] = column.norm() / std::sqrt(static_cast<double>(count));
@@ -89,7 +88,7 @@ Swings find_swings(const StudyFile& study, const Eigen::MatrixXd& design,
   const double reach = reach_of_interval(freedoms);
   const double variance = left / static_cast<double>(freedoms);
   for (Eigen::Index k = 0; k < slopes.size(); ++k) {
-    Swing& swing = swings.of[inputs.places[static_cast<std::size_t>(k)]];
+    Swing& swing = swings.of[inputs.places[k]];
     const double range = (swing.to - swing.from) / inputs.deviations[k];
     const double error = reach * std::sqrt(variance * inverse(k, k)) * range;
     swing.value = slopes[k] * range;

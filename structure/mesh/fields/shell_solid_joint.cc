@@ -65,8 +65,7 @@ class EdgeStander {
     const std::size_t elements = (edge_.columns.size() - 1) / 2;
     for (std::size_t element = 0; element < elements; ++element) {
       const double length = (column(element, 2).place - column(element, 0).place).norm();
-      for (std::size_t i = 0; i < 3; ++i)
-        integrals[2 * element + i] += length * shape_integrals[static_cast<Eigen::Index>(i)];
+      for (std::size_t i = 0; i < 3; ++i) integrals[2 * element + i] += length * shape_integrals[i];
     }
     const Eigen::Matrix3d duals = dual_coefficients();
     for (std::size_t element = 0; element < elements; ++element) {

@@ -447,8 +447,7 @@ const std::vector<std::vector<int>>& abaqus_faces(std::size_t nodes) {
 }
 
 std::vector<std::size_t> face_nodes(const AbaqusElement& element, int face) {
-  const std::vector<int>& corners =
-      abaqus_faces(element.nodes.size())[static_cast<std::size_t>(face) - 1];
+  const std::vector<int>& corners = abaqus_faces(element.nodes.size())[face - 1];
   std::vector<std::size_t> nodes;
   for (const int corner : corners) nodes.push_back(element.nodes[corner]);
   const int corner_count = abaqus_corners(element.nodes.size());
@@ -458,7 +457,7 @@ std::vector<std::size_t> face_nodes(const AbaqusElement& element, int face) {
     const int a = corners[i], b = corners[(i + 1) % corners.size()];
     for (std::size_t e = 0; e < all.size(); ++e)
       if ((all[e][0] == a && all[e][1] == b) || (all[e][0] == b && all[e][1] == a))
-        nodes.push_back(element.nodes[static_cast<std::size_t>(corner_count) + e]);
+        nodes.push_back(element.nodes[corner_count + e]);
   }
   return nodes;
 }

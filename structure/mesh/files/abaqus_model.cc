@@ -141,8 +141,7 @@ class Faces {
   Tags corners(const AbaqusFace& face) const {
     const AbaqusElement& element = mesh_.elements[place_of_.at(face.element)];
     Tags tags;
-    for (const int corner :
-         abaqus_faces(element.nodes.size())[static_cast<std::size_t>(face.face) - 1])
+    for (const int corner : abaqus_faces(element.nodes.size())[face.face - 1])
       tags.push_back(element.nodes[corner]);
     std::sort(tags.begin(), tags.end());
     return tags;

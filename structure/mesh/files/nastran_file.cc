@@ -214,7 +214,7 @@ class NastranReader {
 
   Tags corners_of(const AbaqusElement& element, int face) const {
     Tags corners;
-    for (const int corner : abaqus_faces(element.nodes.size())[static_cast<std::size_t>(face) - 1])
+    for (const int corner : abaqus_faces(element.nodes.size())[face - 1])
       corners.push_back(element.nodes[corner]);
     return corners;
   }

@@ -106,7 +106,7 @@ class MaterialBlocks {
       const auto fields = block.data[i].fields();
       ExpansionStrains strains = ExpansionStrains::Zero();
       for (std::size_t k = 0; k < count; ++k)
-        strains[static_cast<Eigen::Index>(k)] = abaqus_real(fields, k, "coefficient of expansion");
+        strains[k] = abaqus_real(fields, k, "coefficient of expansion");
       if (count == 1) strains.head<3>().setConstant(strains[0]);
       if (!strains.tail<3>().isZero(0)) hinder("expands in shear, which is not known");
       if (i > 0 && strains != material_.expansion) hinder("expands by the temperature");

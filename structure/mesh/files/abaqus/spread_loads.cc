@@ -201,7 +201,7 @@ class SpreadLoadReader {
     load.shell = element_.shell;
     load.direction = axis;
     for (int i = 0; i < 4; ++i)
-      load.pressure[static_cast<std::size_t>(i)] =
+      load.pressure[i] =
           force.dot(axis) * thickness_at(mesh_, shell, Eigen::Vector2d(i % 2, i / 2));
     return load;
   }

@@ -75,8 +75,8 @@ TemperatureField rise_of(const AbaqusModel& model, const AbaqusTemperatures& now
   for (const auto& [node, value] : now.at_nodes) {
     const auto before = initial.at_nodes.find(node);
     const Vector3 rise = before == initial.at_nodes.end() ? value : Vector3(value - before->second);
-    field.at_vertices[static_cast<std::size_t>(node)] = rise[0];
-    field.slopes[static_cast<std::size_t>(node)] = rise.tail<2>();
+    field.at_vertices[node] = rise[0];
+    field.slopes[node] = rise.tail<2>();
     has_slopes = has_slopes || !rise.tail<2>().isZero(0);
   }
   if (!has_slopes) field.slopes.clear();

@@ -56,8 +56,7 @@ void read_nastran_expansion(const NastranModel& model, const CardView& card,
   const ExpansionFields& fields = found->second;
   ExpansionStrains& strains = material.expansion;
   for (std::size_t i = 0; i < fields.strains.size(); ++i)
-    strains[static_cast<Eigen::Index>(fields.strains[i])] =
-        card.real(fields.first + i, "coefficient of expansion", 0.0);
+    strains[fields.strains[i]] = card.real(fields.first + i, "coefficient of expansion", 0.0);
   if (fields.strains.size() == 1) strains.head<3>().setConstant(strains[0]);
   material.reference = card.real(fields.reference, "reference temperature", 0.0);
   material.ply.expansion << strains[0], strains[1], strains[3];

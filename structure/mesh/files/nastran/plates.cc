@@ -169,7 +169,7 @@ LaminateExpansion join_expansions(const std::array<NastranMaterial, 3>& material
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const Eigen::Vector3d& strains = materials[i].ply.expansion;
     expansion.forces[i] = stiffnesses[i] * strains;
-    expansion.energies[static_cast<Eigen::Index>(i)] = strains.dot(expansion.forces[i]);
+    expansion.energies[i] = strains.dot(expansion.forces[i]);
     if (i == 0 || !stiffnesses[i].isZero(0)) note_expansion(materials[i], i == 0, expansion);
   }
   return expansion;
