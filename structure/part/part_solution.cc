@@ -195,7 +195,7 @@ PartDisplacement solve_directly(const PartModel& model, const PartUnknowns& unkn
                                 const Eigen::VectorXd& forces) {
   PartDisplacement solved;
   SolverAccount& account = solved.account;
-  account.name = "Cholesky factorisation by CHOLMOD";
+  account.name = "Cholesky factorisation";
   Stopwatch watch;
   SparseLower stiffness = assemble_part_stiffness(model, unknowns);
   account.assembly_s = watch.lap();

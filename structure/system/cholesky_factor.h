@@ -17,9 +17,9 @@ struct Supernode {
   int parent = -1;   ///< supernode of the next row below; -1: there is none
 };
 
-/// K = L L' of a symmetric, positive definite sparse matrix by supernodal Cholesky factorisation, in
-/// the order of the unknowns; CHOLMOD finds the pattern of L. Neither L nor solutions depend on the
-/// number of threads.
+/// K = L L' of a symmetric, positive definite sparse matrix by supernodal Cholesky factorisation,
+/// in the order of the unknowns; CHOLMOD finds the pattern of L. Neither L nor solutions depend on
+/// the number of threads.
 class CholeskyFactor {
  public:
   /// Finds the pattern of L. @throws NotEnoughMemory

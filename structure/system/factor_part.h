@@ -25,9 +25,9 @@ struct PartOfMatrix {
 /// One process's share of a factorisation.
 ///
 /// Of the part [K, B'; B, D] it finds C = B K^-1 B', which the elimination of its unknowns takes
-/// from the interface. CHOLMOD factorises whole matrices only: D + diag(D) is put in D's place,
-/// which with it is positive definite since D - C is not negative, and then C is that less L L' of
-/// the last rows of the factor. Its rounding is of the size of the diagonal's, as without.
+/// from the interface. CholeskyFactor factorises whole matrices only: D + diag(D) is put in D's
+/// place, which with it is positive definite since D - C is not negative, and then C is that less
+/// L L' of the last rows of the factor. Its rounding is of the size of the diagonal's, as without.
 class FactorPart {
  public:
   /// Analyses. @throws NotEnoughMemory

@@ -28,7 +28,7 @@ class LooseUnknown : public ModelError {
 
 /// K u = f with some displacements given, factorised once for any number of load vectors.
 ///
-/// Sparse supernodal Cholesky (CHOLMOD through Eigen) in the order of the unknowns, which an
+/// Sparse supernodal Cholesky (CholeskyFactor) in the order of the unknowns, which an
 /// Elimination has chosen by nested dissection.
 class ConstrainedSystem {
  public:

@@ -19,8 +19,8 @@ struct SupernodalPattern {
 /// L of K = L L', entries above its diagonal left as they come. Subtrees of the elimination tree go
 /// side by side to threads, and what is above them goes by tiles. Each tile is summed in one order
 /// by one thread: L is the same, to the last bit, for any number of threads. Source: Ng and Peyton
-/// (1993), Block sparse Cholesky algorithms on advanced uniprocessor computers (a supernode takes
-/// what those before it leave).
+/// (1993), Block sparse Cholesky algorithms on advanced uniprocessor computers: a supernode takes
+/// what those before it leave.
 /// @param values of L, of the pattern's size; what they hold does not matter.
 /// @param threads 0: as many as are usable.
 /// @returns the first column whose pivot is not positive; as many as there are if all are positive.

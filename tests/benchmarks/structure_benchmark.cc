@@ -7,6 +7,8 @@
 #include "structure/response/unit_responses.h"
 #include "structure/stress/squares.h"
 #include "structure/stress/stress.h"
+#include "structure/system/assembly.h"
+#include "structure/system/cholesky_factor.h"
 #include "tests/structure/block_models.h"
 #include "tests/structure/hull_block.h"
 
@@ -35,6 +37,26 @@ void unit_responses(benchmark::State& state) {
   }
 }
 BENCHMARK(unit_responses)->Unit(benchmark::kSecond)->Iterations(1)->UseRealTime();
+
+void factorisation(benchmark::State& state) {
+  const ElasticModel model = test::make_elastic_model(test::hull_block(), 3);
+  SparseLower stiffness = assemble_stiffness(model.space());
+  // In the place of supports; a column's diagonal comes first.
+  for (long column = 0; column < stiffness.cols(); ++column)
+    stiffness.valuePtr()[stiffness.outerIndexPtr()[column]] *= 1.001;
+  CholeskyFactor factor(stiffness);
+  const int threads = static_cast<int>(state.range(0));
+  for (auto unused : state) factor.factorise(stiffness, stiffness.diagonal(), threads);
+  state.counters["unknowns"] = static_cast<double>(stiffness.cols());
+  state.counters["factor_GB"] = factor.bytes() / 1e9;
+}
+BENCHMARK(factorisation)
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 void evaluate_load_case(benchmark::State& state) {
   BlockDescription block = test::hull_block();
