@@ -30,12 +30,12 @@ std::optional<double> slack_since(const std::vector<dynamics::ContactEvent>& eve
 }
 
 /// "25.6 kN", "203252 kN": never with a power of ten.
-std::string kilonewtons(double force) {
+std::string in_kilonewtons(double force) {
   return force < 1e6 ? fmt::format("{:.4g} kN", force / 1e3)
                      : fmt::format("{:.0f} kN", force / 1e3);
 }
 
-std::string name_of(const LiftRun& lift, int rope) {
+std::string rope_name(const LiftRun& lift, int rope) {
   return lift.model.system.ropes()[static_cast<std::size_t>(rope)].name();
 }
 
@@ -74,15 +74,16 @@ std::vector<std::string> list_blow_doubts(const LiftRun& lift) {
   const Blow blow = *find_blow_before_peak(lift, rope);
   std::string others;
   for (std::size_t i = 1; i < largest.size(); ++i)
-    others += (others.empty() ? " So do those of " : ", ") + name_of(lift, largest[i].second);
+    others += (others.empty() ? " So do those of " : ", ") + rope_name(lift, largest[i].second);
   if (!others.empty()) others += ".";
   return {fmt::format(
       "The largest load of {}, {} at {:.2f} s, follows a blow within {:g} s: {} was slack "
       "from {:.2f} s to {:.2f} s.{} Such loads depend on the instant: a slightly different run has "
       "others, which may be larger. Judge them by a study over the phase of waves and gusts or the "
       "start of the drives, or keep the ropes taut.",
-      name_of(lift, rope), kilonewtons(tension), largest_tension(lift.dynamic_history(), rope).time,
-      reach_of_blow, name_of(lift, blow.rope), blow.slack_from, blow.taut_again, others)};
+      rope_name(lift, rope), in_kilonewtons(tension),
+      largest_tension(lift.dynamic_history(), rope).time, reach_of_blow, rope_name(lift, blow.rope),
+      blow.slack_from, blow.taut_again, others)};
 }
 
 }  // namespace blocklift::pipeline
