@@ -408,11 +408,12 @@ BlockError sum_up(const ElasticModel& model, const SquaredNorms& cells, const Sq
   add(solids, [&](int solid) { return mesh.solids[solid].region; });
 
   const auto cell_errors = cells.error.col(motion), solid_errors = solids.error.col(motion);
+  const double error = cell_errors.sum() + solid_errors.sum(),
+               norm = cells.own.col(motion).sum() + solids.own.col(motion).sum();
   BlockError result;
   result.relative =
-      relative_error(cell_errors.sum() + solid_errors.sum(),
-                     cells.own.col(motion).sum() + solids.own.col(motion).sum(),
-                     cells.smooth.col(motion).sum() + solids.smooth.col(motion).sum());
+      relative_error(error, norm, cells.smooth.col(motion).sum() + solids.smooth.col(motion).sum());
+  result.squared_norm = norm + error;
   for (std::size_t g = 0; g < e.size(); ++g)
     result.of_groups.push_back(relative_error(e[g], own[g], smooth[g]));
   Eigen::Index worst = 0;

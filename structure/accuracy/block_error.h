@@ -28,6 +28,7 @@ struct BlockError {
   /// of |s_h| and of the norm of what is recovered: triangles that lock have much that is no part
   /// of it.
   double relative = 0;
+  double squared_norm = 0;  ///< |s_h|^2 + |e|^2, twice an energy, J
   /// The same of each group of cells, in the order of Mesh::groups.
   std::vector<double> of_groups;
   /// The region that holds the cell or solid with the largest |e|; empty: there is none.

@@ -253,8 +253,8 @@ void require_balance(const Space& space, const Eigen::Ref<const Eigen::VectorXd>
   if (!(missing > most * (std::max(size, farthest) * forces + moments))) return;
   throw ModelError(fmt::format(
       "{}: of its loads {:.3g} N and {:.3g} N m about the origin do not arrive at the supports: "
-      "they act where no element bears them, such as a moment at a joint of rods or of released "
-      "bars, by themselves or through a link",
+      "they act where no element bears them, such as a moment at a joint of rods, of released bars "
+      "or about bars without a torsion constant, by themselves or through a link",
       name_of(load_case), (solution.applied.force + solution.supported.force).norm(),
       (solution.applied.moment + solution.supported.moment).norm()));
 }
@@ -361,11 +361,12 @@ CasesOfSupports sort_cases(const Deck& deck, DeckSolution& result) {
   return sorted;
 }
 
-/// Where nothing holds what is hot its stress is rounding, of which no error can be told.
+/// Where nothing holds what is hot its stress is rounding, of which no error can be told. Layers
+/// that hold one another, and bars, store energy beside that.
 /// @param held_energy what it would store if nothing moved, J.
-bool expands_freely(const DeckCaseSolution& solution, double held_energy) {
+bool expands_freely(const BlockError& error, double held_energy) {
   constexpr double rounding = 1e-7;
-  return held_energy > 0 && solution.strain_energy < rounding * held_energy;
+  return held_energy > 0 && error.squared_norm / 2 < rounding * held_energy;
 }
 
 void find_idle_supports(const ElasticModel& model, const Deck& deck, DeckSolution& result) {
@@ -412,7 +413,7 @@ DeckSolution solve_deck(const ElasticModel& model, const Deck& deck, int threads
     stresses[c].name = name_of(deck.load_cases[result.cases[c].load_case]);
     result.cases[c].stress = std::move(stresses[c]);
     result.cases[c].estimated_error = errors[c].relative;
-    if (hot != nullptr && expands_freely(result.cases[c], held_energy[c]))
+    if (hot != nullptr && expands_freely(errors[c], held_energy[c]))
       result.cases[c].estimated_error = 0;
   }
   result.times.recovery = watch.lap();

@@ -392,6 +392,12 @@ TEST(DeckSolution, LoadsThatNothingBearsAreRefused) {
   EXPECT_EQ(complaint(tripod + "ENDDATA\n"), "");
   EXPECT_THAT(complaint(tripod + "MOMENT,2,4,,500.,1.,0.,0.\nENDDATA\n"),
               ::testing::HasSubstr("do not arrive at the supports"));
+  // A blank torsion constant is none.
+  EXPECT_THAT(complaint("SOL 101\nCEND\nSPC = 1\nLOAD = 2\nBEGIN BULK\n"
+                        "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nCBAR,1,1,1,2,0.,0.,1.\n"
+                        "PBAR,1,1,.01,1.-5,1.-5\nMAT1,1,2.+11,,0.3,7850.\nSPC1,1,123456,1\n"
+                        "MOMENT,2,2,,500.,1.,0.,0.\nENDDATA\n"),
+              ::testing::HasSubstr("or about bars without a torsion constant"));
 }
 
 /// Largest displacement of the nodes at a place.

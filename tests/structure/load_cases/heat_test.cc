@@ -402,6 +402,21 @@ TEST(Heat, LayersThatDifferInExpansionAloneAreKept) {
   EXPECT_NEAR(hot.moved(8).z(), -curvature * 5 / 2, 1e-6 * curvature);
 }
 
+// Aluminium between sheets of steel: alpha = sum(E t alpha) / sum(E t), the ratios nu being one. The
+// layers store energy and the plate has no stress, so that no error of it can be told.
+TEST(Heat, LayersThatHoldOneAnotherLeaveTheirPlateWithoutError) {
+  const std::string layers = distorted_plate();
+  const HotCase hot(test::nastran(
+      hot_case_control + layers.substr(0, layers.find("PSHELL")) +
+      "PCOMP,1,,,,,20.\n,1,.005,0.,,2,.01,0.\n,1,.005,0.\nMAT1,1,2.+11,,0.3,7850.,1.2-5,20.\n"
+      "MAT1,2,.7+11,,0.3,2700.,2.4-5\nTEMPD,5,70.\n" +
+      hot_plate_held));
+  const double coefficient = (2e11 * 1.2e-5 + 0.7e11 * 2.4e-5) / (2e11 + 0.7e11);
+  expect_motion(hot, [&](const Vector3& x) -> Vector3 { return coefficient * hot_rise * x; });
+  EXPECT_GT(hot.first().strain_energy, 1e-3 * hot.heat().held_energy()[0]);
+  EXPECT_EQ(hot.first().estimated_error, 0);
+}
+
 // Steel on aluminium, pulled up at a corner: the estimate of its error is the same beside a case
 // that is hot, to the rounding of two solutions.
 TEST(Heat, AHotCaseChangesNoOtherOnesError) {
