@@ -8,26 +8,29 @@ namespace blocklift::dynamics {
 
 namespace {
 
-// Of all force elements but hulls.
+// Of all force elements but those of hulls.
 EnergyAccount calc_element_energy(const LiftSystem& system, double t, const LiftWorkspace& w) {
   const MotionState state{t, w.q, w.v, w.kinematics};
   EnergyAccount sum;
   for_each_element(system.elements(), [&](const auto& element) {
-    using Element = decltype(element);
-    if constexpr (!is_hull_force<Element> && !is_tugger_line<Element>)
-      sum += element.calc_energy(state);
+    if constexpr (!is_evaluated_apart<decltype(element)>) sum += element.calc_energy(state);
   });
   for (std::size_t i = 0; i < w.tugger_loads.size(); ++i) sum += calc_tugger_energy(system, i, w);
   return sum;
 }
 
-double calc_hull_power(const LiftSystem& system, const LiftWorkspace& w) {
+double calc_hull_power(const LiftSystem& system, double t, const LiftWorkspace& w) {
   const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
   double power = 0.0;
   for (std::size_t i = 0; i < hulls.size(); ++i) {
     if (!hulls[i].in_waves()) continue;
     const auto body = static_cast<std::size_t>(hulls[i].definition().body);
     power += dot(w.F_Bo_W_of_hulls[i], w.kinematics.V_WB[body]);
+  }
+  const auto& scattering = std::get<std::vector<DiffractionForce>>(system.elements());
+  const MotionState state{t, w.q, w.v, w.kinematics};
+  for (std::size_t i = 0; i < scattering.size(); ++i) {
+    power += scattering[i].calc_energy(state, w.F_R_W_of_scattering[i]).supplied_power;
   }
   return power;
 }
@@ -64,7 +67,7 @@ EnergyRates calc_energy_rates(const LiftSystem& system, double t, const LiftWork
         system.supports()[i].calc_energy(w.kinematics, w.support_loads[i]).dissipated_power;
   }
   const EnergyAccount elements = calc_element_energy(system, t, w);
-  rates.outside_power = elements.supplied_power + calc_hull_power(system, w);
+  rates.outside_power = elements.supplied_power + calc_hull_power(system, t, w);
   rates.dissipated_power += elements.dissipated_power;
   // The memory gives and takes: what the bodies lose to it is in the waves, or comes back.
   if (system.water()) {

@@ -38,6 +38,7 @@ Integrator::Integrator(const LiftSystem& system, const Eigen::VectorXd& q, const
       settings_(settings),
       w_(system),
       newton_(system),
+      forecast_(system, settings.relative_tolerance),
       events_(system, settings.awaited ? &*settings.awaited : nullptr, w_,
               [this](double t) { move_to(t); }),
       roots_(static_cast<std::size_t>(events_.count())),
@@ -236,8 +237,32 @@ void Integrator::slide_pads(double t) {
   carry_pads_along(system_, w_);
 }
 
+// Of many waves, as far ahead as the next step may ask for them. The bodies' accelerations are those
+// of the method itself, so that what is recorded does not matter.
+void Integrator::forecast_waves(double end) {
+  if (!settings_.forecast_waves || !forecast_.is_needed()) return;
+  double length = 0.0;
+  long steps = 0;
+  sundials::check(CVodeGetCurrentStep(cvode_, &length), "CVodeGetCurrentStep");
+  sundials::check(CVodeGetNumSteps(cvode_, &steps), "CVodeGetNumSteps");
+  const double until = std::min(end, time_ + length);
+  if (!forecast_.is_due(time_, until, w_)) return;
+  if (steps > 0) {
+    sundials::check(CVodeGetDky(cvode_, time_, 1, rates_.get()), "CVodeGetDky");
+  } else {
+    calc_right_hand_side(system_, within_interval(time_), sundials::view(y_.get()),
+                         &events_.contacts(), w_, sundials::view(rates_.get()));
+  }
+  move_to(time_);
+  Eigen::Index i = system_.nq_free();
+  for (const int k : system_.mechanism().free_velocities())
+    w_.vdot[k] = sundials::view(rates_.get())[i++];
+  if (forecast_.carry_on(time_, until, w_)) restart(time_);
+}
+
 void Integrator::step(double end) {
   const double begin = time_;
+  forecast_waves(end);
   const int flag = CVode(cvode_, end, y_.get(), &time_, CV_ONE_STEP);
   if (flag < 0) fail(CVodeGetReturnFlagName(flag));
   if (settings_.works) {
@@ -396,6 +421,7 @@ IntegrationResult Integrator::run() {
   events_.set_contacts(find_contacts(system_, begin_, sundials::view(y_.get()), w_));
   if (!settings_.departure) events_.begin_splits(begin_);
   set_up_cvode();
+  if (settings_.forecast_waves && forecast_.is_needed()) forecast_.begin(begin_, w_);
   record_samples(begin_);
   for (std::size_t i = first; i + 1 < breakpoints.size() && !is_over(); ++i) {
     integrate_interval(std::max(begin_, breakpoints[i]), breakpoints[i + 1]);

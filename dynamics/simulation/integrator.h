@@ -13,6 +13,7 @@
 #include "dynamics/simulation/steersman.h"
 #include "dynamics/simulation/sundials.h"
 #include "dynamics/simulation/tension_peaks.h"
+#include "dynamics/simulation/wave_forecast.h"
 
 namespace blocklift::dynamics {
 
@@ -37,6 +38,7 @@ class Integrator {
   void integrate_interval(double start, double end);
   void march_surface();
   void step(double end);
+  void forecast_waves(double end);
   void restart(double t);
   void count_before_restart();
   void record_samples(double up_to);
@@ -78,6 +80,7 @@ class Integrator {
   std::optional<StateProjection> projection_;
   std::optional<MarchedSurface> surface_;
   std::optional<Steersman> steersman_;
+  WaveForecast forecast_;
   EventSources events_;
   std::vector<int> roots_;
   bool on_ground_ = false;  ///< are there pads that are ground?

@@ -152,6 +152,8 @@ LiftWorkspace::LiftWorkspace(const LiftSystem& system)
   }
   F_Bo_W_of_hulls.assign(std::get<std::vector<HullForce>>(system.elements()).size(),
                          ForceVector::zero());
+  F_R_W_of_scattering.assign(std::get<std::vector<DiffractionForce>>(system.elements()).size(),
+                             ForceVector::zero());
   memory = memory_rate = Eigen::VectorXd::Zero(system.memory_count());
   water_velocity = level_velocity = water_force = entry_force =
       Eigen::VectorXd::Zero(added ? added->size() : 0);
@@ -319,8 +321,17 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
 void calc_hull_forces(const LiftSystem& system, double t, LiftWorkspace& w) {
   const MotionState state{t, w.q, w.v, w.kinematics};
   const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
+  const auto& scattering = std::get<std::vector<DiffractionForce>>(system.elements());
+  ForecastForces& forecast = w.forecast;
+  forecast.interpolate(t);
   for (std::size_t i = 0; i < hulls.size(); ++i) {
-    w.F_Bo_W_of_hulls[i] = hulls[i].calc_force(state);
+    w.F_Bo_W_of_hulls[i] = forecast.covers(i, t) ? forecast.calc_force(hulls[i], i, state)
+                                                 : hulls[i].calc_force(state);
+  }
+  for (std::size_t i = 0; i < scattering.size(); ++i) {
+    const std::size_t number = hulls.size() + i;
+    w.F_R_W_of_scattering[i] =
+        forecast.covers(number, t) ? forecast.force(number) : scattering[i].calc_force(state);
   }
 }
 
@@ -336,13 +347,17 @@ void calc_water_forces(const RadiatedWater& water, double t, LiftWorkspace& w) {
 void calc_loads(const LiftSystem& system, double t, const Contacts* contacts, LiftWorkspace& w,
                 HullForces hull_forces) {
   calc_contact_loads(system, contacts, w);
+  if (hull_forces == HullForces::evaluated) calc_hull_forces(system, t, w);
   const MotionState state{t, w.q, w.v, w.kinematics};
+  auto scattering = w.F_R_W_of_scattering.begin();
   for_each_element(system.elements(), [&](const auto& element) {
     using Element = decltype(element);
-    if constexpr (!is_hull_force<Element> && !is_tugger_line<Element>)
+    if constexpr (is_scattering<Element>) {
+      element.add_force(state, *scattering++, w.loads);
+    } else if constexpr (!is_evaluated_apart<Element>) {
       element.add_forces(state, w.loads);
+    }
   });
-  if (hull_forces == HullForces::evaluated) calc_hull_forces(system, t, w);
   const auto& hulls = std::get<std::vector<HullForce>>(system.elements());
   for (std::size_t i = 0; i < hulls.size(); ++i) {
     w.loads.F_Bo_W[hulls[i].definition().body] += w.F_Bo_W_of_hulls[i];

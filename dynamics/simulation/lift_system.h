@@ -24,6 +24,7 @@
 #include "dynamics/rope/elastic_body.h"
 #include "dynamics/rope/mooring_line.h"
 #include "dynamics/rope/rope_split.h"
+#include "dynamics/simulation/forecast_forces.h"
 #include "dynamics/simulation/operation.h"
 
 namespace blocklift::dynamics {
@@ -38,14 +39,22 @@ using ForceElements =
                std::vector<LinearRestraint>, std::vector<LinearBuoyancy>,
                std::vector<JointFriction>>;
 
-/// Hulls are evaluated apart from the other elements: their forces cost the most, and serve the
-/// works too.
+/// What water and waves do to hulls is evaluated apart from the other elements: these forces cost
+/// the most, and serve the works too.
 template <class Element>
 inline constexpr bool is_hull_force = std::is_same_v<std::remove_cvref_t<Element>, HullForce>;
+template <class Element>
+inline constexpr bool is_scattering =
+    std::is_same_v<std::remove_cvref_t<Element>, DiffractionForce>;
 
 /// Tugger lines are evaluated apart, too: they are contacts.
 template <class Element>
 inline constexpr bool is_tugger_line = std::is_same_v<std::remove_cvref_t<Element>, TuggerLine>;
+
+/// Kinds whose forces the workspace holds.
+template <class Element>
+inline constexpr bool is_evaluated_apart =
+    is_hull_force<Element> || is_scattering<Element> || is_tugger_line<Element>;
 
 /// Calls `function` with each element of every kind.
 template <class Function>
@@ -178,9 +187,12 @@ struct LiftWorkspace {
   /// For each rope; those of ropes without friction do nothing. They act where the integration has
   /// begun them: equilibria and natural modes are those without friction.
   std::vector<RopeSplit> splits;
-  RopePath path;                                ///< of the rope evaluated last
-  std::vector<RopeEndShifts> end_shifts;        ///< for each rope; zero at rigid bodies
-  std::vector<ElasticBody::Workspace> elastic;  ///< for each elastic body
+  RopePath path;                                 ///< of the rope evaluated last
+  std::vector<RopeEndShifts> end_shifts;         ///< for each rope; zero at rigid bodies
+  std::vector<ElasticBody::Workspace> elastic;   ///< for each elastic body
+  std::vector<ForceVector> F_R_W_of_scattering;  ///< of each DiffractionForce, as of the hulls
+  /// What waves do to the hulls and DiffractionForces, in this order; a WaveForecast carries it on.
+  ForecastForces forecast;
 
   /// Inertia of the water; null: there is none.
   const AddedInertiaWorkspace* added() const {
@@ -216,7 +228,8 @@ void calc_contact_loads(const LiftSystem& system, const Contacts* contacts, Lift
 /// enough?
 enum class HullForces { evaluated, kept };
 
-/// Forces on the hulls, w.F_Bo_W_of_hulls, at the workspace's kinematics.
+/// Forces on the hulls, w.F_Bo_W_of_hulls and w.F_R_W_of_scattering, at the workspace's kinematics;
+/// what waves do is taken from w.forecast where that covers the time (WaveForecast).
 void calc_hull_forces(const LiftSystem& system, double t, LiftWorkspace& w);
 /// What the memory of the radiated water does, w.water_force, at the workspace's kinematics, with
 /// its velocities and shares.

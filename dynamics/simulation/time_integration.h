@@ -54,6 +54,8 @@ struct IntegrationSettings {
   Recording recording = {};
   /// Nor may a hundredth of them bring it less than a hundredth of the way.
   long largest_step_count = 50'000'000;
+  /// Are the forces of a sea of many waves found ahead (WaveForecast), or at each state?
+  bool forecast_waves = true;
   /// The water's surface to be marched beside (MarchedSurface), from calm; null: none. The system's
   /// water then has its added mass and no states.
   DirectRadiation* surface = nullptr;

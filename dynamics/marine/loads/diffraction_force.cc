@@ -131,11 +131,12 @@ ForceVector DiffractionForce::calc_force(const MotionState& state) const {
   return {R_WL * force.head<3>(), R_WL * force.tail<3>()};
 }
 
-void DiffractionForce::add_forces(const MotionState& state, Loads& loads) const {
+void DiffractionForce::add_force(const MotionState& state, const ForceVector& F_R_W,
+                                 Loads& loads) const {
   if (waves_.empty()) return;
   const auto body = static_cast<std::size_t>(definition_.frame.body);
   const Vector3 r_W = state.kinematics.X_WB[body].R * definition_.frame.X_BH.p;
-  loads.F_Bo_W[body] += shift_to(calc_force(state), r_W);
+  loads.F_Bo_W[body] += shift_to(F_R_W, r_W);
 }
 
 void DiffractionForce::add_derivatives(const MotionState& state,
@@ -153,11 +154,12 @@ void DiffractionForce::add_derivatives(const MotionState& state,
   derivatives.add_wrench_block(0, 0, by_turn, Eigen::Matrix<double, 6, 6>::Zero());
 }
 
-EnergyAccount DiffractionForce::calc_energy(const MotionState& state) const {
+EnergyAccount DiffractionForce::calc_energy(const MotionState& state,
+                                            const ForceVector& F_R_W) const {
   if (waves_.empty()) return {};
   const auto body = static_cast<std::size_t>(definition_.frame.body);
   const Vector3 r_W = state.kinematics.X_WB[body].R * definition_.frame.X_BH.p;
-  return {.supplied_power = dot(calc_force(state), shift(state.kinematics.V_WB[body], r_W))};
+  return {.supplied_power = dot(F_R_W, shift(state.kinematics.V_WB[body], r_W))};
 }
 
 }  // namespace blocklift::dynamics

@@ -55,12 +55,19 @@ class DiffractionForce {
 
   /// Force on the body about R in W.
   ForceVector calc_force(const MotionState& state) const;
-  void add_forces(const MotionState& state, Loads& loads) const;
+  void add_forces(const MotionState& state, Loads& loads) const {
+    add_force(state, calc_force(state), loads);
+  }
+  /// A force on the body about R in W that calc_force found.
+  void add_force(const MotionState& state, const ForceVector& F_R_W, Loads& loads) const;
   /// How the wave differs where the vessel goes is left out: its length is far beyond a step's
   /// travel.
   void add_derivatives(const MotionState& state, ForceDerivatives& derivatives) const;
   /// All power is supplied by the waves.
-  EnergyAccount calc_energy(const MotionState& state) const;
+  EnergyAccount calc_energy(const MotionState& state) const {
+    return calc_energy(state, calc_force(state));
+  }
+  EnergyAccount calc_energy(const MotionState& state, const ForceVector& F_R_W) const;
 
  private:
   using Amplitude = Eigen::Matrix<std::complex<double>, 6, 1>;

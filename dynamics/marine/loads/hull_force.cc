@@ -1,5 +1,7 @@
 #include "dynamics/marine/loads/hull_force.h"
 
+#include <cmath>
+
 #include "dynamics/errors.h"
 #include "dynamics/marine/hull/wet_triangle.h"
 
@@ -149,6 +151,23 @@ ForceVector HullForce::calc_force(const MotionState& state) const {
   const Pose& X_WB = state.kinematics.X_WB[definition_.body];
   if (in_waves()) return calc_force_in_waves(state.time, X_WB);
   return rho_g_ * calc_buoyancy(*definition_.hull, X_WB).F_Bo_W_over_rho_g;
+}
+
+ForceVector HullForce::calc_force(const MotionState& state, const WaterPlane& plane) const {
+  const Pose& X_WB = state.kinematics.X_WB[definition_.body];
+  const double steepness = std::sqrt(1.0 + plane.slope.squaredNorm());
+  const Vector3 normal = Vector3(-plane.slope.x(), -plane.slope.y(), 1.0) / steepness;
+  // Turns the normal upright, the short way.
+  const Vector3 axis = normal.cross(Vector3::UnitZ());
+  const Matrix3 across = skew(axis);
+  const Matrix3 R_PW = Matrix3::Identity() + across + across * across / (1.0 + normal.z());
+  const Vector3 p_WP(plane.place.x(), plane.place.y(), plane.height);
+  const Pose X_PB{R_PW * X_WB.R, R_PW * (X_WB.p - p_WP)};
+  const ForceVector F =
+      (steepness * rho_g_) * calc_buoyancy(*definition_.hull, X_PB).F_Bo_W_over_rho_g;
+  const ForceVector F_W{R_PW.transpose() * F.moment, R_PW.transpose() * F.force};
+  if (!definition_.p_BoR_B) return F_W;
+  return without_water_plane_part(F_W, X_WB.R * *definition_.p_BoR_B);
 }
 
 void HullForce::add_forces(const MotionState& state, Loads& loads) const {

@@ -5,6 +5,7 @@
 
 #include "dynamics/force/force_element.h"
 #include "dynamics/marine/hull/hydrostatics.h"
+#include "dynamics/marine/loads/water_plane.h"
 #include "dynamics/marine/loads/wave_surface.h"
 #include "dynamics/marine/waves/sea.h"
 
@@ -66,6 +67,9 @@ class HullForce {
 
   /// Force on the body about Bo in W (moment, force).
   ForceVector calc_force(const MotionState& state) const;
+  /// The same where the water's surface is a plane, exact for the polyhedron: with the plane level,
+  /// gravity is rho g sqrt(1 + slope^2) along its normal.
+  ForceVector calc_force(const MotionState& state, const WaterPlane& plane) const;
   void add_forces(const MotionState& state, Loads& loads) const;
   /// In still water the exact stiffness; in waves that of still water at the same pose, which is
   /// near enough for an integrator's iteration.

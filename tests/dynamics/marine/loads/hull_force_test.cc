@@ -85,6 +85,49 @@ TEST(HullForce, LongWavesAreAChangeOfDraught) {
 }
 
 // Of a hull that drifts only heave, roll and pitch about its reference point are left, as they are.
+// Gauss' theorem: where the whole body is wet, its volume times the pressure's gradient.
+TEST(HullForce, UnderAPlaneIsThatOfThePressuresGradient) {
+  OneBody body;
+  const HullForce hull({"box", 1, box_of({12, 6, 3}, 2), sea_of(WaveField(deep))});
+  examples::Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    body.q = examples::random_configuration(random, body.mechanism);
+    body.q.head<3>() << 4, -7, -20;
+    body.update();
+    const WaterPlane plane{{3, -5}, 1.5, {0.1, -0.2}};
+    const ForceVector F = hull.calc_force(body.state(), plane);
+    const Vector3 expected = rho_g * 12 * 6 * 3 * Vector3(-0.1, 0.2, 1.0);
+    EXPECT_LT((F.force - expected).norm(), 1e-9 * expected.norm());
+    EXPECT_LT(F.moment.norm(), 1e-8 * expected.norm());
+  }
+}
+
+// A level plane is a change of draught, wherever its place is; waves that are 628 times as long as
+// the hull differ from their plane by their curvature and by how they decay with depth alone.
+TEST(HullForce, UnderThePlaneOfLongWavesIsTheirs) {
+  OneBody body;
+  const auto clusters = box_of({4, 2, 1}, 8);
+  const double k = 0.0025;
+  const WaveField waves(deep, {{2.0, std::sqrt(9.81 * k), 0.7, 0.4}});
+  const HullForce hull({"boat", 1, clusters, sea_of(waves)});
+  const WaterPlaneOfWaves planes(clusters->hull(), waves);
+  const double t = 3.0;
+  body.q.head<3>() << 50, -30, 0.1 + waves.calc_elevation(t, 50, -30);
+  body.update();
+  const MotionState state{t, body.q, body.v, body.state().kinematics};
+  const WaterPlane plane = planes.calc(t, state.kinematics.X_WB[1]);
+  EXPECT_NEAR(plane.height, waves.calc_elevation(t, plane.place.x(), plane.place.y()), 2e-5);
+  const ForceVector F = hull.calc_force(state);
+  EXPECT_LT((hull.calc_force(state, plane) - F).force.norm(), 0.01 * F.force.norm());
+  const WaterPlane level{{9, 9}, 0.3, {0, 0}};
+  const ForceVector raised = hull.calc_force(state, level);
+  body.q[2] -= 0.3;
+  body.update();
+  const ForceVector lowered = hull.calc_force(body.state(), WaterPlane{});
+  EXPECT_LT((raised - lowered).force.norm(), 1e-12 * rho_g * 8);
+  EXPECT_LT((raised - lowered).moment.norm(), 1e-12 * rho_g * 8);
+}
+
 TEST(HullForce, OfAHullThatDriftsHasNoPartAlongTheWater) {
   OneBody body;
   HullForce::Definition d{"box", 1, box_of({12, 6, 3}, 2),
