@@ -35,7 +35,7 @@ HydrodynamicFile compute_shipped_sphere(ModelLibrary& library) {
     if (file.parent_path().filename() != "sphere-5m") continue;
     auto problem = read_hydrodynamic_problem(file, library, diagnostics);
     if (!problem) throw InputError(diagnostics);
-    std::vector<double>& list = problem->frequencies;
+    std::vector<double>& list = problem->settings.frequencies;
     for (const auto& row : dynamics::examples::hulme) {
       if (row.ka > 3.0) continue;
       const double w = frequency_of(row.ka);
