@@ -36,8 +36,8 @@ class ForecastForces {
   double time_of(long instant) const { return interval_ * static_cast<double>(instant); }
   /// The last instant before a time, or at it (s).
   long before(double time) const;
-  /// Forgets everything; the first instant is the one after this time (s), if that is later than
-  /// the next.
+  /// Forgets all instants. The next one to be added is the first after this time (s), or the one
+  /// that was next, whichever is later.
   void begin(double time);
   /// The force counts from this instant on.
   void set_first(std::size_t force, long instant) { first_[force] = instant; }
@@ -49,7 +49,7 @@ class ForecastForces {
 
   /// Are there all six instants about a time (s), none of them before `first`?
   bool has(long first, double time) const;
-  /// Are there of a force, of those that count?
+  /// Are all six instants about a time (s) known of this force, none of them before its first?
   bool covers(std::size_t force, double time) const;
   /// Numbers at a time, as far as they are known (s). Does not allocate.
   void interpolate(double time);

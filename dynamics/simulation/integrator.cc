@@ -237,8 +237,8 @@ void Integrator::slide_pads(double t) {
   carry_pads_along(system_, w_);
 }
 
-// Of many waves, as far ahead as the next step may ask for them. The bodies' accelerations are those
-// of the method itself, so that what is recorded does not matter.
+// Of many waves, as far ahead as the next step may ask for them. The bodies' accelerations are
+// those of the method itself, so that what is recorded does not matter.
 void Integrator::forecast_waves(double end) {
   if (!settings_.forecast_waves || !forecast_.is_needed()) return;
   double length = 0.0;

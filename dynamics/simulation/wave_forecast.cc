@@ -64,12 +64,16 @@ WaveForecast::WaveForecast(const LiftSystem& system, double relative_tolerance)
   interval_ = longest_interval;
   for (const HullForce& hull : hulls_) {
     const double heave = find_heave(hull);
-    if (heave > fastest_heave) {
+    if (!hull.in_waves() || heave > fastest_heave) {
       standing_[planes_.size()].first = never;
     } else {
       interval_ = std::min(interval_, share_of_heave / heave);
     }
     planes_.emplace_back(hull.definition().hull->hull(), hull.definition().sea->waves);
+  }
+  if (std::ranges::all_of(standing_, [](const Standing& one) { return one.first == never; })) {
+    interval_ = 0.0;  // all are found at each state
+    return;
   }
   while (find_remainder(sea->waves, interval_) > tolerance) interval_ *= 0.95;
 }
@@ -157,7 +161,14 @@ void WaveForecast::check(double time, LiftWorkspace& w) {
   }
   between_checks_ =
       all_trusted && !any_rests_ ? std::min(2 * between_checks_, instants_of_check) : 1;
-  next_check_ = forecast.before(time) + between_checks_;
+  const long now = forecast.before(time);
+  next_check_ = now + between_checks_;
+  // One that has rested is checked as soon as it has its instants.
+  for (const Standing& standing : standing_) {
+    if (standing.is_trusted() || standing.first == never) continue;
+    const long ready = standing.first + ForecastForces::through - 1;
+    next_check_ = std::min(next_check_, std::max(now + 1, ready));
+  }
 }
 
 bool WaveForecast::judge(std::size_t number, const ForceVector& error, double time,

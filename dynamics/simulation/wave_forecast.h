@@ -35,10 +35,9 @@ namespace blocklift::dynamics {
 /// forecast for them: at each instant until all are trusted, and then after twice as many each
 /// time, `instants_of_check` at most. A force is made use of once it has passed `passes_to_trust`
 /// checks in a row. Where either is off by more than the share sqrt(relative tolerance) of the
-/// largest force of waves on that body so far, `largest_share` at most, the force rests: it is found
-/// at each state for `first_rest`, and for twice as long each time that it was trusted. The
-/// integration starts anew then. Beginning to make use of a force changes it by less than that
-/// share.
+/// largest force of waves on that body so far, `largest_share` at most, the force rests: it is
+/// found at each state for `first_rest`, and for twice as long each time that it was trusted. The
+/// integration starts anew then.
 class WaveForecast {
  public:
   static constexpr double tolerance = 1e-5;

@@ -115,11 +115,20 @@ bool is_same_part(const std::string& a, const std::string& b) {
              rounding * std::max(std::abs(one->value), std::abs(other->value));
 }
 
-/// What files in a folder that may be a model say.
-std::vector<std::string> texts_in(const fs::path& folder, const std::string& model) {
+/// What a model says that it is; empty if it does not.
+std::string kind_of_model(const std::string& yaml) {
+  for (const InputValue& value : list_input_values(yaml))
+    if (value.key == "kind") return value.value;
+  return {};
+}
+
+/// What files in a folder say that may be a model of one of these kinds.
+std::vector<std::string> texts_in(const fs::path& folder, const std::string& model,
+                                  const std::vector<std::string>& kinds) {
+  std::vector<std::string> endings = {"", ".yaml"};
+  for (const std::string& kind : kinds) endings.push_back(fmt::format("/{}.yaml", kind));
   std::vector<std::string> texts;
-  for (const char* ending : {"", ".yaml", "/block.yaml", "/crane.yaml", "/rope.yaml",
-                             "/standard.yaml", "/vessel.yaml"}) {
+  for (const std::string& ending : endings) {
     const fs::path file = folder / (model + ending);
     std::error_code error;
     if (fs::is_regular_file(file, error)) texts.push_back(read_file(file));
@@ -128,14 +137,23 @@ std::vector<std::string> texts_in(const fs::path& folder, const std::string& mod
 }
 
 /// What files say that a case may mean by a model's name: beside it, or else in the first folder of
-/// models that has any. None of a model that is gone.
-std::vector<std::string> texts_of_model(const fs::path& beside, const std::string& model) {
-  std::vector<std::string> texts = texts_in(beside, model);
+/// models that has any, of its kind before all others; standards go by short names, too. None of a
+/// model that is gone, and of one that another model names and that stands beside that.
+std::vector<std::string> texts_of_model(const fs::path& beside, const std::string& model,
+                                        const std::string& kind) {
+  std::vector<fs::path> folders = {beside};
   for (const fs::path& folder : model_path()) {
-    if (!texts.empty()) break;
-    texts = texts_in(folder, model);
+    folders.push_back(folder);
+    folders.push_back(folder / "standards");
   }
-  return texts;
+  const std::vector<std::string> all = {"block", "crane", "rope", "standard", "vessel"};
+  for (const std::vector<std::string>& kinds : {std::vector<std::string>{kind}, all}) {
+    for (const fs::path& folder : folders) {
+      std::vector<std::string> texts = texts_in(folder, model, kinds);
+      if (!texts.empty()) return texts;
+    }
+  }
+  return {};
 }
 
 /// The first file of a case, itself or a model that it names, that says other than its result was
@@ -145,7 +163,8 @@ std::string find_changed_file(const ComparedResult& result, const Document& docu
   if (result.input.empty() || !say_the_same(result.input[0].yaml, document.text)) return "the case";
   for (const InputText& input : result.input) {
     if (input.name.empty()) continue;
-    const std::vector<std::string> texts = texts_of_model(folder, input.name);
+    const std::vector<std::string> texts =
+        texts_of_model(folder, input.name, kind_of_model(input.yaml));
     const auto is_it = [&](const std::string& text) { return say_the_same(input.yaml, text); };
     if (!texts.empty() && std::ranges::none_of(texts, is_it))
       return "the case's model " + input.name;

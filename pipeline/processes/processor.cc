@@ -18,7 +18,6 @@ namespace {
 constexpr const char* kernels = "OPENBLAS_CORETYPE";
 constexpr const char* tunables = "GLIBC_TUNABLES";
 constexpr const char* patience = "OPENBLAS_THREAD_TIMEOUT";
-constexpr const char* team = "OMP_THREAD_LIMIT";
 
 // Kernels for AVX2 only, on a processor that has what Skylake's server kernels need.
 bool runs_below_its_kernels() {
@@ -73,7 +72,6 @@ void use_all_of_the_processor(int count, char** arguments) {
     return;
   }
   if (std::getenv(patience) == nullptr) changed = ::setenv(patience, "18", 0) == 0;
-  if (std::getenv(team) == nullptr) changed = ::setenv(team, "1", 0) == 0 || changed;
   if (std::getenv(kernels) == nullptr && runs_below_its_kernels())
     changed = ::setenv(kernels, "SKYLAKEX", 0) == 0 || changed;
 #if defined(__GLIBC__)

@@ -11,13 +11,10 @@ namespace blocklift::pipeline {
 /// - OPENBLAS_THREAD_TIMEOUT: OpenBLAS' threads ask for work without a pause for 2^26 cycles after
 ///   each product and take a core from ours meanwhile; 2^18 cycles, a tenth of a millisecond, are
 ///   enough.
-/// - OMP_THREAD_LIMIT: CHOLMOD sums each supernode by four threads of OpenMP's, whatever the
-///   processor has, beside those of OpenBLAS; they hand over half a million times in one
-///   factorisation. One is faster.
 /// - GLIBC_TUNABLES, glibc.malloc.hugetlb: the matrices' gigabytes come in pages of 2 MB in place
 ///   of 4 kB, of which the kernel would hand over each one singly.
 /// - OMP_NUM_THREADS, OPENBLAS_NUM_THREADS: what the option --threads says.
-/// The first four only for commands that solve structures; the others would wait for the second
+/// The first three only for commands that solve structures; the others would wait for the second
 /// start in vain.
 /// Returns where there is nothing to gain or the system cannot do it.
 void use_all_of_the_processor(int count, char** arguments);

@@ -23,9 +23,9 @@ struct Elimination {
 
 /// Orders the unknowns 0 .. unknowns - 1 of symmetric element matrices by nested dissection (METIS)
 /// of the graph of their groups, in postorder of the elimination tree, so that the factorisation
-/// finds its dense blocks without permuting the matrix again. The same elements have the same order,
-/// whatever other threads order meanwhile. Source: Karypis and Kumar (1998); Liu (1990), The role of
-/// elimination trees in sparse factorization.
+/// finds its dense blocks without permuting the matrix again. The same elements have the same
+/// order, whatever other threads order meanwhile. Source: Karypis and Kumar (1998); Liu (1990), The
+/// role of elimination trees in sparse factorization.
 /// @param elements unknowns of each element, in any order, repetitions allowed.
 /// @throws ModelError if METIS fails.
 Elimination find_elimination(int unknowns, const std::vector<std::vector<int>>& elements);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -116,15 +117,22 @@ std::vector<Supernode> CholeskyFactor::supernodes() const {
 void CholeskyFactor::factorise(const SparseLower& matrix, const Eigen::VectorXd& held,
                                int threads) {
   Implementation& factor = *implementation_;
-  double* const values = factor.make_values();
-  if (values == nullptr)
+  const auto refuse = [&] {
     throw NotEnoughMemory(fmt::format(
         "the memory did not suffice to factorise the stiffness matrix of {} unknowns; use larger "
         "elements or a lower element degree",
         matrix.rows()));
+  };
+  double* const values = factor.make_values();
+  if (values == nullptr) refuse();
   const char* const loose =
       "the stiffness matrix is not positive definite: the supports leave a part free to move";
-  const long failed = factorise_supernodes(factor.pattern, matrix, values, threads);
+  long failed = 0;
+  try {
+    failed = factorise_supernodes(factor.pattern, matrix, values, threads);
+  } catch (const std::bad_alloc&) {
+    refuse();
+  }
   if (failed < matrix.cols()) throw LooseUnknown(loose, static_cast<int>(failed));
   // What is left of an unknown's stiffness where nothing resists it: rounding, some tens of the
   // unit of it. Slender blocks leave 1e-9 and more.

@@ -1,6 +1,6 @@
 // The structural stage on the hull block: seconds of assembly, factorisation and unit responses as
 // counters, then the evaluation of a load case, the checked stress and the error estimate. Run
-// alone on the machine; OpenBLAS takes all cores.
+// alone on the machine; our threads and those of OpenBLAS take all cores.
 #include <benchmark/benchmark.h>
 
 #include "structure/accuracy/block_error.h"

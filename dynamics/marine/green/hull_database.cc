@@ -285,17 +285,17 @@ void HullComputation::check_memory(const FoundPoles& found) {
   account_.memory_error = calc_memory_error(database_, frequencies, forces);
   if (account_.memory_error <= allowed_error) return;
   std::array<char, 640> text{};
-  std::snprintf(text.data(), text.size(),
-                "%zu frequencies up to %.3g rad/s do not tell the memory of the water: its "
-                "retardation functions miss the waves' forces by %.1f %% of the largest, and %.0f "
-                "%% is allowed. Mostly damping has not faded at the highest frequency: take a "
-                "higher highest_frequency, with panels that are small beside its waves, which are "
-                "%.1f m long at %.3g rad/s. Where water swings between hulls or in a moonpool, a "
-                "lid damps it. Or leave out method: green function, for the marched surface has "
-                "its memory from impulses",
-                found.frequencies.size(), highest_, 100.0 * account_.memory_error,
-                100.0 * allowed_error,
-                2.0 * std::numbers::pi / calc_wave_number(highest_, database_.water), highest_);
+  std::snprintf(
+      text.data(), text.size(),
+      "%zu frequencies up to %.3g rad/s do not tell the memory of the water: its "
+      "retardation functions miss the waves' forces by %.1f %% of the largest, and %.0f "
+      "%% is allowed. Usually the damping has not faded yet at the highest frequency: take "
+      "a higher highest_frequency, with panels that are small beside its waves, which are "
+      "%.1f m long at %.3g rad/s. Where water swings between hulls or in a moonpool, a "
+      "lid damps it. Or, if a hull reaches the water's surface, leave out method: green "
+      "function: the marched surface finds the memory from impulses",
+      found.frequencies.size(), highest_, 100.0 * account_.memory_error, 100.0 * allowed_error,
+      2.0 * std::numbers::pi / calc_wave_number(highest_, database_.water), highest_);
   throw ModelError(text.data());
 }
 

@@ -111,8 +111,9 @@
 ///                      a bend leaves of it, largest_strain (o): of a rope with a tension_curve at
 ///                      its largest dynamic tension, max_static_tension_N, time_of_max_static_s,
 ///                      max_dynamic_tension_N, time_of_max_dynamic_s, dynamic_over_static,
-///                      linked_static_N (o), linked_dynamic_N (o)}]; linked: {rope: tension} at
-///                      that instant
+///                      linked_static_N (o), linked_dynamic_N (o), after_blow (o): {slack_rope,
+///                      slack_from_s, taut_again_s, within_s}: the snatch that the largest dynamic
+///                      tension follows}]; linked: {rope: tension} at that instant
 ///   stages         (o) [{name, start_s, end_s, ropes and hoists: [{name, max_static_tension_N, ...
 ///                      as of ropes}], load: the same of all slings' vertical force}]
 ///   parted         (o) [{name, time_s, tension_N, energy_J}]: ropes that parted, their tension and

@@ -85,7 +85,9 @@ Rule loads() {
                      {"crane", text()},
                      {"kind", text()},
                      {"linked_static_N", by_name(number())},
-                     {"linked_dynamic_N", by_name(number())}}),
+                     {"linked_dynamic_N", by_name(number())},
+                     {"after_blow", with(table({{"slack_rope", text()}}),
+                                         numbers({"slack_from_s", "taut_again_s", "within_s"}))}}),
               numbers({"max_static_tension_N", "time_of_max_static_s", "max_dynamic_tension_N",
                        "time_of_max_dynamic_s", "dynamic_over_static", "breaking_load_N",
                        "bend_efficiency", "largest_strain", "capacity_N", "max_swing_rad",
@@ -285,8 +287,15 @@ Rule structure() {
   const Rule step =
       table(numbers({"unknowns", "elements", "smallest_edge_m", "static_checked_von_mises_Pa",
                      "dynamic_checked_von_mises_Pa", "stress_increase_percent"}));
+  const Rule stress =
+      with(table({{"point_m", point()}, {"part", text()}}), numbers({"value", "time_s"}));
+  const Rule stage = with(table({{"name", text(), true},
+                                 {"static_checked_von_mises", stress},
+                                 {"dynamic_checked_von_mises", stress}}),
+                          numbers({"start_s", "end_s", "stress_increase_percent"}));
   return with(
       table({{"material", text()},
+             {"stages", list(stage)},
              {"per_rope_maxima", structure_way()},
              {"simultaneous", structure_way()},
              {"history", structure_history()},

@@ -39,6 +39,16 @@ std::string rope_name(const LiftRun& lift, int rope) {
   return lift.model.system.ropes()[static_cast<std::size_t>(rope)].name();
 }
 
+/// Is it a rope by which the load hangs, and no mooring, warp or tag line?
+bool bears_the_load(const LiftRun& lift, int rope) {
+  const auto is_tackle = [rope](const LiftHoist& hoist) { return hoist.rope == rope; };
+  const auto is_sling = [rope](const LiftRope& one) {
+    return one.rope == rope && (one.holds_load() || !one.hoist.empty());
+  };
+  return std::ranges::any_of(lift.model.hoists, is_tackle) ||
+         std::ranges::any_of(lift.model.ropes, is_sling);
+}
+
 }  // namespace
 
 std::optional<Blow> find_blow_before_peak(const LiftRun& lift, int rope) {
@@ -52,6 +62,7 @@ std::optional<Blow> find_blow_before_peak(const LiftRun& lift, int rope) {
   for (std::size_t i = events.size(); i-- > 0;) {
     const dynamics::ContactEvent& event = events[i];
     if (event.time > time || !event.acts || event.contact >= ropes) continue;
+    if (event.contact != rope && !bears_the_load(lift, event.contact)) continue;
     if (event.time < time - reach_of_blow) return std::nullopt;
     const std::optional<double> from = slack_since(events, i);
     if (from && event.time - *from <= reach_of_blow) return Blow{event.contact, *from, event.time};
@@ -62,7 +73,9 @@ std::optional<Blow> find_blow_before_peak(const LiftRun& lift, int rope) {
 std::vector<std::string> list_blow_doubts(const LiftRun& lift) {
   std::vector<std::pair<double, int>> largest;  // N, rope
   const auto add = [&](int rope) {
-    if (find_blow_before_peak(lift, rope))
+    // Equalised hoists share one.
+    const auto is_it = [rope](const auto& known) { return known.second == rope; };
+    if (std::ranges::none_of(largest, is_it) && find_blow_before_peak(lift, rope))
       largest.emplace_back(largest_tension(lift.dynamic_history(), rope).tension, rope);
   };
   for (const LiftRope& rope : lift.model.ropes) add(rope.rope);

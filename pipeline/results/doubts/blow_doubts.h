@@ -8,7 +8,8 @@
 
 namespace blocklift::pipeline {
 
-/// A rope that went slack and snatched before another, or the same, had its largest load.
+/// A rope that went slack and snatched before another, or the same, had its largest load. Another's
+/// counts if the load hangs by it: a mooring's snatch is its own.
 struct Blow {
   int rope = -1;          ///< the one that snatched, among the system's
   double slack_from = 0;  ///< s

@@ -217,7 +217,11 @@ std::string shown_value(const StudyVariable& variable, double value, int digits)
   for (const Multiple& multiple : multiples) {
     const std::optional<Measure> one = find_unit(multiple.unit);
     if (!one || one->exponents != exponents || std::abs(value) < multiple.least) continue;
-    return fmt::format("{:.{}g} {}", value / one->value, digits, multiple.unit);
+    const double number = value / one->value;
+    // No powers of ten: all digits before the point are shown.
+    if (std::abs(number) >= std::pow(10.0, digits) - 0.5)
+      return fmt::format("{:.0f} {}", number, multiple.unit);
+    return fmt::format("{:.{}g} {}", number, digits, multiple.unit);
   }
   return value_text(variable, value, digits);
 }

@@ -197,13 +197,35 @@ TEST(WaveForecast, KnowsTheForcesOnASmallBarge) {
   EXPECT_LT(run.off, WaveForecast::largest_share);
 }
 
-// Where a barge that is adrift comes to within a minute: as exactly as without, within five times
-// what a tenth of the tolerance changes.
+// Where a barge that is adrift comes to within a minute: what the forecast changes is at most five
+// times what a tenth of the tolerance changes.
 TEST(WaveForecast, LeavesABargeWhereItCameTo) {
   const LiftSystem system = BargeAtSea{80.0, 60.0}.build();
   const Eigen::VectorXd exact = run_forecast(system, false, 1e-7).q_end;
   const double scatter = (run_forecast(system, false).q_end - exact).norm();
   EXPECT_LT((run_forecast(system, true).q_end - exact).norm(), 5.0 * scatter);
+}
+
+// A barge that is suddenly elsewhere: its forces rest, and are found at each state again.
+TEST(WaveForecast, ForcesThatWereNotForeseenRest) {
+  const LiftSystem system = BargeAtSea{80.0, 60.0, true}.build();
+  LiftWorkspace w(system);
+  w.q = system.q_start();
+  w.v.setZero();
+  w.vdot.setZero();
+  WaveForecast forecast(system, 1e-6);
+  forecast.begin(0.0, w);
+  constexpr double step = 0.1;
+  double t = 0.0;
+  for (; t < 20.0; t += step) ASSERT_FALSE(forecast.carry_on(t, t + step, w)) << t;
+  ASSERT_TRUE(w.forecast.covers(0, t));
+  ASSERT_TRUE(w.forecast.covers(1, t));
+  w.q[0] += 40.0;
+  bool rests = false;  // a check comes after instants_of_check instants at most
+  const double latest = t + (WaveForecast::instants_of_check + 1) * WaveForecast::longest_interval;
+  for (; !rests && t < latest; t += step) rests = forecast.carry_on(t, t + step, w);
+  EXPECT_TRUE(rests);
+  EXPECT_FALSE(w.forecast.covers(0, t));
 }
 
 TEST(WaveForecast, LeavesTheForcesAsTheyAreUnlessAskedFor) {

@@ -1,6 +1,9 @@
 #include "pipeline/comparison/comparison.h"
 
+#include <cstdlib>
+#include <optional>
 #include <sstream>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -246,17 +249,38 @@ TEST_F(ComparedFolders, ACaseStandsForItsResults) {
 }
 
 // A model of a folder of models is held against as well; one beside the case comes first.
+/// The folder "library" is the only one of models, as long as this lives.
+class LibraryInFolder {
+ public:
+  LibraryInFolder() {
+    if (const char* before = std::getenv(variable)) before_ = before;
+    setenv(variable, "library", 1);
+  }
+  ~LibraryInFolder() {
+    if (before_) {
+      setenv(variable, before_->c_str(), 1);
+    } else {
+      unsetenv(variable);
+    }
+  }
+  LibraryInFolder(const LibraryInFolder&) = delete;
+  LibraryInFolder& operator=(const LibraryInFolder&) = delete;
+
+ private:
+  static constexpr const char* variable = "BLOCKLIFT_MODELS";
+  std::optional<std::string> before_;
+};
+
 TEST_F(ComparedFolders, AModelOfTheLibraryThatWasChangedIsNamed) {
   folder_.write("lift/case.yaml", "case: two-ropes\nsettle: 3 s\ngravity: 9.81 m/s^2\n");
   std::filesystem::create_directory("results");
   std::filesystem::copy("before", "results/two-ropes");
   folder_.write("library/block/block.yaml", "kind: block\nmass: 9 t\n");
-  ASSERT_EQ(setenv("BLOCKLIFT_MODELS", "library", 1), 0);
+  const LibraryInFolder library;
   EXPECT_THAT(refusal_of({"lift", "after"}),
               HasSubstr("the case's model block was changed after its results"));
   folder_.write("lift/block.yaml", "kind: block\nmass: 8 t\n");
   EXPECT_EQ(read_compared_result("lift").name, "lift");
-  ASSERT_EQ(unsetenv("BLOCKLIFT_MODELS"), 0);
 }
 
 TEST_F(ComparedFolders, AModelBesideTheCaseThatWasChangedIsNamed) {

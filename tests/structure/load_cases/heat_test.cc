@@ -402,8 +402,8 @@ TEST(Heat, LayersThatDifferInExpansionAloneAreKept) {
   EXPECT_NEAR(hot.moved(8).z(), -curvature * 5 / 2, 1e-6 * curvature);
 }
 
-// Aluminium between sheets of steel: alpha = sum(E t alpha) / sum(E t), the ratios nu being one. The
-// layers store energy and the plate has no stress, so that no error of it can be told.
+// Aluminium between sheets of steel: alpha = sum(E t alpha) / sum(E t), the ratios nu being one.
+// The layers store energy and the plate has no stress, so that no error of it can be told.
 TEST(Heat, LayersThatHoldOneAnotherLeaveTheirPlateWithoutError) {
   const std::string layers = distorted_plate();
   const HotCase hot(test::nastran(

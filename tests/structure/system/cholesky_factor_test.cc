@@ -114,7 +114,7 @@ TEST(FactorByThreads, NamesTheFirstUnknownThatNothingHolds) {
 }
 
 // Higham (2002), theorem 10.4: |K x - f| <= (3 n + 1) u |L| |L'| |x|.
-TEST(FactorByThreads, SolvesEachLoadAsIfItWereAlone) {
+TEST(FactorByThreads, SolvesLoadsInTheSameBatchesHoweverManyThereAre) {
   const Eigen::MatrixXd matrix = unequal_trees();
   const SparseLower half = sparse_half(matrix);
   CholeskyFactor factor(half);

@@ -84,7 +84,6 @@ TEST(HullForce, LongWavesAreAChangeOfDraught) {
   EXPECT_NEAR(F.force.x(), -rho_g * 72 * draught * a * k, 0.02 * rho_g * 72 * draught * a * k);
 }
 
-// Of a hull that drifts only heave, roll and pitch about its reference point are left, as they are.
 // Gauss' theorem: where the whole body is wet, its volume times the pressure's gradient.
 TEST(HullForce, UnderAPlaneIsThatOfThePressuresGradient) {
   OneBody body;
@@ -111,12 +110,17 @@ TEST(HullForce, UnderThePlaneOfLongWavesIsTheirs) {
   const WaveField waves(deep, {{2.0, std::sqrt(9.81 * k), 0.7, 0.4}});
   const HullForce hull({"boat", 1, clusters, sea_of(waves)});
   const WaterPlaneOfWaves planes(clusters->hull(), waves);
-  const double t = 3.0;
+  const double t = 13.0;  // the waves are at their steepest
   body.q.head<3>() << 50, -30, 0.1 + waves.calc_elevation(t, 50, -30);
   body.update();
   const MotionState state{t, body.q, body.v, body.state().kinematics};
   const WaterPlane plane = planes.calc(t, state.kinematics.X_WB[1]);
   EXPECT_NEAR(plane.height, waves.calc_elevation(t, plane.place.x(), plane.place.y()), 2e-5);
+  const auto elevation = [&](double dx, double dy) {
+    return waves.calc_elevation(t, plane.place.x() + dx, plane.place.y() + dy);
+  };
+  EXPECT_NEAR(plane.slope.x(), 0.5 * (elevation(1, 0) - elevation(-1, 0)), 1e-7);
+  EXPECT_NEAR(plane.slope.y(), 0.5 * (elevation(0, 1) - elevation(0, -1)), 1e-7);
   const ForceVector F = hull.calc_force(state);
   EXPECT_LT((hull.calc_force(state, plane) - F).force.norm(), 0.01 * F.force.norm());
   const WaterPlane level{{9, 9}, 0.3, {0, 0}};

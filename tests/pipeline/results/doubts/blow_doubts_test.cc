@@ -79,6 +79,13 @@ TEST_F(DoubtsOfBlows, AreNoneOfOtherEvents) {
   EXPECT_THAT(doubts(), IsEmpty());
   set_events(when_ - 2, when_ - 1, static_cast<int>(lift_.model.system.ropes().size()));
   EXPECT_THAT(doubts(), IsEmpty());
+  // A mooring's snatch is its own.
+  set_events(when_ - 2, when_ - 1, other_);
+  EXPECT_TRUE(find_blow_before_peak(lift_, rope_));
+  LiftRope& mooring = lift_.model.ropes.back();
+  mooring.lug.clear();
+  mooring.hoist.clear();
+  EXPECT_FALSE(find_blow_before_peak(lift_, rope_));
   // A load that is as large at rest.
   set_events(when_ - 2, when_ - 1, rope_);
   EXPECT_EQ(doubts().size(), 1U);

@@ -124,6 +124,7 @@ TEST(StudyDesign, ValuesAreShownInTheUnitsOfEngineers) {
   EXPECT_EQ(shown({-1, 1, -2, 0}, 355e6), "355 MPa");
   EXPECT_EQ(shown({0, 1, 0, 0}, 8.6e5), "860 t");
   EXPECT_EQ(shown({0, 1, 0, 0}, 7640), "7640 kg");
+  EXPECT_EQ(shown({0, 1, 0, 0}, 2.04e7), "20400 t");
   EXPECT_EQ(shown({1, 0, 0, 0}, 9.98), "9.98 m");
   EXPECT_EQ(shown({}, 0.1), "0.1");
 }
