@@ -28,10 +28,11 @@ void check_sheaves(const given::Rope& rope, Diagnostics& diagnostics) {
   }
 }
 
-/// A rope that stays on one body pulls at nothing else, as an eye or a lug of the wrong name makes
+/// A rope between two eyes of one spreader pulls at nothing else, as an eye of the wrong name makes
 /// it: what it was to hold hangs without it. One that goes round edges of the load holds that.
 void check_bodies_of(const LiftCase& lift_case, const given::Rope& rope, Diagnostics& diagnostics) {
   if (rope.path.empty() || !rope.over.empty()) return;
+  if (rope.path.front().kind != ResolvedPoint::Kind::spreader) return;
   const std::string first = rope.path.front().body_name(lift_case.cranes);
   for (const ResolvedPoint& point : rope.path)
     if (point.body_name(lift_case.cranes) != first) return;
