@@ -1,15 +1,6 @@
 #include "algebra/cholesky_steps.h"
 
-// By their fixed interface in Fortran.
-extern "C" {
-void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
-            const int* k, const double* alpha, const double* a, const int* lda, const double* b,
-            const int* ldb, const double* beta, double* c, const int* ldc);
-void dtrsm_(const char* side, const char* half, const char* transpose, const char* unit,
-            const int* m, const int* n, const double* alpha, const double* a, const int* lda,
-            double* b, const int* ldb);
-void dpotrf_(const char* half, const int* n, double* a, const int* lda, int* info);
-}
+#include "algebra/blas.h"
 
 namespace blocklift::algebra {
 
@@ -45,22 +36,22 @@ Eigen::Index factorise_in_place(Changed A) {
   return failed > 0 ? failed - 1 : n;
 }
 
-void divide_by_lower(const Given& L, Changed B) { divide("L", "N", L, B); }
+void divide_by_lower(const Given& L, Changed B) { divide("L", "N", L, std::move(B)); }
 
-void divide_by_upper(const Given& L, Changed B) { divide("L", "T", L, B); }
+void divide_by_upper(const Given& L, Changed B) { divide("L", "T", L, std::move(B)); }
 
-void divide_by_upper_from_right(const Given& L, Changed B) { divide("R", "T", L, B); }
+void divide_by_upper_from_right(const Given& L, Changed B) { divide("R", "T", L, std::move(B)); }
 
 void multiply_by_transposed(const Given& A, const Given& B, Changed C) {
-  multiply_and_add("N", "T", 1, A, B, 0, C);
+  multiply_and_add("N", "T", 1, A, B, 0, std::move(C));
 }
 
 void subtract_by_transposed(const Given& A, const Given& B, Changed C) {
-  multiply_and_add("N", "T", -1, A, B, 1, C);
+  multiply_and_add("N", "T", -1, A, B, 1, std::move(C));
 }
 
 void subtract_transposed_by(const Given& A, const Given& B, Changed C) {
-  multiply_and_add("T", "N", -1, A, B, 1, C);
+  multiply_and_add("T", "N", -1, A, B, 1, std::move(C));
 }
 
 }  // namespace blocklift::algebra

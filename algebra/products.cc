@@ -1,14 +1,6 @@
 #include "algebra/products.h"
 
-// By their fixed interface in Fortran.
-extern "C" {
-void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n,
-            const int* k, const double* alpha, const double* a, const int* lda, const double* b,
-            const int* ldb, const double* beta, double* c, const int* ldc);
-void dsyrk_(const char* half, const char* transposed, const int* n, const int* k,
-            const double* alpha, const double* a, const int* lda, const double* beta, double* c,
-            const int* ldc);
-}
+#include "algebra/blas.h"
 
 namespace blocklift::algebra {
 

@@ -115,8 +115,8 @@ void WaveForecast::foresee(double ahead, const LiftWorkspace& w) {
 
 ForceVector WaveForecast::find_exact(std::size_t number, const MotionState& state) {
   const bool is_hull = number < hulls_.size();
-  const ForceVector F = is_hull ? hulls_[number].calc_force(state)
-                                : others_[number - hulls_.size()].calc_force(state);
+  ForceVector F = is_hull ? hulls_[number].calc_force(state)
+                          : others_[number - hulls_.size()].calc_force(state);
   const ForceVector by_waves = is_hull ? F - hulls_[number].calc_force(state, WaterPlane{}) : F;
   largest_force_[number] = std::max(largest_force_[number], by_waves.force.norm());
   largest_moment_[number] = std::max(largest_moment_[number], by_waves.moment.norm());

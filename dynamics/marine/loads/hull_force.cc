@@ -165,7 +165,7 @@ ForceVector HullForce::calc_force(const MotionState& state, const WaterPlane& pl
   const Pose X_PB{R_PW * X_WB.R, R_PW * (X_WB.p - p_WP)};
   const ForceVector F =
       (steepness * rho_g_) * calc_buoyancy(*definition_.hull, X_PB).F_Bo_W_over_rho_g;
-  const ForceVector F_W{R_PW.transpose() * F.moment, R_PW.transpose() * F.force};
+  ForceVector F_W{R_PW.transpose() * F.moment, R_PW.transpose() * F.force};
   if (!definition_.p_BoR_B) return F_W;
   return without_water_plane_part(F_W, X_WB.R * *definition_.p_BoR_B);
 }
