@@ -10,7 +10,7 @@ int int_of(Eigen::Index value) { return static_cast<int>(value); }
 
 /// C = alpha op(A) op(B) + beta C; op is the transpose where its letter is T.
 void multiply_and_add(const char* op_a, const char* op_b, double alpha, const Given& A,
-                      const Given& B, double beta, Changed C) {
+                      const Given& B, double beta, Changed& C) {
   const int m = int_of(C.rows()), n = int_of(C.cols()),
             k = int_of(*op_a == 'T' ? A.rows() : A.cols());
   if (m == 0 || n == 0 || (k == 0 && beta == 1)) return;
@@ -19,7 +19,7 @@ void multiply_and_add(const char* op_a, const char* op_b, double alpha, const Gi
   dgemm_(op_a, op_b, &m, &n, &k, &alpha, A.data(), &of_a, B.data(), &of_b, &beta, C.data(), &of_c);
 }
 
-void divide(const char* side, const char* op, const Given& L, Changed B) {
+void divide(const char* side, const char* op, const Given& L, Changed& B) {
   const int m = int_of(B.rows()), n = int_of(B.cols());
   if (m == 0 || n == 0) return;
   const int of_l = int_of(L.outerStride()), of_b = int_of(B.outerStride());
@@ -36,22 +36,22 @@ Eigen::Index factorise_in_place(Changed A) {
   return failed > 0 ? failed - 1 : n;
 }
 
-void divide_by_lower(const Given& L, Changed B) { divide("L", "N", L, std::move(B)); }
+void divide_by_lower(const Given& L, Changed B) { divide("L", "N", L, B); }
 
-void divide_by_upper(const Given& L, Changed B) { divide("L", "T", L, std::move(B)); }
+void divide_by_upper(const Given& L, Changed B) { divide("L", "T", L, B); }
 
-void divide_by_upper_from_right(const Given& L, Changed B) { divide("R", "T", L, std::move(B)); }
+void divide_by_upper_from_right(const Given& L, Changed B) { divide("R", "T", L, B); }
 
 void multiply_by_transposed(const Given& A, const Given& B, Changed C) {
-  multiply_and_add("N", "T", 1, A, B, 0, std::move(C));
+  multiply_and_add("N", "T", 1, A, B, 0, C);
 }
 
 void subtract_by_transposed(const Given& A, const Given& B, Changed C) {
-  multiply_and_add("N", "T", -1, A, B, 1, std::move(C));
+  multiply_and_add("N", "T", -1, A, B, 1, C);
 }
 
 void subtract_transposed_by(const Given& A, const Given& B, Changed C) {
-  multiply_and_add("T", "N", -1, A, B, 1, std::move(C));
+  multiply_and_add("T", "N", -1, A, B, 1, C);
 }
 
 }  // namespace blocklift::algebra
